@@ -1,0 +1,82 @@
+// The Hankel matrix of four moments, factored: everything that all receivers under one filter region share.
+//
+//     B = | 1  b1 b2 |      Its L D L^T has pivots 1, D_1 = E[P_1^2], D_2 = E[P_2^2], where P_1 = z - b1 and
+//         | b1 b2 b3 |      P_2 = P_1^2 - g P_1 - D_1 are the monic orthogonal polynomials of the distribution
+//         | b2 b3 b4 |      (Peters et al. 2017, Algorithm 1, step 2, without its right-hand side).
+//
+// After the first step of elimination the covariances of (z, z^2) remain: V = var z = D_1, L = cov(z, z^2),
+// M = var z^2, and D_1 D_2 = V M - L^2. All three cancel, so they are kept as double words, and a bias (bias.h) is added to
+// them instead of to the moments: it would be rounded away there. Division is put off to hamburger4.h.
+#ifndef GNOMON_MOMENTS_HANKEL4_H
+#define GNOMON_MOMENTS_HANKEL4_H
+#include "../numerics/two_product.h"
+#include "moments.h"
+GNOMON_NAMESPACE_BEGIN
+
+/// The factored matrix: mean b1, variance D_1, covariance L of z and z^2, determinant D_1 D_2. Variance and determinant are
+/// positive, whatever the moments were, or NaN where one of these was.
+GNOMON_STRUCT hankel4 {
+    Real mean, variance, covariance, determinant;
+};
+
+/// Guards the pivots: no variance or D_2 below the floor, so that indefinite moments still name a distribution.
+GNOMON_KERNEL GNOMON_T(hankel4) hankel4_guard(GNOMON_T(hankel4) h, Real least_variance, Real least_determinant)
+{
+    h.variance = gnomon_max(gnomon_max(GNOMON_PIVOT_FLOOR, least_variance), h.variance);
+    h.determinant = gnomon_max(gnomon_max(GNOMON_PIVOT_FLOOR * h.variance, least_determinant), h.determinant);
+    return h;
+}
+
+/// Plain arithmetic: right for moments from 16-bit storage, whose own errors are larger, and for double.
+GNOMON_KERNEL GNOMON_T(hankel4) hankel4_fast(GNOMON_T(moments4) b)
+{
+    GNOMON_T(hankel4) h;
+    h.mean = b.b1;
+    h.variance = b.b2 - b.b1 * b.b1;
+    h.covariance = b.b3 - b.b1 * b.b2;
+    h.determinant = h.variance * (b.b4 - b.b2 * b.b2) - h.covariance * h.covariance;
+    return hankel4_guard(h, Real(0), Real(0));
+}
+
+/// The moments of the mixture (1 - alpha) Z + alpha Z*, where Z* is symmetric with second and fourth moments bias2 and bias4
+/// (paper, 2.5), by covariances of mixtures, which do not cancel: V' = V + alpha (bias2 - b2) + alpha (2 - alpha) b1^2 and so on.
+GNOMON_KERNEL GNOMON_T(hankel4) hankel4_biased(GNOMON_T(moments4) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4, GNOMON_SETTING alpha)
+{
+    GNOMON_T(double_word) v = subtract_product(b.b2, b.b1, b.b1);
+    GNOMON_T(double_word) l = subtract_product(b.b3, b.b1, b.b2);
+    GNOMON_T(double_word) m = subtract_product(b.b4, b.b2, b.b2);
+    Real keep = Real(1) - alpha;
+    Real e2 = alpha * (bias2 - b.b2);
+    Real e4 = alpha * (bias4 - b.b4);
+    v.low = v.low + (e2 + (alpha * (Real(2) - alpha)) * (b.b1 * b.b1));
+    l.low = l.low - (alpha * l.high + (keep * b.b1) * e2);
+    m.low = m.low + (e4 - e2 * (Real(2) * b.b2 + e2));
+    GNOMON_T(hankel4) h;
+    h.mean = keep * b.b1;
+    h.variance = v.high + v.low;
+    h.covariance = l.high + l.low;
+    h.determinant = double_word_determinant(v, l, m);
+    return hankel4_guard(h, Real(0), Real(0));
+}
+
+/// The moments as they are, with each pivot raised to at least what storage noise makes of it (notes on the adaptive bias in
+/// bias.h): D_k >= noise |coefficients of P_k^2|_1. Much less leaking than a constant bias at the same stability.
+GNOMON_KERNEL GNOMON_T(hankel4) hankel4_raised(GNOMON_T(moments4) b, GNOMON_SETTING noise)
+{
+    GNOMON_T(double_word) v = subtract_product(b.b2, b.b1, b.b1);
+    GNOMON_T(double_word) l = subtract_product(b.b3, b.b1, b.b2);
+    GNOMON_T(double_word) m = subtract_product(b.b4, b.b2, b.b2);
+    GNOMON_T(hankel4) h;
+    h.mean = b.b1;
+    h.variance = v.high + v.low;
+    h.covariance = l.high + l.low;
+    // D_1 P_2 = D_1 z^2 - L z + r; where D_2 is small enough to be raised, L^2 = D_1 M, and nothing needs a division.
+    Real r = b.b1 * l.high - b.b2 * v.high;
+    Real p = (gnomon_abs(v.high) + Real(2) * gnomon_abs(l.high)) +
+             (gnomon_abs(m.high + Real(2) * r) + Real(2) * gnomon_abs(b.b1 * m.high - b.b2 * l.high));
+    h.determinant = double_word_determinant(v, l, m);
+    return hankel4_guard(h, noise * (Real(1) + Real(2) * gnomon_abs(b.b1)), noise * p);
+}
+
+GNOMON_NAMESPACE_END
+#endif

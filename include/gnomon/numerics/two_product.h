@@ -1,0 +1,86 @@
+// Error-free transformations: a sum or product of two numbers as the rounded result and its exact error.
+// A double word (high + low, unevaluated) carries such a pair on: Dekker 1971; Knuth, TAOCP 2, 4.2.2; Ogita, Rump & Oishi 2005.
+#ifndef GNOMON_NUMERICS_TWO_PRODUCT_H
+#define GNOMON_NUMERICS_TWO_PRODUCT_H
+#include "../portable.h"
+GNOMON_NAMESPACE_BEGIN
+
+/// The unevaluated sum high + low.
+GNOMON_STRUCT double_word {
+    Real high, low;
+};
+
+/// a b - p for p = a b rounded, without a fused multiply-add: both factors are split into halves whose products are exact.
+GNOMON_KERNEL Real dekker_product_error(Real a, Real b, Real p)
+{
+    Real as = GNOMON_SPLITTER * a;
+    Real bs = GNOMON_SPLITTER * b;
+    Real ah = as - (as - a);
+    Real bh = bs - (bs - b);
+    Real al = a - ah;
+    Real bl = b - bh;
+    return al * bl - (((p - ah * bh) - al * bh) - ah * bl);
+}
+
+/// a b exactly. Domain: |a|, |b| <= 2^100 and |a b| = 0 or >= 2^-100 in float (2^900, 2^-900 in double); there the fused and
+/// the split route give the same bits. Below, low is within the smallest denormal of the error.
+GNOMON_KERNEL GNOMON_T(double_word) two_product(Real a, Real b)
+{
+    GNOMON_T(double_word) r;
+    r.high = gnomon_product(a, b);
+    if (GNOMON_FUSED) {
+        r.low = gnomon_fma(a, b, -r.high);
+    } else {
+        r.low = dekker_product_error(a, b, r.high);
+    }
+    return r;
+}
+
+/// a + b exactly, whatever their order (Knuth).
+GNOMON_KERNEL GNOMON_T(double_word) two_sum(Real a, Real b)
+{
+    GNOMON_T(double_word) r;
+    r.high = a + b;
+    Real bv = r.high - a;
+    r.low = (a - (r.high - bv)) + (b - bv);
+    return r;
+}
+
+/// a + b exactly where |a| >= |b| or a = 0 (Dekker); elsewhere low carries an error of a rounding of a.
+GNOMON_KERNEL GNOMON_T(double_word) two_sum_ordered(Real a, Real b)
+{
+    GNOMON_T(double_word) r;
+    r.high = a + b;
+    r.low = b - (r.high - a);
+    return r;
+}
+
+/// c - a b as a double word, for any magnitudes; relative error 2 u^2 of |c| + |a b|.
+GNOMON_KERNEL GNOMON_T(double_word) subtract_product(Real c, Real a, Real b)
+{
+    GNOMON_T(double_word) p = two_product(a, b);
+    GNOMON_T(double_word) r = two_sum(c, -p.high);
+    r.low = r.low - p.low;
+    return r;
+}
+
+/// a b - c d within 2 roundings of the exact value, whatever cancels.
+/// Source: Jeannerod, Louvet & Muller 2013, "Further analysis of Kahan's algorithm for the accurate computation of 2x2 determinants".
+GNOMON_KERNEL Real difference_of_products(Real a, Real b, Real c, Real d)
+{
+    GNOMON_T(double_word) p = two_product(a, b);
+    GNOMON_T(double_word) q = two_product(c, d);
+    return (p.high - q.high) + (p.low - q.low);
+}
+
+/// a c - b^2 for double words, rounded once where it cancels: relative error below 2^-40 (|a c| + b^2) in float.
+GNOMON_KERNEL Real double_word_determinant(GNOMON_T(double_word) a, GNOMON_T(double_word) b, GNOMON_T(double_word) c)
+{
+    GNOMON_T(double_word) p = two_product(a.high, c.high);
+    GNOMON_T(double_word) q = two_product(b.high, b.high);
+    Real cross = (a.high * c.low + a.low * c.high) - Real(2) * (b.high * b.low);
+    return (p.high - q.high) + ((p.low - q.low) + (cross + (a.low * c.low - b.low * b.low)));
+}
+
+GNOMON_NAMESPACE_END
+#endif

@@ -1,0 +1,27 @@
+// The one place that knows which language this is: picks the prelude that gives the kernel dialect its words.
+//
+// A kernel (every .h beside this file) is one text for C++, CUDA, GLSL, HLSL, Metal and OpenCL. What differs
+// between them is spelled by the prelude, and only by it:
+//
+//   GNOMON_KERNEL, GNOMON_STRUCT     head of a function, of a struct: a template over Real where there are templates
+//   GNOMON_T(name)                   that struct for this Real
+//   GNOMON_MASK                      what a comparison of two Reals gives: bool, or one bool per lane
+//   GNOMON_SETTING                   a Real parameter that takes no part in deduction, so that packs accept scalars
+//   GNOMON_CONSTANT(name, value)     a named number; GNOMON_LITERAL(name) is that number as a Real, rounded once
+//   gnomon_select, gnomon_any        choice by mask, and whether any lane of a mask is set
+//   gnomon_min, gnomon_max           a < b ? a : b and a > b ? a : b, in this order: the second where one is NaN
+//   gnomon_abs, gnomon_sqrt          exact and correctly rounded
+//   gnomon_product                   the rounded product, never contracted into a later sum
+//   GNOMON_FUSED, gnomon_fma         whether gnomon_fma(a, b, c) rounds a b + c once; only two_product asks
+//   GNOMON_SPLITTER                  2^ceil(p / 2) + 1 for a significand of p bits (Dekker 1971)
+//   GNOMON_PIVOT_FLOOR               a positive number whose 7th power is normal once scaled by 2^112: 2^-30 in float
+#ifndef GNOMON_PORTABLE_H
+#define GNOMON_PORTABLE_H
+
+#if defined(__cplusplus)
+#include "portable/cpp.h"
+#else
+#error "gnomon: no prelude for this language yet"
+#endif
+
+#endif

@@ -1,0 +1,155 @@
+// The C++20 prelude (also CUDA): kernels are templates over Real, which is float, double or any pack of them.
+#ifndef GNOMON_PORTABLE_CPP_H
+#define GNOMON_PORTABLE_CPP_H
+
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#if defined(__FAST_MATH__) && !defined(GNOMON_ALLOW_FAST_MATH)
+#error "gnomon: -ffast-math voids the treatment of NaN and the exact products; compile this without it"
+#endif
+
+// Plain inline left calls in pack kernels.
+#if defined(__CUDACC__)
+#define GNOMON_INLINE __host__ __device__ __forceinline__
+#elif defined(_MSC_VER)
+#define GNOMON_INLINE __forceinline
+#else
+#define GNOMON_INLINE __attribute__((always_inline)) inline
+#endif
+
+#define GNOMON_NAMESPACE_BEGIN namespace gnomon {
+#define GNOMON_NAMESPACE_END }
+#define GNOMON_KERNEL template <class Real, class = gnomon::require_real<Real>> GNOMON_INLINE
+#define GNOMON_STRUCT template <class Real, class = gnomon::require_real<Real>> struct
+#define GNOMON_T(name) name<Real>
+#define GNOMON_MASK gnomon::mask_t<Real>
+#define GNOMON_SETTING std::type_identity_t<Real>
+#define GNOMON_CONSTANT(name, value) inline constexpr double name = value
+#define GNOMON_LITERAL(name) gnomon::literal<Real>(name)
+#define GNOMON_FUSED gnomon::is_fused<Real>
+#define GNOMON_SPLITTER gnomon::literal<Real>(gnomon::splitter<gnomon::lane_t<Real>>)
+#define GNOMON_PIVOT_FLOOR gnomon::literal<Real>(gnomon::pivot_floor<gnomon::lane_t<Real>>)
+
+namespace gnomon {
+
+/// The scalar in one lane of a pack, or the scalar itself.
+template <class T> struct lane {
+    using type = T;
+};
+template <class T>
+    requires(!std::is_arithmetic_v<T>) && requires { typename T::value_type; }
+struct lane<T> {
+    using type = typename T::value_type;
+};
+template <class T> using lane_t = typename lane<T>::type;
+
+/// bool for a scalar, the pack's own mask for a pack.
+template <class T> using mask_t = std::remove_cvref_t<decltype(std::declval<T>() < std::declval<T>())>;
+
+/// What a Real must be: a value closed under its own arithmetic, so that one type can hold every intermediate,
+/// over lanes that are not integers. An expression template is not: evaluate it into a value first.
+template <class T>
+concept real = !std::is_integral_v<lane_t<T>> && std::is_object_v<T> && requires(const T a, const T b) {
+    { -a } -> std::same_as<T>;
+    { a + b } -> std::same_as<T>;
+    { a - b } -> std::same_as<T>;
+    { a * b } -> std::same_as<T>;
+    { a / b } -> std::same_as<T>;
+    { a < b };
+    T(lane_t<T>(1));
+};
+
+template <class T> struct require_real_of {
+    static_assert(real<T>, "gnomon: Real must be a floating-point value or a pack of them, closed under + - * / "
+                           "(no integer, no expression template: evaluate it first)");
+    using type = T;
+};
+template <class T> using require_real = typename require_real_of<T>::type;
+
+/// Where a pack does better than the generic code below, it specialises this (see simd/xsimd.hpp).
+template <class T> struct pack_operations {};
+
+/// Rounds once, from double to the lane.
+template <class T> GNOMON_INLINE constexpr T literal(double value) { return T(static_cast<lane_t<T>>(value)); }
+
+template <class T> inline constexpr double splitter = double(std::uint64_t{1} << (std::numeric_limits<T>::digits + 1) / 2) + 1.0;
+template <class T> inline constexpr double pivot_floor = std::numeric_limits<T>::min_exponent < -1000 ? 0x1p-140 : 0x1p-30;
+
+// A scalar fma is a library call, correct but slow, where the target has no instruction: not worth asking for.
+template <class T> constexpr bool fma_is_fused()
+{
+    if constexpr (requires { pack_operations<T>::fused; }) return pack_operations<T>::fused;
+#if defined(__FMA__) || defined(__CUDA_ARCH__) || defined(__aarch64__)
+    else return std::is_same_v<T, float> || std::is_same_v<T, double>;
+#else
+    else return false;
+#endif
+}
+template <class T> inline constexpr bool is_fused = fma_is_fused<T>();
+
+template <class M, class T> GNOMON_INLINE T gnomon_select(M mask, T a, T b)
+{
+    if constexpr (std::is_same_v<M, bool>) return mask ? a : b;
+    else return select(mask, a, b);
+}
+
+template <class M> GNOMON_INLINE bool gnomon_any(M mask)
+{
+    if constexpr (std::is_same_v<M, bool>) return mask;
+    else return any(mask);
+}
+
+template <class T> GNOMON_INLINE T gnomon_min(T a, T b)
+{
+    if constexpr (requires { pack_operations<T>::min(a, b); }) return pack_operations<T>::min(a, b);
+    else return gnomon_select(a < b, a, b);
+}
+
+template <class T> GNOMON_INLINE T gnomon_max(T a, T b)
+{
+    if constexpr (requires { pack_operations<T>::max(a, b); }) return pack_operations<T>::max(a, b);
+    else return gnomon_select(b < a, a, b);
+}
+
+template <class T> GNOMON_INLINE T gnomon_abs(T a)
+{
+    using std::abs;
+    return abs(a);
+}
+
+template <class T> GNOMON_INLINE T gnomon_sqrt(T a)
+{
+#if defined(__GNUC__)
+    // std::sqrt keeps a call for the sake of errno.
+    if constexpr (std::is_same_v<T, float>) return __builtin_sqrtf(a);
+    else if constexpr (std::is_same_v<T, double>) return __builtin_sqrt(a);
+    else
+#endif
+    {
+        using std::sqrt;
+        return sqrt(a);
+    }
+}
+
+template <class T> GNOMON_INLINE T gnomon_fma(T a, T b, T c)
+{
+    if constexpr (std::is_floating_point_v<T>) return std::fma(a, b, c);
+    else if constexpr (requires { pack_operations<T>::fma(a, b, c); }) return pack_operations<T>::fma(a, b, c);
+    else return a * b + c;
+}
+
+// Contraction, GCC's default, would fold a plain product into a later sum, and the error term that two_product finds
+// would be subtracted twice. A fused product is never folded: adding -0 changes no value.
+template <class T> GNOMON_INLINE T gnomon_product(T a, T b)
+{
+    if constexpr (is_fused<T>) return gnomon_fma(a, b, T(lane_t<T>(-0.0)));
+    else return a * b;
+}
+
+} // namespace gnomon
+#endif

@@ -1,0 +1,58 @@
+// Packs of xsimd as a Real: the operations that one instruction does and the generic prelude would not find.
+// Optional: kernels accept xsimd::batch without this header too, and give the same bits, only slower.
+#ifndef GNOMON_SIMD_XSIMD_HPP
+#define GNOMON_SIMD_XSIMD_HPP
+
+#include "../portable.h"
+
+#include <xsimd/xsimd.hpp>
+
+namespace gnomon {
+
+template <class T, class A> struct pack_operations<xsimd::batch<T, A>> {
+    using pack = xsimd::batch<T, A>;
+
+#if defined(__SSE2__)
+    static constexpr bool is_x86 = std::is_base_of_v<xsimd::generic, A>;
+#else
+    static constexpr bool is_x86 = false;
+#endif
+#if defined(__FMA__)
+    static constexpr bool fused = is_x86 && std::is_floating_point_v<T>;
+#else
+    static constexpr bool fused = false;
+#endif
+
+    // minps and maxps return their second operand where one is NaN, as the dialect asks.
+    static GNOMON_INLINE pack min(pack a, pack b)
+    {
+        if constexpr (is_x86) return xsimd::min(a, b);
+        else return xsimd::select(a < b, a, b);
+    }
+    static GNOMON_INLINE pack max(pack a, pack b)
+    {
+        if constexpr (is_x86) return xsimd::max(a, b);
+        else return xsimd::select(b < a, a, b);
+    }
+
+    // xsimd's own fma is a multiplication and an addition for SSE, AVX2 without fma3 and, before 11.0, AVX-512.
+    static GNOMON_INLINE pack fma(pack a, pack b, pack c)
+    {
+#if defined(__FMA__)
+        if constexpr (std::is_same_v<T, float> && pack::size == 4) return pack(_mm_fmadd_ps(a, b, c));
+        else if constexpr (std::is_same_v<T, float> && pack::size == 8) return pack(_mm256_fmadd_ps(a, b, c));
+        else if constexpr (std::is_same_v<T, double> && pack::size == 2) return pack(_mm_fmadd_pd(a, b, c));
+        else if constexpr (std::is_same_v<T, double> && pack::size == 4) return pack(_mm256_fmadd_pd(a, b, c));
+#endif
+#if defined(__AVX512F__)
+        else if constexpr (std::is_same_v<T, float>) return pack(_mm512_fmadd_ps(a, b, c));
+        else if constexpr (std::is_same_v<T, double>) return pack(_mm512_fmadd_pd(a, b, c));
+#endif
+#if !defined(__FMA__)
+        return a * b + c;
+#endif
+    }
+};
+
+} // namespace gnomon
+#endif
