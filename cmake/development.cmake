@@ -1,9 +1,16 @@
 # What tests, benches and examples share: warnings, arithmetic, ccache, and a function for each kind of program.
 option(GNOMON_NATIVE "Compile tests, benches and examples for this machine's instruction set" ON)
+string(FIND "${CMAKE_CXX_FLAGS}" "-fno-exceptions" flag)
+string(COMPARE EQUAL ${flag} -1 GNOMON_EXCEPTIONS)
+
+set(CMAKE_CXX_EXTENSIONS OFF)
 
 find_program(GNOMON_CCACHE ccache)
 if(GNOMON_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    set(CMAKE_CXX_COMPILER_LAUNCHER ${GNOMON_CCACHE})
+    # The words that let ccache take part in precompiled headers.
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${GNOMON_CCACHE})
+    add_compile_options("$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>"
+        "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
 endif()
 
 add_library(gnomon_strict INTERFACE)
@@ -11,22 +18,36 @@ target_link_libraries(gnomon_strict INTERFACE gnomon::bit_exact)
 target_compile_options(gnomon_strict INTERFACE
     -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Werror $<$<BOOL:${GNOMON_NATIVE}>:-march=native>)
 
-# A doctest program and its ctest entry:
-#   gnomon_test(NAME hamburger4 LABELS unit property SOURCES a.cpp b.cpp [LIBRARIES rapidcheck Eigen3::Eigen])
+find_package(xsimd REQUIRED)
+set_target_properties(xsimd PROPERTIES IMPORTED_GLOBAL TRUE INTERFACE_LINK_LIBRARIES "") # Debian's names xtl, unneeded and absent
+
+# A doctest program and its ctest entry; the labels are those of docs/testing.md:
+#   gnomon_test(NAME hamburger4 LABELS unit SOURCES a.cpp b.cpp [LIBRARIES gnomon_toolbox])
+# Label unit: quick, and built and run by the sanitizers, by clang and without exceptions too.
 function(gnomon_test)
     cmake_parse_arguments(PARSE_ARGV 0 test "" "NAME" "LABELS;SOURCES;LIBRARIES")
+    if(NOT GNOMON_EXCEPTIONS AND NOT test_LABELS STREQUAL "unit")
+        return() # RapidCheck and the oracles need exceptions
+    endif()
     add_executable(test_${test_NAME} ${test_SOURCES})
-    target_link_libraries(test_${test_NAME} PRIVATE gnomon_doctest gnomon_strict ${test_LIBRARIES})
+    target_link_libraries(test_${test_NAME} PRIVATE gnomon_doctest ${test_LIBRARIES})
+    if(GNOMON_EXCEPTIONS)
+        target_precompile_headers(test_${test_NAME} REUSE_FROM gnomon_doctest)
+    endif()
     add_test(NAME ${test_NAME} COMMAND test_${test_NAME})
     set_tests_properties(${test_NAME} PROPERTIES LABELS "${test_LABELS}")
+    if("unit" IN_LIST test_LABELS)
+        add_dependencies(gnomon_unit_tests test_${test_NAME})
+    endif()
 endfunction()
 
-# A Google Benchmark program:
+# A Google Benchmark program, run by ./run bench:
 #   gnomon_bench(NAME hamburger4 SOURCES a.cpp [LIBRARIES xsimd])
 function(gnomon_bench)
     cmake_parse_arguments(PARSE_ARGV 0 bench "" "NAME" "SOURCES;LIBRARIES")
     add_executable(bench_${bench_NAME} ${bench_SOURCES})
     target_link_libraries(bench_${bench_NAME} PRIVATE benchmark::benchmark gnomon_strict ${bench_LIBRARIES})
+    add_dependencies(gnomon_benches bench_${bench_NAME})
 endfunction()
 
 # A program on the rendering toolbox:
