@@ -1,0 +1,89 @@
+#include "report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "file.hpp"
+
+namespace gnomon::toolbox {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json to_json(const report_row& row)
+{
+    return {{"scene", row.scene},
+            {"method", row.method},
+            {"format", row.format},
+            {"reference", row.reference},
+            {"receivers", row.receivers},
+            {"bytes_per_texel", row.bytes_per_texel},
+            {"rmse", row.errors.rmse},
+            {"mean_abs", row.errors.mean_abs},
+            {"leak", row.errors.leak},
+            {"acne", row.errors.acne},
+            {"max_abs", row.errors.max_abs},
+            {"ns_per_receiver", row.ns_per_receiver},
+            {"build_ms", row.build_ms},
+            {"real", row.real},
+            {"lanes", row.lanes},
+            {"threads", row.threads}};
+}
+
+bool same_key(const json& a, const json& b)
+{
+    constexpr const char* key[] = {"scene", "method", "format", "reference", "real", "lanes", "threads"};
+    return std::ranges::all_of(key, [&](const char* name) { return a.value(name, json()) == b.value(name, json()); });
+}
+
+json read_report(const std::filesystem::path& file)
+{
+    if (!std::filesystem::exists(file)) return json::array();
+    json report = json::parse(read_file(file), nullptr, false);
+    if (!report.is_array() || !std::ranges::all_of(report, [](const json& row) { return row.is_object(); }))
+        throw std::runtime_error(fmt::format("{}: not an array of report rows", file.string()));
+    return report;
+}
+
+} // namespace
+
+error_statistics compare(std::span<const float> estimate, std::span<const float> reference)
+{
+    if (estimate.size() != reference.size() || estimate.empty())
+        throw std::invalid_argument(
+            fmt::format("compare: {} estimates, {} references", estimate.size(), reference.size()));
+    error_statistics sum;
+    for (std::size_t i = 0; i < estimate.size(); ++i) {
+        const double error = double(estimate[i]) - double(reference[i]);
+        sum.rmse += error * error;
+        sum.leak += std::max(error, 0.0);
+        sum.acne += std::max(-error, 0.0);
+        sum.max_abs = std::max(sum.max_abs, std::abs(error));
+    }
+    const auto count = static_cast<double>(estimate.size());
+    return {std::sqrt(sum.rmse / count), (sum.leak + sum.acne) / count, sum.leak / count, sum.acne / count,
+            sum.max_abs};
+}
+
+void merge_report(const std::filesystem::path& file, std::span<const report_row> rows)
+{
+    json report = read_report(file);
+    for (const report_row& row : rows) {
+        json fresh = to_json(row);
+        for (const auto& [name, value] : fresh.items())
+            if (value.is_number_float() && !std::isfinite(value.get<double>()))
+                throw std::runtime_error(fmt::format("{}: {} of {} in {} is {}", file.string(), name, row.method,
+                                                     row.scene, value.get<double>()));
+        const auto old = std::ranges::find_if(report, [&](const json& other) { return same_key(other, fresh); });
+        if (old == report.end()) report.push_back(std::move(fresh));
+        else *old = std::move(fresh);
+    }
+    write_file(file, report.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
+}
+
+} // namespace gnomon::toolbox

@@ -1,0 +1,34 @@
+// What the demo leaves behind in numbers: error statistics, and rows of out/report.json.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace gnomon::toolbox {
+
+// Of visibility estimates E against references V over all receivers. leak is the mean of max(0, E - V), acne the mean
+// of max(0, V - E).
+struct error_statistics {
+    double rmse = 0, mean_abs = 0, leak = 0, acne = 0, max_abs = 0;
+};
+
+error_statistics compare(std::span<const float> estimate, std::span<const float> reference);
+
+struct report_row {
+    std::string scene, method, format;
+    std::string reference; // "filtered", "traced" or "closed-form"
+    long long receivers = 0;
+    double bytes_per_texel = 0;
+    error_statistics errors;
+    double ns_per_receiver = 0, build_ms = 0;
+    std::string real = "float";
+    int lanes = 1, threads = 1;
+};
+
+// Puts rows into the file, an array of flat objects. A row replaces the one with the same scene, method, format,
+// reference, real, lanes and threads; other rows stay as they are. The file is written aside and renamed. Throws
+// std::runtime_error "FILE: cause", and leaves the file alone, where it holds something else or a number is not finite.
+void merge_report(const std::filesystem::path& file, std::span<const report_row> rows);
+
+} // namespace gnomon::toolbox

@@ -1,0 +1,34 @@
+#include "shading.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace gnomon::toolbox {
+
+bool faces_light(const camera& light, const surface& seen)
+{
+    return glm::dot(direction_towards(light, seen.position), glm::dvec3(seen.normal)) > 0;
+}
+
+picture shade(const scene& world, const camera& light, const image<surface>& seen, const image<float>& visibility)
+{
+    const glm::vec3 sun(1.0f, 0.94f, 0.84f), sky(0.26f, 0.31f, 0.40f), earth(0.13f, 0.12f, 0.10f);
+    picture result(seen.width, seen.height, glm::vec3(0.55f, 0.65f, 0.76f));
+    tbb::parallel_for(0, seen.height, [&](int y) {
+        for (int x = 0; x < seen.width; ++x) {
+            const surface& s = seen(x, y);
+            if (!s.valid()) continue;
+            const glm::vec3 to_light(direction_towards(light, s.position));
+            const float cosine = faces_light(light, s) ? std::max(glm::dot(to_light, s.shading_normal), 0.f) : 0.f;
+            const glm::vec3 ambient = glm::mix(earth, sky, 0.5f + 0.5f * s.shading_normal.y);
+            const glm::vec3& albedo = world.meshes[static_cast<std::size_t>(s.mesh)].albedo;
+            result(x, y) = albedo * (ambient + visibility(x, y) * cosine * sun);
+        }
+    });
+    return result;
+}
+
+} // namespace gnomon::toolbox
