@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <stdexcept>
 
 namespace gnomon::toolbox {
@@ -30,22 +31,26 @@ glm::dvec3 to_axes(const camera& eye, const glm::dvec3& point)
     return {glm::dot(offset, eye.right), glm::dot(offset, eye.up), glm::dot(offset, eye.forward)};
 }
 
-void require_some(const bounds& seen)
+bounds around(points seen)
 {
-    if (seen.empty()) throw std::invalid_argument("camera: nothing to look at, the bounds are empty");
+    bounds result;
+    for (const glm::vec3& point : seen) result.include(point);
+    if (result.empty()) throw std::invalid_argument("camera: there is nothing to look at");
+    return result;
 }
 
+// Never zero, so that a single point can be looked at too.
 double diagonal(const bounds& seen) { return std::max(glm::length(glm::dvec3(seen.extent())), 1e-30); }
 
-// Puts the near and far plane around the bounds; in perspective a near plane stays in front of the camera.
-void set_planes(camera& eye, const bounds& seen)
+// Puts the near and far plane around the points; in perspective a near plane stays in front of the camera.
+void set_planes(camera& eye, points seen)
 {
     double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
-    for (int i = 0; i < 8; ++i) {
-        const double distance = view_distance(eye, seen.corner(i));
+    for (const glm::vec3& point : seen) {
+        const double distance = view_distance(eye, point);
         nearest = std::min(nearest, distance), farthest = std::max(farthest, distance);
     }
-    const double clearance = margin * std::max(farthest - nearest, margin * diagonal(seen));
+    const double clearance = margin * std::max(farthest - nearest, margin * diagonal(around(seen)));
     eye.near_distance = nearest - clearance;
     eye.far_distance = farthest + clearance;
     if (eye.perspective()) eye.near_distance = std::max(eye.near_distance, margin * eye.far_distance);
@@ -80,46 +85,60 @@ glm::dvec3 direction_towards(const camera& eye, const glm::dvec3& point)
     return eye.perspective() ? glm::normalize(eye.position - point) : -eye.forward;
 }
 
-camera orthographic_view(const bounds& seen, const glm::dvec3& direction, double aspect)
+bool within_view(const glm::dvec3& p) { return p.x >= 0 && p.x <= 1 && p.y >= 0 && p.y <= 1 && p.z >= -1 && p.z <= 1; }
+
+camera orthographic_view(points seen, const glm::dvec3& direction, double aspect)
 {
-    require_some(seen);
-    camera eye = looking(projection::orthographic, seen.centre(), direction);
-    double half_height = margin * diagonal(seen);
-    for (int i = 0; i < 8; ++i) {
-        const glm::dvec3 corner = glm::abs(to_axes(eye, seen.corner(i)));
-        half_height = std::max({half_height, corner.y, corner.x / aspect});
+    const bounds box = around(seen);
+    camera eye = looking(projection::orthographic, box.centre(), direction);
+    glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
+    for (const glm::vec3& point : seen) {
+        const glm::dvec2 local(to_axes(eye, point));
+        low = glm::min(low, local), high = glm::max(high, local);
     }
+    const glm::dvec2 middle = 0.5 * (low + high), half = 0.5 * (high - low);
+    const double half_height = std::max({half.y, half.x / aspect, margin * diagonal(box)});
     eye.half_extent = (1 + margin) * half_height * glm::dvec2(aspect, 1);
-    eye.position -= diagonal(seen) * eye.forward;
+    eye.position += middle.x * eye.right + middle.y * eye.up - diagonal(box) * eye.forward;
     set_planes(eye, seen);
     return eye;
 }
 
-camera perspective_view(const bounds& seen, const glm::dvec3& direction, double field_of_view, double aspect)
+camera perspective_view(points seen, const glm::dvec3& direction, double field_of_view, double aspect)
 {
-    require_some(seen);
-    camera eye = looking(projection::perspective, seen.centre(), direction);
+    const bounds box = around(seen);
+    camera eye = looking(projection::perspective, box.centre(), direction);
     eye.half_extent = std::tan(0.5 * field_of_view) * glm::dvec2(aspect, 1);
-    // From distance d to the centre, a corner (x, y, z) is seen where |x| <= half_extent.x (d + z), and so for y.
-    double distance = margin * diagonal(seen);
-    for (int i = 0; i < 8; ++i) {
-        const glm::dvec3 corner = to_axes(eye, seen.corner(i));
-        const glm::dvec2 needed = glm::abs(glm::dvec2(corner)) / eye.half_extent - corner.z;
+    // From distance d to the centre, a point (x, y, z) is seen where |x| <= half_extent.x (d + z), and so for y.
+    double distance = 0;
+    for (const glm::vec3& point : seen) {
+        const glm::dvec3 local = to_axes(eye, point);
+        const glm::dvec2 needed = glm::abs(glm::dvec2(local)) / eye.half_extent - local.z;
         distance = std::max({distance, needed.x, needed.y});
     }
-    eye.position -= (distance + margin * diagonal(seen)) * eye.forward;
+    eye.position -= (distance + margin * diagonal(box)) * eye.forward;
     set_planes(eye, seen);
     return eye;
 }
 
-camera perspective_view_from(const glm::dvec3& position, const glm::dvec3& target, const bounds& seen,
-                             double field_of_view, double aspect)
+camera perspective_view_from(const glm::dvec3& position, const glm::dvec3& target, points seen, double field_of_view,
+                             double aspect)
 {
-    require_some(seen);
     camera eye = looking(projection::perspective, position, target - position);
     eye.half_extent = std::tan(0.5 * field_of_view) * glm::dvec2(aspect, 1);
     set_planes(eye, seen);
     return eye;
+}
+
+std::vector<glm::vec3> casters_and_shadows(const bounds& casters, const glm::vec3& light_direction)
+{
+    if (!(light_direction.y < 0)) throw std::invalid_argument("camera: the light does not shine down");
+    std::vector<glm::vec3> result;
+    for (const glm::vec3& corner : casters.corners()) {
+        result.push_back(corner);
+        result.push_back(corner + (corner.y - casters.lower.y) / -light_direction.y * light_direction);
+    }
+    return result;
 }
 
 double mip_level(const camera& light, const glm::dvec3& point, const glm::dvec3& d_dx, const glm::dvec3& d_dy,

@@ -3,9 +3,10 @@
 // et al. 2017, 2.3); the view distance is measured along the viewing axis.
 #pragma once
 
-#include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <span>
+#include <vector>
 
 #include "scene.hpp"
 
@@ -39,14 +40,23 @@ glm::dvec3 project(const camera& eye, const glm::dvec3& point);
 // Unit vector from the point towards the camera or light.
 glm::dvec3 direction_towards(const camera& eye, const glm::dvec3& point);
 
-// The least cameras that look in this direction and see all of the bounds, near and far plane included; aspect is width
-// over height, field_of_view the vertical angle in radians. The up axis is the world's, or z for a look straight down.
-camera orthographic_view(const bounds& seen, const glm::dvec3& direction, double aspect = 1);
-camera perspective_view(const bounds& seen, const glm::dvec3& direction, double field_of_view, double aspect = 1);
+// Whether a projected point lies inside the picture and between the planes. What lies outside of a light's view counts
+// as lit.
+bool within_view(const glm::dvec3& projected);
 
-// A perspective camera at a given place that looks at a given point and has its planes around the bounds.
-camera perspective_view_from(const glm::dvec3& position, const glm::dvec3& target, const bounds& seen,
-                             double field_of_view, double aspect);
+// The least cameras that look in this direction and see all of the points, near and far plane included; aspect is width
+// over height, field_of_view the vertical angle in radians. The up axis is the world's, or -z for a look straight down.
+// Throws std::invalid_argument where there are no points.
+using points = std::span<const glm::vec3>;
+camera orthographic_view(points seen, const glm::dvec3& direction, double aspect = 1);
+camera perspective_view(points seen, const glm::dvec3& direction, double field_of_view, double aspect = 1);
+
+// A perspective camera at a given place that looks at a given point; only its planes are fitted.
+camera perspective_view_from(const glm::dvec3& position, const glm::dvec3& target, points seen, double field_of_view,
+                             double aspect);
+
+// What a light has to see: the corners of a box of casters, and where their shadows fall on the ground below.
+std::vector<glm::vec3> casters_and_shadows(const bounds& casters, const glm::vec3& light_direction);
 
 // A level of detail for a look-up into a map of this resolution: log2 of the longer of the two steps, in texels, that
 // the projection takes when the point moves along d_dx and d_dy (a camera pixel's footprint); at least 0.

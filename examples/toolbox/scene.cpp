@@ -1,6 +1,5 @@
 #include "scene.hpp"
 
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 
@@ -18,9 +17,12 @@ glm::vec3 bounds::centre() const { return 0.5f * lower + 0.5f * upper; }
 
 glm::vec3 bounds::extent() const { return upper - lower; }
 
-glm::vec3 bounds::corner(int index) const
+std::array<glm::vec3, 8> bounds::corners() const
 {
-    return {(index & 1 ? upper : lower).x, (index & 2 ? upper : lower).y, (index & 4 ? upper : lower).z};
+    std::array<glm::vec3, 8> result;
+    for (unsigned i = 0; i < 8; ++i)
+        result[i] = {(i & 1 ? upper : lower).x, (i & 2 ? upper : lower).y, (i & 4 ? upper : lower).z};
+    return result;
 }
 
 bounds bounds_of(const scene& world)

@@ -1,6 +1,7 @@
 // A scene is a list of triangle meshes, each of one albedo. y points up; units are arbitrary.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
@@ -34,7 +35,7 @@ struct bounds {
     bool empty() const;
     glm::vec3 centre() const;
     glm::vec3 extent() const;
-    glm::vec3 corner(int index) const; // bit i of index (0 to 7) chooses upper in dimension i
+    std::array<glm::vec3, 8> corners() const;
 };
 
 bounds bounds_of(const scene& world);

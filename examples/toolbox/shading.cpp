@@ -15,7 +15,7 @@ bool faces_light(const camera& light, const surface& seen)
 
 picture shade(const scene& world, const camera& light, const image<surface>& seen, const image<float>& visibility)
 {
-    const glm::vec3 sun(1.0f, 0.94f, 0.84f), sky(0.26f, 0.31f, 0.40f), earth(0.13f, 0.12f, 0.10f);
+    const glm::vec3 sun(1.0f, 0.94f, 0.84f), sky(0.30f, 0.35f, 0.44f), earth(0.24f, 0.22f, 0.19f);
     picture result(seen.width, seen.height, glm::vec3(0.55f, 0.65f, 0.76f));
     tbb::parallel_for(0, seen.height, [&](int y) {
         for (int x = 0; x < seen.width; ++x) {
