@@ -1,6 +1,5 @@
 #include "model.hpp"
 
-#include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -15,6 +14,8 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 #include <string>
+
+#include "import_guard.hpp"
 
 namespace gnomon::toolbox {
 
@@ -81,11 +82,14 @@ mesh convert(const aiScene& source, const aiMesh& from, const aiMatrix4x4& to_wo
 void append_node(scene& target, const aiScene& source, const aiNode& node, const aiMatrix4x4& parent)
 {
     const aiMatrix4x4 to_world = parent * node.mTransformation;
+    // Some of Assimp's readers leave references to nothing.
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+        if (node.mMeshes[i] >= source.mNumMeshes) continue;
         mesh part = convert(source, *source.mMeshes[node.mMeshes[i]], to_world);
         if (!part.triangles.empty()) target.meshes.push_back(std::move(part));
     }
-    for (unsigned i = 0; i < node.mNumChildren; ++i) append_node(target, source, *node.mChildren[i], to_world);
+    for (unsigned i = 0; i < node.mNumChildren; ++i)
+        if (node.mChildren[i]) append_node(target, source, *node.mChildren[i], to_world);
 }
 
 // In double, because a box that float can hold may be wider than float's range.
@@ -102,11 +106,13 @@ void normalise(scene& model)
 
 scene import(const std::filesystem::path& file)
 {
+    const import_guard guard(file);
     Assimp::Importer importer;
-    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    const aiScene* source = importer.ReadFile(
-        file.string(), aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_JoinIdenticalVertices);
-    if (!source || !source->mRootNode) throw std::runtime_error(importer.GetErrorString());
+    const aiScene* source = importer.ReadFile(file.string(), aiProcess_Triangulate);
+    if (!source || !source->mRootNode)
+        throw std::runtime_error(importer.GetErrorString() == std::string("std::bad_alloc")
+                                     ? "needs too much memory"
+                                     : importer.GetErrorString());
     scene model{file.stem().string(), {}};
     append_node(model, *source, *source->mRootNode, aiMatrix4x4());
     if (model.meshes.empty()) throw std::runtime_error("no triangles in it");
