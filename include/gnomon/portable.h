@@ -13,6 +13,8 @@
 //   gnomon_abs, gnomon_sqrt          exact and correctly rounded
 //   gnomon_product                   the rounded product, never contracted into a later sum
 //   GNOMON_FUSED, gnomon_fma         whether gnomon_fma(a, b, c) rounds a b + c once; only two_product asks
+//   gnomon_power_of_two              2^n for a whole number n within the normal range; any value where n is NaN
+//   GNOMON_DIGITS                    p, the bits of the significand: 24 or 53; only polynomials ask
 //   GNOMON_SPLITTER                  2^ceil(p / 2) + 1 for a significand of p bits (Dekker 1971)
 //   GNOMON_PIVOT_FLOOR               a positive number whose 7th power is normal once scaled by 2^112: 2^-30 in float
 #ifndef GNOMON_PORTABLE_H

@@ -11,16 +11,12 @@
 #ifndef GNOMON_MOMENTS_HAMBURGER4_H
 #define GNOMON_MOMENTS_HAMBURGER4_H
 #include "../numerics/select.h"
+#include "bounds.h"
 #include "hankel4.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// Bounds on the shadow intensity: lower <= Z(z < z_f), Z(z <= z_f) <= upper = lower + weight, where weight is that of z_f itself.
-GNOMON_STRUCT hamburger_bounds {
-    Real lower, upper, weight;
-};
-
-/// The canonical distribution: depths ascending apart from depth0 = z_f, and their weights, which sum to 1.
-GNOMON_STRUCT hamburger4_distribution_result {
+/// The canonical distribution: a node at the receiver and two more, depth1 <= depth2, with weights in [0, 1] that sum to 1.
+GNOMON_STRUCT distribution3 {
     Real depth0, depth1, depth2, weight0, weight1, weight2;
 };
 
@@ -40,22 +36,34 @@ GNOMON_KERNEL Real hamburger4_weight(GNOMON_T(hankel4) h, Real x, Real q)
     return w / (w + (x * x * h.determinant + q * q));
 }
 
-/// The smaller node below z_f = mean + u, less the mean. Domain: q = Q(u) < 0; elsewhere any number or NaN.
-GNOMON_KERNEL Real hamburger4_smaller_root(GNOMON_T(hankel4) h, Real u, Real q)
+/// The coefficients of a x^2 + 2 b x + c with the two other nodes, less the mean, as roots; q = Q(u).
+GNOMON_STRUCT hamburger4_quadratic {
+    Real a, b, c;
+};
+
+GNOMON_KERNEL GNOMON_T(hamburger4_quadratic) hamburger4_other_nodes(GNOMON_T(hankel4) h, Real u, Real q)
 {
     // The power of two keeps the discriminant of a single depth, down to 2^-139, from underflowing.
     Real n = h.determinant * GNOMON_LITERAL(hamburger4_scale);
     Real s = q * GNOMON_LITERAL(hamburger4_scale);
-    Real g = h.covariance - Real(2) * (h.mean * h.variance);
-    Real a = s * h.variance;
-    Real b = Real(0.5) * (u * n - s * g);
-    Real c = h.variance * (n - s * h.variance);
-    Real r = gnomon_sqrt(gnomon_max(b * b - a * c, Real(0)));
-    GNOMON_MASK falls = b > Real(0);
-    return gnomon_select(falls, -c, r - b) / gnomon_select(falls, b + r, a);
+    GNOMON_T(hamburger4_quadratic) r;
+    r.a = s * h.variance;
+    r.b = Real(0.5) * (u * n - s * (h.covariance - Real(2) * (h.mean * h.variance)));
+    r.c = h.variance * (n - s * h.variance);
+    return r;
+}
+
+/// The smaller of two nodes on either side of z_f = mean + u, less the mean. Domain: q = Q(u) < 0; elsewhere any number or NaN.
+GNOMON_KERNEL Real hamburger4_smaller_root(GNOMON_T(hankel4) h, Real u, Real q)
+{
+    GNOMON_T(hamburger4_quadratic) p = hamburger4_other_nodes(h, u, q);
+    Real r = gnomon_sqrt(gnomon_max(p.b * p.b - p.a * p.c, Real(0)));
+    GNOMON_MASK falls = p.b > Real(0);
+    return gnomon_select(falls, -p.c, r - p.b) / gnomon_select(falls, p.b + r, p.a);
 }
 
 /// Lower bound on the shadow intensity at z_f: what a surface should show, since it never darkens a lit one (paper, 2.2.1).
+/// z_f in [-1, 1], clamped. A NaN anywhere gives 0, lit.
 GNOMON_KERNEL Real hamburger4_lower(GNOMON_T(hankel4) h, Real z_f)
 {
     Real u = clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean;
@@ -65,6 +73,51 @@ GNOMON_KERNEL Real hamburger4_lower(GNOMON_T(hankel4) h, Real z_f)
     Real w = hamburger4_weight(h, x, hamburger4_q(h, x));
     Real outside = gnomon_select(u > Real(0), Real(1) - w, Real(0));
     return saturate_or_zero(gnomon_select(between, w, outside));
+}
+
+/// Both bounds and the weight of the receiver; one division more than the lower bound.
+GNOMON_KERNEL GNOMON_T(hamburger_bounds) hamburger4_bounds(GNOMON_T(hankel4) h, Real z_f)
+{
+    Real u = clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean;
+    Real q = hamburger4_q(h, u);
+    GNOMON_MASK between = q < Real(0);
+    Real w_f = hamburger4_weight(h, u, q);
+    Real x = hamburger4_smaller_root(h, u, q);
+    Real w = hamburger4_weight(h, x, hamburger4_q(h, x));
+    Real outside = gnomon_select(u > Real(0), Real(1) - w_f, Real(0));
+    GNOMON_T(hamburger_bounds) r;
+    r.lower = saturate_or_zero(gnomon_select(between, w, outside));
+    r.weight = gnomon_min(saturate_or_zero(w_f), Real(1) - r.lower);
+    r.upper = r.lower + r.weight;
+    return r;
+}
+
+/// The canonical distribution with a node at z_f. Depths are finite and within 1024 of the mean: a node that runs to infinity has no
+/// weight. A NaN anywhere gives a single depth at the far plane.
+GNOMON_KERNEL GNOMON_T(distribution3) hamburger4_distribution(GNOMON_T(hankel4) h, Real z_f)
+{
+    Real u = clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean;
+    Real q = hamburger4_q(h, u);
+    GNOMON_T(hamburger4_quadratic) p = hamburger4_other_nodes(h, u, q);
+    // The root without cancellation, and the other by the product of both.
+    Real r = gnomon_sqrt(gnomon_max(p.b * p.b - p.a * p.c, Real(0)));
+    Real t = gnomon_select(p.b > Real(0), -(p.b + r), r - p.b);
+    Real x1 = clamp_or_nan(t / p.a, Real(-1024), Real(1024));
+    Real x2 = clamp_or_nan(p.c / t, Real(-1024), Real(1024));
+    Real w0 = hamburger4_weight(h, u, q);
+    Real w1 = hamburger4_weight(h, x1, hamburger4_q(h, x1));
+    Real w2 = hamburger4_weight(h, x2, hamburger4_q(h, x2));
+    Real sum = w0 + (w1 + w2);
+    GNOMON_MASK swapped = x2 < x1;
+    GNOMON_MASK known = sum > Real(0); // false for NaN
+    GNOMON_T(distribution3) d;
+    d.depth0 = gnomon_select(known, h.mean + u, Real(1));
+    d.depth1 = gnomon_select(known, h.mean + gnomon_select(swapped, x2, x1), Real(1));
+    d.depth2 = gnomon_select(known, h.mean + gnomon_select(swapped, x1, x2), Real(1));
+    d.weight1 = gnomon_select(known, gnomon_select(swapped, w2, w1) / sum, Real(0));
+    d.weight2 = gnomon_select(known, gnomon_select(swapped, w1, w2) / sum, Real(0));
+    d.weight0 = saturate_or_zero(Real(1) - (d.weight1 + d.weight2));
+    return d;
 }
 
 GNOMON_NAMESPACE_END

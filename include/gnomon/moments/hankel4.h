@@ -10,6 +10,7 @@
 #ifndef GNOMON_MOMENTS_HANKEL4_H
 #define GNOMON_MOMENTS_HANKEL4_H
 #include "../numerics/two_product.h"
+#include "covariance.h"
 #include "moments.h"
 GNOMON_NAMESPACE_BEGIN
 
@@ -39,23 +40,23 @@ GNOMON_KERNEL GNOMON_T(hankel4) hankel4_fast(GNOMON_T(moments4) b)
 }
 
 /// The moments of the mixture (1 - alpha) Z + alpha Z*, where Z* is symmetric with second and fourth moments bias2 and bias4
-/// (paper, 2.5), by covariances of mixtures, which do not cancel: V' = V + alpha (bias2 - b2) + alpha (2 - alpha) b1^2 and so on.
+/// (paper, 2.5).
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_biased(GNOMON_T(moments4) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4, GNOMON_SETTING alpha)
 {
-    GNOMON_T(double_word) v = subtract_product(b.b2, b.b1, b.b1);
-    GNOMON_T(double_word) l = subtract_product(b.b3, b.b1, b.b2);
-    GNOMON_T(double_word) m = subtract_product(b.b4, b.b2, b.b2);
-    Real keep = Real(1) - alpha;
-    Real e2 = alpha * (bias2 - b.b2);
-    Real e4 = alpha * (bias4 - b.b4);
-    v.low = v.low + (e2 + (alpha * (Real(2) - alpha)) * (b.b1 * b.b1));
-    l.low = l.low - (alpha * l.high + (keep * b.b1) * e2);
-    m.low = m.low + (e4 - e2 * (Real(2) * b.b2 + e2));
+    GNOMON_T(moments4) e;
+    e.b1 = -alpha * b.b1;
+    e.b2 = alpha * (bias2 - b.b2);
+    e.b3 = -alpha * b.b3;
+    e.b4 = alpha * (bias4 - b.b4);
+    GNOMON_T(double_word) v = biased_covariance(b.b2, b.b1, b.b1, e.b2, e.b1, e.b1);
+    GNOMON_T(double_word) l = biased_covariance(b.b3, b.b1, b.b2, e.b3, e.b1, e.b2);
+    GNOMON_T(double_word) m = biased_covariance(b.b4, b.b2, b.b2, e.b4, e.b2, e.b2);
+    GNOMON_T(double_word) n = double_word_minor(v, m, l, l);
     GNOMON_T(hankel4) h;
-    h.mean = keep * b.b1;
+    h.mean = b.b1 + e.b1;
     h.variance = v.high + v.low;
     h.covariance = l.high + l.low;
-    h.determinant = double_word_determinant(v, l, m);
+    h.determinant = n.high + n.low;
     return hankel4_guard(h, Real(0), Real(0));
 }
 
@@ -66,16 +67,18 @@ GNOMON_KERNEL GNOMON_T(hankel4) hankel4_raised(GNOMON_T(moments4) b, GNOMON_SETT
     GNOMON_T(double_word) v = subtract_product(b.b2, b.b1, b.b1);
     GNOMON_T(double_word) l = subtract_product(b.b3, b.b1, b.b2);
     GNOMON_T(double_word) m = subtract_product(b.b4, b.b2, b.b2);
+    GNOMON_T(double_word) n = double_word_minor(v, m, l, l);
+    Real least_variance = noise * (Real(1) + Real(2) * gnomon_abs(b.b1));
     GNOMON_T(hankel4) h;
     h.mean = b.b1;
-    h.variance = v.high + v.low;
+    h.variance = gnomon_max(least_variance, v.high + v.low);
     h.covariance = l.high + l.low;
+    h.determinant = n.high + n.low;
     // D_1 P_2 = D_1 z^2 - L z + r; where D_2 is small enough to be raised, L^2 = D_1 M, and nothing needs a division.
-    Real r = b.b1 * l.high - b.b2 * v.high;
-    Real p = (gnomon_abs(v.high) + Real(2) * gnomon_abs(l.high)) +
-             (gnomon_abs(m.high + Real(2) * r) + Real(2) * gnomon_abs(b.b1 * m.high - b.b2 * l.high));
-    h.determinant = double_word_determinant(v, l, m);
-    return hankel4_guard(h, noise * (Real(1) + Real(2) * gnomon_abs(b.b1)), noise * p);
+    Real r = b.b1 * h.covariance - b.b2 * h.variance;
+    Real p = (h.variance + Real(2) * gnomon_abs(h.covariance)) +
+             (gnomon_abs(m.high + Real(2) * r) + Real(2) * gnomon_abs(b.b1 * m.high - b.b2 * h.covariance));
+    return hankel4_guard(h, least_variance, noise * p);
 }
 
 GNOMON_NAMESPACE_END

@@ -73,13 +73,16 @@ GNOMON_KERNEL Real difference_of_products(Real a, Real b, Real c, Real d)
     return (p.high - q.high) + (p.low - q.low);
 }
 
-/// a c - b^2 for double words, rounded once where it cancels: relative error below 2^-40 (|a c| + b^2) in float.
-GNOMON_KERNEL Real double_word_determinant(GNOMON_T(double_word) a, GNOMON_T(double_word) b, GNOMON_T(double_word) c)
+/// a b - c d for double words, as a double word: relative error below 2^-40 (|a b| + |c d|) in float.
+GNOMON_KERNEL GNOMON_T(double_word) double_word_minor(GNOMON_T(double_word) a, GNOMON_T(double_word) b, GNOMON_T(double_word) c,
+                                                      GNOMON_T(double_word) d)
 {
-    GNOMON_T(double_word) p = two_product(a.high, c.high);
-    GNOMON_T(double_word) q = two_product(b.high, b.high);
-    Real cross = (a.high * c.low + a.low * c.high) - Real(2) * (b.high * b.low);
-    return (p.high - q.high) + ((p.low - q.low) + (cross + (a.low * c.low - b.low * b.low)));
+    GNOMON_T(double_word) p = two_product(a.high, b.high);
+    GNOMON_T(double_word) q = two_product(c.high, d.high);
+    GNOMON_T(double_word) r = two_sum(p.high, -q.high);
+    Real cross = (a.high * b.low + a.low * b.high) - (c.high * d.low + c.low * d.high);
+    r.low = r.low + ((p.low - q.low) + (cross + (a.low * b.low - c.low * d.low)));
+    return r;
 }
 
 GNOMON_NAMESPACE_END

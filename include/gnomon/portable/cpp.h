@@ -32,6 +32,7 @@
 #define GNOMON_CONSTANT(name, value) inline constexpr double name = value
 #define GNOMON_LITERAL(name) gnomon::literal<Real>(name)
 #define GNOMON_FUSED gnomon::is_fused<Real>
+#define GNOMON_DIGITS std::numeric_limits<gnomon::lane_t<Real>>::digits
 #define GNOMON_SPLITTER gnomon::literal<Real>(gnomon::splitter<gnomon::lane_t<Real>>)
 #define GNOMON_PIVOT_FLOOR gnomon::literal<Real>(gnomon::pivot_floor<gnomon::lane_t<Real>>)
 
@@ -141,6 +142,28 @@ template <class T> GNOMON_INLINE T gnomon_fma(T a, T b, T c)
     if constexpr (std::is_floating_point_v<T>) return std::fma(a, b, c);
     else if constexpr (requires { pack_operations<T>::fma(a, b, c); }) return pack_operations<T>::fma(a, b, c);
     else return a * b + c;
+}
+
+template <class T> GNOMON_INLINE T gnomon_power_of_two(T n)
+{
+    if constexpr (std::is_same_v<T, float>) {
+        // The sum leaves n in the low bits, where the shift takes it into the exponent.
+        return __builtin_bit_cast(float, (__builtin_bit_cast(std::uint32_t, n + 0x1.8p23f) << 23) + (std::uint32_t{127} << 23));
+    } else if constexpr (std::is_same_v<T, double>) {
+        return __builtin_bit_cast(double, (__builtin_bit_cast(std::uint64_t, n + 0x1.8p52) << 52) + (std::uint64_t{1023} << 52));
+    } else if constexpr (requires { pack_operations<T>::power_of_two(n); }) {
+        return pack_operations<T>::power_of_two(n);
+    } else {
+        T power = T(lane_t<T>(1));
+        for (int k = std::numeric_limits<lane_t<T>>::max_exponent / 2; k > 0; k /= 2) {
+            const T step = T(static_cast<lane_t<T>>(k));
+            const T up = T(static_cast<lane_t<T>>(std::ldexp(1.0, k)));
+            const T down = T(static_cast<lane_t<T>>(std::ldexp(1.0, -k)));
+            power = gnomon_select(step <= n, power * up, gnomon_select(n <= -step, power * down, power));
+            n = gnomon_select(step <= n, n - step, gnomon_select(n <= -step, n + step, n));
+        }
+        return power;
+    }
 }
 
 // Contraction, GCC's default, would fold a plain product into a later sum, and the error term that two_product finds

@@ -52,6 +52,21 @@ template <class T, class A> struct pack_operations<xsimd::batch<T, A>> {
         return a * b + c;
 #endif
     }
+
+    // As for a scalar: the sum leaves n in the low bits, where the shift takes it into the exponent.
+    static GNOMON_INLINE pack power_of_two(pack n)
+    {
+        using integer = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
+        constexpr int fraction_bits = std::numeric_limits<T>::digits - 1;
+        const pack shifted = n + pack(T(integer{3} << (fraction_bits - 1)));
+        const integer bias = integer{std::numeric_limits<T>::max_exponent - 1} << fraction_bits;
+#if XSIMD_VERSION_MAJOR < 9
+        using integers = xsimd::batch<integer, A>;
+        return xsimd::bitwise_cast<pack>((xsimd::bitwise_cast<integers>(shifted) << fraction_bits) + integers(bias));
+#else
+        return xsimd::bitwise_cast<T>((xsimd::bitwise_cast<integer>(shifted) << fraction_bits) + xsimd::batch<integer, A>(bias));
+#endif
+    }
 };
 
 } // namespace gnomon

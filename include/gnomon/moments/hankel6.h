@@ -1,0 +1,125 @@
+// The Hankel matrix of six moments, factored: everything that all receivers under one filter region share.
+//
+// After one step of elimination the covariances c_ij = b_(i+j) - b_i b_j of (z, z^2, z^3) remain, after the next (without
+// divisions, Bareiss) s_22 = c_11 c_22 - c_12^2, s_23, s_33, and then t = s_22 s_33 - s_23^2. The pivots of L D L^T are
+// D_1 = c_11, D_2 = s_22 / c_11, D_3 = t / (c_11 s_22), the columns of L hold l21 = c_12 / c_11 and l32 = s_23 / s_22, and with
+// u = z - b1 the monic orthogonal polynomials of the distribution, for which D_k = E[P_k^2], are
+//     P_1 = u,    P_2 = (u - (l21 - 2 b1)) P_1 - D_1,    P_3 = (u - (l32 - l21 - b1)) P_2 - (D_2 / D_1) P_1
+// (Peters et al. 2017, 5.4, Algorithm 1, step 2; the three-term recurrence: Gautschi 2004, 1.3). Every difference of moments
+// cancels, so all are kept as double words until a pivot is had, and a bias (bias.h) is added to the covariances: in the moments
+// it would be rounded away.
+#ifndef GNOMON_MOMENTS_HANKEL6_H
+#define GNOMON_MOMENTS_HANKEL6_H
+#include "../numerics/two_product.h"
+#include "covariance.h"
+#include "moments.h"
+GNOMON_NAMESPACE_BEGIN
+
+/// The recurrence: mean b1, D_1, D_2 / D_1, the shifts of u in P_2 and P_3, and one over each pivot. Pivots are positive,
+/// whatever the moments were, or NaN where one of these was.
+GNOMON_STRUCT hankel6 {
+    Real mean, variance, ratio, shift2, shift3, inverse1, inverse2, inverse3;
+};
+
+/// The covariances of (z, z^2, z^3).
+GNOMON_STRUCT covariances6 {
+    GNOMON_T(double_word) c11, c12, c13, c22, c23, c33;
+};
+
+/// Elimination, with pivots no smaller than noise |coefficients of P_k^2|_1 and the floor; noise = 0 leaves them.
+GNOMON_KERNEL GNOMON_T(hankel6) hankel6_factor(GNOMON_T(moments6) b, GNOMON_T(covariances6) c, GNOMON_SETTING noise)
+{
+    GNOMON_T(hankel6) h;
+    Real least1 = Real(1) + Real(2) * gnomon_abs(b.b1);
+    Real d1 = gnomon_max(gnomon_max(GNOMON_PIVOT_FLOOR, noise * least1), c.c11.high + c.c11.low);
+    h.mean = b.b1;
+    h.variance = d1;
+    h.inverse1 = Real(1) / d1;
+    Real l21 = (c.c12.high + c.c12.low) * h.inverse1;
+    Real l31 = (c.c13.high + c.c13.low) * h.inverse1;
+    h.shift2 = l21 - Real(2) * b.b1;
+
+    GNOMON_T(double_word) s22 = double_word_minor(c.c11, c.c22, c.c12, c.c12);
+    GNOMON_T(double_word) s23 = double_word_minor(c.c11, c.c23, c.c12, c.c13);
+    GNOMON_T(double_word) s33 = double_word_minor(c.c11, c.c33, c.c13, c.c13);
+    Real p0 = l21 * b.b1 - b.b2; // P_2 = z^2 - l21 z + p0
+    Real least2 = (Real(1) + Real(2) * gnomon_abs(l21)) + (gnomon_abs(l21 * l21 + Real(2) * p0) + Real(2) * gnomon_abs(l21 * p0));
+    Real s = gnomon_max(gnomon_max(GNOMON_PIVOT_FLOOR, noise * least2) * d1, s22.high + s22.low);
+    Real inverse_s = Real(1) / s;
+    Real l32 = (s23.high + s23.low) * inverse_s;
+    h.ratio = s * (h.inverse1 * h.inverse1);
+    h.shift3 = (l32 - l21) - b.b1;
+    h.inverse2 = d1 * inverse_s;
+
+    Real q1 = l32 * l21 - l31; // P_3 = z^3 - l32 z^2 + q1 z + q0
+    Real q0 = (l31 * b.b1 - b.b3) - l32 * p0;
+    Real least3 = ((Real(1) + Real(2) * gnomon_abs(l32)) + (gnomon_abs(l32 * l32 + Real(2) * q1) + Real(2) * gnomon_abs(q0 - q1 * l32))) +
+                  (gnomon_abs(q1 * q1 - Real(2) * (q0 * l32)) + Real(2) * gnomon_abs(q0 * q1));
+    GNOMON_T(double_word) t = double_word_minor(s22, s33, s23, s23);
+    Real d1s = d1 * s;
+    h.inverse3 = d1s / gnomon_max(gnomon_max(GNOMON_PIVOT_FLOOR, noise * least3) * d1s, t.high + t.low);
+    return h;
+}
+
+/// The moments as they are, with each pivot raised to at least what storage noise makes of it (bias.h); noise = 0 for exact moments.
+GNOMON_KERNEL GNOMON_T(hankel6) hankel6_raised(GNOMON_T(moments6) b, GNOMON_SETTING noise)
+{
+    GNOMON_T(covariances6) c;
+    c.c11 = subtract_product(b.b2, b.b1, b.b1);
+    c.c12 = subtract_product(b.b3, b.b1, b.b2);
+    c.c13 = subtract_product(b.b4, b.b1, b.b3);
+    c.c22 = subtract_product(b.b4, b.b2, b.b2);
+    c.c23 = subtract_product(b.b5, b.b2, b.b3);
+    c.c33 = subtract_product(b.b6, b.b3, b.b3);
+    return hankel6_factor(b, c, noise);
+}
+
+/// The moments of the mixture (1 - alpha) Z + alpha Z*, where Z* is symmetric with even moments bias2, bias4, bias6 (paper, 2.5, 5.4.3).
+GNOMON_KERNEL GNOMON_T(hankel6) hankel6_biased(GNOMON_T(moments6) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4, GNOMON_SETTING bias6,
+                                               GNOMON_SETTING alpha)
+{
+    GNOMON_T(moments6) e;
+    e.b1 = -alpha * b.b1;
+    e.b2 = alpha * (bias2 - b.b2);
+    e.b3 = -alpha * b.b3;
+    e.b4 = alpha * (bias4 - b.b4);
+    e.b5 = -alpha * b.b5;
+    e.b6 = alpha * (bias6 - b.b6);
+    GNOMON_T(covariances6) c;
+    c.c11 = biased_covariance(b.b2, b.b1, b.b1, e.b2, e.b1, e.b1);
+    c.c12 = biased_covariance(b.b3, b.b1, b.b2, e.b3, e.b1, e.b2);
+    c.c13 = biased_covariance(b.b4, b.b1, b.b3, e.b4, e.b1, e.b3);
+    c.c22 = biased_covariance(b.b4, b.b2, b.b2, e.b4, e.b2, e.b2);
+    c.c23 = biased_covariance(b.b5, b.b2, b.b3, e.b5, e.b2, e.b3);
+    c.c33 = biased_covariance(b.b6, b.b3, b.b3, e.b6, e.b3, e.b3);
+    b.b1 = b.b1 + e.b1;
+    b.b2 = b.b2 + e.b2;
+    b.b3 = b.b3 + e.b3;
+    return hankel6_factor(b, c, Real(0));
+}
+
+/// Plain arithmetic: right for moments from 10 and 16 bit storage, whose own errors are larger, and for double.
+GNOMON_KERNEL GNOMON_T(hankel6) hankel6_fast(GNOMON_T(moments6) b)
+{
+    GNOMON_T(hankel6) h;
+    h.mean = b.b1;
+    h.variance = gnomon_max(GNOMON_PIVOT_FLOOR, b.b2 - b.b1 * b.b1);
+    h.inverse1 = Real(1) / h.variance;
+    Real c12 = b.b3 - b.b1 * b.b2;
+    Real c13 = b.b4 - b.b1 * b.b3;
+    Real l21 = c12 * h.inverse1;
+    Real l31 = c13 * h.inverse1;
+    Real d2 = gnomon_max(GNOMON_PIVOT_FLOOR, (b.b4 - b.b2 * b.b2) - l21 * c12);
+    Real c23 = (b.b5 - b.b2 * b.b3) - l21 * c13;
+    h.inverse2 = Real(1) / d2;
+    Real l32 = c23 * h.inverse2;
+    h.shift2 = l21 - Real(2) * b.b1;
+    h.shift3 = (l32 - l21) - b.b1;
+    h.ratio = d2 * h.inverse1;
+    Real d3 = gnomon_max(GNOMON_PIVOT_FLOOR, ((b.b6 - b.b3 * b.b3) - l31 * c13) - l32 * c23);
+    h.inverse3 = Real(1) / d3;
+    return h;
+}
+
+GNOMON_NAMESPACE_END
+#endif
