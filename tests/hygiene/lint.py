@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""The kernel dialect and the house rules of docs/architecture.md, checked without a compiler.
+
+usage: lint.py ROOT    prints one line, path:line: rule: detail, for each breach below ROOT; exit code 1 if there is any
+
+ROOT holds include/gnomon and, beside it, the sources for which only the length counts.
+"""
+import os
+import re
+import sys
+from pathlib import Path
+
+MAX_LINES = 400
+SOURCES = {".h", ".hpp", ".cpp"}
+
+# An include goes down this list or stays on its line, never up. gnomon.h stands with the passes: whoever includes
+# everything still needs no library.
+LAYERS = [["portable.h", "portable"], ["numerics"], ["moments", "filters", "motion"], ["soft", "scattering"],
+          ["passes", "gnomon.h"], ["simd", "adapters"]]
+LAYER = {name: level for level, names in enumerate(LAYERS) for name in names}
+
+# Built-in types that follow a pattern; the other reserved words are listed in a file.
+BUILTIN_TYPES = re.compile(
+    r"[ibudhf]?vec[234]|[dfh]?mat[234](x[234])?"
+    r"|(float|half|double|int|uint|bool|u?char|u?short|u?long|long|min16\w+)([1-4](x[1-4])?|8|16)"
+    r"|(RW)?[iug]?([sS]ampler|[tT]exture|image|depth)(1D|2D|3D|Cube|cube|Buffer|1d|2d|3d)\w*")
+
+# What some language refuses, as it shows in formatted text without comments and include lines.
+CONSTRUCTS = [
+    ("conditional operator", r"\?"),
+    ("token pasting", r"##"),
+    ("double underscore", r"\w*__\w*"),
+    ("reference", r"(?<=\w)&(?= )|(?<= )&(?=\w)|(?<=[\w>])&&(?= \w+[,)])"),
+    ("pointer", r"(?<=\w)\*+(?=[ ,)>])|(?<= )\*+(?=\w)|->"),
+    ("lambda", r"(?<![\w\])])\s*\[(?=[^\]]*\]\s*[({])"),
+    ("scope operator", r"::"),
+    ("default argument", r"[(,] *(?:const )?[A-Z_a-z]\w*(?:\([^()]*\))? \w+ = [^;()]*(?:\([^()]*\)[^;()]*)*(?=[,)])"),
+    ("ellipsis", r"\.\.\."),
+    ("hexadecimal float", r"\b0[xX][\da-fA-F.]+[pP][+-]?\d+"),
+    ("pragma", r"# *pragma"),
+    ("#if without defined", r"# *(?:el)?if (?!(?:[ !()]|&&|\|\||defined *\(\w+\))+$)"),
+    ("foreign macro", r"# *define (?!GNOMON_)"),
+]
+CONSTRUCTS = [(rule, re.compile(pattern, re.MULTILINE)) for rule, pattern in CONSTRUCTS]
+RULES = [rule for rule, _ in CONSTRUCTS] + [
+    "reserved word", "fused multiply-add", "not ASCII", "include of a library", "include of a .hpp",
+    "include goes up", "no include guard", "too long"]
+
+
+def reserved_words():
+    text = (Path(__file__).parent / "reserved_words.txt").read_text()
+    languages = re.findall(r"^(\S+)\n((?:[^\n]+\n?)+)", re.sub(r"^#.*\n", "", text, flags=re.MULTILINE), re.MULTILINE)
+    words = {}
+    for language, listed in languages:
+        for word in listed.split():
+            words.setdefault(word, language)
+    return words
+
+
+def blank(text, pattern, flags=0):
+    """The text with each match overwritten by spaces, so that line numbers stay."""
+    return re.sub(pattern, lambda match: re.sub(r"[^\n]", " ", match[0]), text, flags=flags)
+
+
+def without_body_of(function, text):
+    head = re.search(r"\b%s\([^)]*\)\s*\{" % function, text)
+    if not head:
+        return text
+    depth, end = 1, head.end()
+    while depth and end < len(text):
+        depth += {"{": 1, "}": -1}.get(text[end], 0)
+        end += 1
+    return text[:head.end()] + re.sub(r"[^\n]", " ", text[head.end():end]) + text[end:]
+
+
+def lint_kernel(text, words):
+    """Breaches of the dialect in a .h as (offset, rule, detail)."""
+    code = blank(text, r"^[ \t]*# *(include|error)\b.*$", re.MULTILINE)
+    for rule, pattern in CONSTRUCTS:
+        for match in pattern.finditer(code):
+            yield match.start(), rule, match[0].strip()
+    for match in re.finditer(r"\b[A-Za-z_]\w*", code):
+        if re.search(r"# *$", code[:match.start()].rsplit("\n", 1)[-1]):
+            continue # a preprocessor directive
+        if match[0] in words:
+            yield match.start(), "reserved word", f"{match[0]} ({words[match[0]]})"
+        elif BUILTIN_TYPES.fullmatch(match[0]):
+            yield match.start(), "reserved word", f"{match[0]} (a built-in type)"
+    for match in re.finditer(r"\b(?:\w+_)?fma\s*\(", without_body_of("two_product", code)):
+        yield match.start(), "fused multiply-add", "belongs into two_product"
+
+
+def lint_includes(path, text):
+    """Breaches of the folders' order and of .h against .hpp as (offset, rule, detail); path is relative to include/gnomon."""
+    layer = layer_of(path)
+    for match in re.finditer(r'^[ \t]*# *include ([<"])([^>"]+)[>"]', text, re.MULTILINE):
+        bracket, target = match.groups()
+        if bracket == '"' or target.startswith("gnomon/"):
+            relative = Path(target).relative_to("gnomon") if bracket == "<" else path.parent / target
+            if layer_of(Path(os.path.normpath(relative))) > layer:
+                yield match.start(), "include goes up", target
+            if target.endswith(".hpp") and path.suffix == ".h" and path.name != "gnomon.h":
+                yield match.start(), "include of a .hpp", target
+        elif is_kernel(path) or (not re.fullmatch(r"[a-z_]+", target) and layer < LAYER["simd"]):
+            yield match.start(), "include of a library", target
+
+
+def layer_of(path):
+    return LAYER.get(path.parts[0], len(LAYERS))
+
+
+def is_kernel(path):
+    return path.suffix == ".h" and path.parts[0] not in LAYERS[0]
+
+
+def lint_header(path, text, words):
+    code = blank(text, r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+    if path.suffix == ".h" and not text.isascii():
+        yield next(i for i, c in enumerate(text) if ord(c) > 127), "not ASCII", "outside the basic alphabet"
+    if not re.match(r"\s*#ifndef (GNOMON_\w+)\n#define \1\n.*#endif\s*$", code, re.DOTALL):
+        yield 0, "no include guard", "#ifndef GNOMON_..., #define, #endif expected"
+    yield from lint_includes(path, code)
+    if is_kernel(path):
+        yield from lint_kernel(code, words)
+    else:
+        foreign = dict(CONSTRUCTS)["foreign macro"]
+        for match in foreign.finditer(code):
+            yield match.start(), "foreign macro", match[0]
+
+
+def lint(root):
+    """All breaches below root as (path, line, rule, detail)."""
+    words = reserved_words()
+    headers = root / "include" / "gnomon"
+    for folder in ("include", "examples", "tests", "bench"):
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix not in SOURCES or "lint_cases" in path.relative_to(root).parts:
+                continue
+            text = path.read_text(encoding="utf-8")
+            found = []
+            if folder == "include":
+                found += lint_header(path.relative_to(headers), text, words)
+            if text.count("\n") > MAX_LINES:
+                found.append((len(text), "too long", f"{text.count(chr(10))} lines, at most {MAX_LINES}"))
+            for offset, rule, detail in sorted(found):
+                yield path.relative_to(root), text.count("\n", 0, offset) + 1, rule, detail
+
+
+def main():
+    if len(sys.argv) != 2 or not Path(sys.argv[1], "include", "gnomon").is_dir():
+        print("lint.py: one argument expected, the folder that holds include/gnomon", file=sys.stderr)
+        sys.exit(2)
+    breaches = [f"{path}:{line}: {rule}: {detail}" for path, line, rule, detail in lint(Path(sys.argv[1]))]
+    print("\n".join(breaches) if breaches else "no breach")
+    sys.exit(1 if breaches else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,9 @@
+// expect: conditional operator
+#ifndef GNOMON_MOMENTS_CONDITIONAL_OPERATOR_H
+#define GNOMON_MOMENTS_CONDITIONAL_OPERATOR_H
+GNOMON_KERNEL Real lower(Real z)
+{
+    z = z < Real(0) ? -z : z;
+    return z;
+}
+#endif

@@ -1,0 +1,5 @@
+// expect: pointer
+#ifndef GNOMON_MOMENTS_DEREFERENCE_H
+#define GNOMON_MOMENTS_DEREFERENCE_H
+GNOMON_KERNEL Real lower(Real z) { return z + *z; }
+#endif

@@ -1,0 +1,9 @@
+// expect: lambda
+#ifndef GNOMON_MOMENTS_LAMBDA_H
+#define GNOMON_MOMENTS_LAMBDA_H
+GNOMON_KERNEL Real lower(Real z)
+{
+    z = [](Real x) { return x; }(z);
+    return z;
+}
+#endif

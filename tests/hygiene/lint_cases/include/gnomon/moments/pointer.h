@@ -1,0 +1,5 @@
+// expect: pointer
+#ifndef GNOMON_MOMENTS_POINTER_H
+#define GNOMON_MOMENTS_POINTER_H
+GNOMON_KERNEL Real lower(Real* z, Real w) { return w; }
+#endif

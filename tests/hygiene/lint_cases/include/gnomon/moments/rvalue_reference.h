@@ -1,0 +1,5 @@
+// expect: reference
+#ifndef GNOMON_MOMENTS_RVALUE_REFERENCE_H
+#define GNOMON_MOMENTS_RVALUE_REFERENCE_H
+GNOMON_KERNEL Real lower(Real&& z) { return z; }
+#endif

@@ -1,0 +1,5 @@
+// expect: include goes up
+#ifndef GNOMON_MOMENTS_UP_SOFT_H
+#define GNOMON_MOMENTS_UP_SOFT_H
+#include "../soft/penumbra.h"
+#endif

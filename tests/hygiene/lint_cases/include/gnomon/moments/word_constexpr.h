@@ -1,0 +1,9 @@
+// expect: reserved word
+#ifndef GNOMON_MOMENTS_WORD_CONSTEXPR_H
+#define GNOMON_MOMENTS_WORD_CONSTEXPR_H
+GNOMON_KERNEL Real lower(Real z)
+{
+    constexpr x;
+    return z;
+}
+#endif

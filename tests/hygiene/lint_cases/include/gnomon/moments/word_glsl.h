@@ -1,0 +1,9 @@
+// expect: reserved word
+#ifndef GNOMON_MOMENTS_WORD_GLSL_H
+#define GNOMON_MOMENTS_WORD_GLSL_H
+GNOMON_KERNEL Real lower(Real z)
+{
+    Real sample = z;
+    return z;
+}
+#endif

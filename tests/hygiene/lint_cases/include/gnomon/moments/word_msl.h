@@ -1,0 +1,9 @@
+// expect: reserved word
+#ifndef GNOMON_MOMENTS_WORD_MSL_H
+#define GNOMON_MOMENTS_WORD_MSL_H
+GNOMON_KERNEL Real lower(Real z)
+{
+    Real device = z;
+    return z;
+}
+#endif

@@ -1,0 +1,9 @@
+// expect: reserved word
+#ifndef GNOMON_MOMENTS_WORD_OPENCL_H
+#define GNOMON_MOMENTS_WORD_OPENCL_H
+GNOMON_KERNEL Real lower(Real z)
+{
+    Real global = z;
+    return z;
+}
+#endif

@@ -1,0 +1,5 @@
+// expect: reserved word
+#ifndef GNOMON_MOMENTS_WORD_PARAMETER_H
+#define GNOMON_MOMENTS_WORD_PARAMETER_H
+GNOMON_KERNEL Real lower(Real filter) { return Real(0); }
+#endif

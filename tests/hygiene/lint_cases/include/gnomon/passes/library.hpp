@@ -1,0 +1,5 @@
+// expect: include of a library
+#ifndef GNOMON_PASSES_LIBRARY_HPP
+#define GNOMON_PASSES_LIBRARY_HPP
+#include <glm/glm.hpp>
+#endif
