@@ -10,6 +10,7 @@
 // Where one root lies on each side, Q = Q(u) < 0, so the discriminant is a sum of positive terms. Two divisions, one root.
 #ifndef GNOMON_MOMENTS_HAMBURGER4_H
 #define GNOMON_MOMENTS_HAMBURGER4_H
+#include "../numerics/quadratic.h"
 #include "../numerics/select.h"
 #include "bounds.h"
 #include "hankel4.h"
@@ -57,9 +58,7 @@ GNOMON_KERNEL GNOMON_T(hamburger4_quadratic) hamburger4_other_nodes(GNOMON_T(han
 GNOMON_KERNEL Real hamburger4_smaller_root(GNOMON_T(hankel4) h, Real u, Real q)
 {
     GNOMON_T(hamburger4_quadratic) p = hamburger4_other_nodes(h, u, q);
-    Real r = gnomon_sqrt(gnomon_max(p.b * p.b - p.a * p.c, Real(0)));
-    GNOMON_MASK falls = p.b > Real(0);
-    return gnomon_select(falls, -p.c, r - p.b) / gnomon_select(falls, p.b + r, p.a);
+    return quadratic_negative_root(p.a, p.b, p.c);
 }
 
 /// Lower bound on the shadow intensity at z_f: what a surface should show, since it never darkens a lit one (paper, 2.2.1).
@@ -99,11 +98,9 @@ GNOMON_KERNEL GNOMON_T(distribution3) hamburger4_distribution(GNOMON_T(hankel4) 
     Real u = clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean;
     Real q = hamburger4_q(h, u);
     GNOMON_T(hamburger4_quadratic) p = hamburger4_other_nodes(h, u, q);
-    // The root without cancellation, and the other by the product of both.
-    Real r = gnomon_sqrt(gnomon_max(p.b * p.b - p.a * p.c, Real(0)));
-    Real t = gnomon_select(p.b > Real(0), -(p.b + r), r - p.b);
-    Real x1 = clamp_or_nan(t / p.a, Real(-1024), Real(1024));
-    Real x2 = clamp_or_nan(p.c / t, Real(-1024), Real(1024));
+    GNOMON_T(quadratic_result) x = quadratic_roots(p.a, p.b, p.c);
+    Real x1 = clamp_or_nan(x.first, Real(-1024), Real(1024));
+    Real x2 = clamp_or_nan(x.second, Real(-1024), Real(1024));
     Real w0 = hamburger4_weight(h, u, q);
     Real w1 = hamburger4_weight(h, x1, hamburger4_q(h, x1));
     Real w2 = hamburger4_weight(h, x2, hamburger4_q(h, x2));

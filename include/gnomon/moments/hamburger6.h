@@ -10,12 +10,18 @@
 #ifndef GNOMON_MOMENTS_HAMBURGER6_H
 #define GNOMON_MOMENTS_HAMBURGER6_H
 #include "../numerics/cubic.h"
+#include "../numerics/quadratic.h"
 #include "../numerics/select.h"
 #include "bounds.h"
 #include "hankel6.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// P_2 and P_3 at one depth; P_1 is its distance u from the mean.
+/// The canonical distribution: a node at the receiver and three more, depth1 <= depth2 <= depth3, with weights in [0, 1] that sum to 1.
+GNOMON_STRUCT distribution4 {
+    Real depth0, depth1, depth2, depth3, weight0, weight1, weight2, weight3;
+};
+
+/// P_1, P_2, P_3 at one depth, by its distance u from the mean.
 GNOMON_STRUCT polynomials6 {
     Real p1, p2, p3;
 };
@@ -35,18 +41,34 @@ GNOMON_KERNEL Real hamburger6_kernel(GNOMON_T(hankel6) h, GNOMON_T(polynomials6)
     return Real(1) + ((p.p1 * p.p1) * h.inverse1 + ((p.p2 * p.p2) * h.inverse2 + (p.p3 * p.p3) * h.inverse3));
 }
 
-/// The only node on its side of z_f, less z_f: above where side = 1, below where side = -1. p = polynomials at z_f, kernel_f = K(z_f, z_f).
-GNOMON_KERNEL Real hamburger6_lone_root(GNOMON_T(hankel6) h, GNOMON_T(polynomials6) p, Real kernel_f, Real side)
+/// a t^3 + b t^2 + c t + d, whose roots are 1 / (z - z_f) for the other nodes z, or with their signs flipped where side = -1.
+GNOMON_STRUCT hamburger6_cubic {
+    Real a, b, c, d;
+};
+
+/// p = polynomials at z_f, kernel_f = K(z_f, z_f).
+GNOMON_KERNEL GNOMON_T(hamburger6_cubic) hamburger6_other_nodes(GNOMON_T(hankel6) h, GNOMON_T(polynomials6) p, Real kernel_f, Real side)
 {
+    // Derivatives of the recurrence: P_2' = 2 u - shift2, P_3' = P_2 + v P_2' - ratio, P_3'' / 2 = P_2' + v with v = u - shift3.
     Real slope2 = Real(2) * p.p1 - h.shift2;
     Real v = p.p1 - h.shift3;
     Real slope3 = (p.p2 + v * slope2) - h.ratio;
     Real q2 = p.p2 * h.inverse2;
     Real q3 = p.p3 * h.inverse3;
-    Real k1 = p.p1 * h.inverse1 + (slope2 * q2 + slope3 * q3);
-    Real k2 = q2 + (slope2 + v) * q3;
-    Real t = cubic_largest_root(kernel_f, side * k1, k2, side * q3);
-    return side / gnomon_max(Real(0.0009765625), t);
+    GNOMON_T(hamburger6_cubic) r;
+    r.a = kernel_f;
+    r.b = side * (p.p1 * h.inverse1 + (slope2 * q2 + slope3 * q3));
+    r.c = q2 + (slope2 + v) * q3;
+    r.d = side * q3;
+    return r;
+}
+
+/// 1 / t, where a node that runs to infinity stops 1024 from z_f: it has no weight there.
+GNOMON_KERNEL Real hamburger6_distance(Real t)
+{
+    Real least = Real(0.0009765625);
+    Real away = gnomon_select(t < Real(0), gnomon_min(t, -least), gnomon_max(t, least));
+    return Real(1) / away;
 }
 
 /// Both bounds and the weight of the receiver. z_f in [-1, 1], clamped. A NaN anywhere gives 0, lit.
@@ -62,7 +84,8 @@ GNOMON_KERNEL GNOMON_T(hamburger_bounds) hamburger6_bounds(GNOMON_T(hankel6) h, 
     GNOMON_MASK all_above = (!positive1) && positive2 && (!positive3);
     // P_3 > 0: an even number of nodes above z_f, so two, and the lone one is below; else it is above.
     Real side = gnomon_select(positive3, Real(-1), Real(1));
-    Real x = p.p1 + hamburger6_lone_root(h, p, kernel_f, side);
+    GNOMON_T(hamburger6_cubic) n = hamburger6_other_nodes(h, p, kernel_f, side);
+    Real x = p.p1 + side * hamburger6_distance(cubic_largest_root(n.a, n.b, n.c, n.d));
     Real w = Real(1) / hamburger6_kernel(h, hamburger6_polynomials(h, x));
     Real between = gnomon_select(positive3, w, (Real(1) - w_f) - w);
     GNOMON_T(hamburger_bounds) r;
@@ -76,6 +99,47 @@ GNOMON_KERNEL GNOMON_T(hamburger_bounds) hamburger6_bounds(GNOMON_T(hankel6) h, 
 GNOMON_KERNEL Real hamburger6_lower(GNOMON_T(hankel6) h, Real z_f)
 {
     return hamburger6_bounds(h, z_f).lower;
+}
+
+/// The canonical distribution with a node at z_f. Depths are finite and within 1026 of it: a node that runs to infinity has no
+/// weight. A NaN anywhere gives a single depth at the far plane.
+GNOMON_KERNEL GNOMON_T(distribution4) hamburger6_distribution(GNOMON_T(hankel6) h, Real z_f)
+{
+    GNOMON_T(polynomials6) p = hamburger6_polynomials(h, clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean);
+    Real kernel_f = hamburger6_kernel(h, p);
+    Real side = gnomon_select(p.p3 > Real(0), Real(-1), Real(1));
+    GNOMON_T(hamburger6_cubic) n = hamburger6_other_nodes(h, p, kernel_f, side);
+    // The largest root, then the other two from the quadratic that division by it leaves, polished on the cubic.
+    Real t1 = cubic_largest_root(n.a, n.b, n.c, n.d);
+    Real b = Real(0.5) * (n.b + n.a * t1);
+    Real c = n.c + t1 * (Real(2) * b);
+    GNOMON_T(quadratic_result) q = quadratic_roots(n.a, b, c);
+    Real t2 = cubic_halley(n.a, n.b, n.c, n.d, q.first);
+    Real t3 = cubic_halley(n.a, n.b, n.c, n.d, q.second);
+    Real x1 = p.p1 + side * hamburger6_distance(t1);
+    Real x2 = p.p1 + side * hamburger6_distance(t2);
+    Real x3 = p.p1 + side * hamburger6_distance(t3);
+    Real low = gnomon_min(x2, x3);
+    Real high = gnomon_max(x2, x3);
+    Real y1 = gnomon_min(x1, low);
+    Real y2 = gnomon_max(gnomon_min(x1, high), low);
+    Real y3 = gnomon_max(x1, high);
+    Real w0 = Real(1) / kernel_f;
+    Real w1 = Real(1) / hamburger6_kernel(h, hamburger6_polynomials(h, y1));
+    Real w2 = Real(1) / hamburger6_kernel(h, hamburger6_polynomials(h, y2));
+    Real w3 = Real(1) / hamburger6_kernel(h, hamburger6_polynomials(h, y3));
+    Real sum = (w0 + w1) + (w2 + w3);
+    GNOMON_MASK known = sum > Real(0); // false for NaN
+    GNOMON_T(distribution4) d;
+    d.depth0 = gnomon_select(known, h.mean + p.p1, Real(1));
+    d.depth1 = gnomon_select(known, h.mean + y1, Real(1));
+    d.depth2 = gnomon_select(known, h.mean + y2, Real(1));
+    d.depth3 = gnomon_select(known, h.mean + y3, Real(1));
+    d.weight1 = gnomon_select(known, w1 / sum, Real(0));
+    d.weight2 = gnomon_select(known, w2 / sum, Real(0));
+    d.weight3 = gnomon_select(known, w3 / sum, Real(0));
+    d.weight0 = saturate_or_zero(Real(1) - (d.weight1 + (d.weight2 + d.weight3)));
+    return d;
 }
 
 GNOMON_NAMESPACE_END

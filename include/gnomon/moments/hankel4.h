@@ -20,11 +20,12 @@ GNOMON_STRUCT hankel4 {
     Real mean, variance, covariance, determinant;
 };
 
-/// Guards the pivots: no variance or D_2 below the floor, so that indefinite moments still name a distribution.
+/// Guards the pivots: no variance or D_2 below the floor, so that indefinite moments still name a distribution. In this order of
+/// arguments a NaN least value gives way to the floor, and a NaN pivot stays one (portable.h).
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_guard(GNOMON_T(hankel4) h, Real least_variance, Real least_determinant)
 {
-    h.variance = gnomon_max(gnomon_max(GNOMON_PIVOT_FLOOR, least_variance), h.variance);
-    h.determinant = gnomon_max(gnomon_max(GNOMON_PIVOT_FLOOR * h.variance, least_determinant), h.determinant);
+    h.variance = gnomon_max(gnomon_max(least_variance, GNOMON_PIVOT_FLOOR), h.variance);
+    h.determinant = gnomon_max(gnomon_max(least_determinant, GNOMON_PIVOT_FLOOR * h.variance), h.determinant);
     return h;
 }
 

@@ -31,7 +31,7 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_factor(GNOMON_T(moments6) b, GNOMON_T(co
 {
     GNOMON_T(hankel6) h;
     Real least1 = Real(1) + Real(2) * gnomon_abs(b.b1);
-    Real d1 = gnomon_max(gnomon_max(GNOMON_PIVOT_FLOOR, noise * least1), c.c11.high + c.c11.low);
+    Real d1 = gnomon_max(gnomon_max(noise * least1, GNOMON_PIVOT_FLOOR), c.c11.high + c.c11.low);
     h.mean = b.b1;
     h.variance = d1;
     h.inverse1 = Real(1) / d1;
@@ -44,7 +44,7 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_factor(GNOMON_T(moments6) b, GNOMON_T(co
     GNOMON_T(double_word) s33 = double_word_minor(c.c11, c.c33, c.c13, c.c13);
     Real p0 = l21 * b.b1 - b.b2; // P_2 = z^2 - l21 z + p0
     Real least2 = (Real(1) + Real(2) * gnomon_abs(l21)) + (gnomon_abs(l21 * l21 + Real(2) * p0) + Real(2) * gnomon_abs(l21 * p0));
-    Real s = gnomon_max(gnomon_max(GNOMON_PIVOT_FLOOR, noise * least2) * d1, s22.high + s22.low);
+    Real s = gnomon_max(gnomon_max(noise * least2, GNOMON_PIVOT_FLOOR) * d1, s22.high + s22.low);
     Real inverse_s = Real(1) / s;
     Real l32 = (s23.high + s23.low) * inverse_s;
     h.ratio = s * (h.inverse1 * h.inverse1);
@@ -57,7 +57,7 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_factor(GNOMON_T(moments6) b, GNOMON_T(co
                   (gnomon_abs(q1 * q1 - Real(2) * (q0 * l32)) + Real(2) * gnomon_abs(q0 * q1));
     GNOMON_T(double_word) t = double_word_minor(s22, s33, s23, s23);
     Real d1s = d1 * s;
-    h.inverse3 = d1s / gnomon_max(gnomon_max(GNOMON_PIVOT_FLOOR, noise * least3) * d1s, t.high + t.low);
+    h.inverse3 = d1s / gnomon_max(gnomon_max(noise * least3, GNOMON_PIVOT_FLOOR) * d1s, t.high + t.low);
     return h;
 }
 

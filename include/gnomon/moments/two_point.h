@@ -1,0 +1,48 @@
+// A depth distribution of two depths from three moments: Algorithm 2 of Peters et al. 2017 (5.2, appendix B), which is Algorithm 1
+// with the prescribed depth at infinity. In the scan the algorithm lost its minus signs; derived anew around the mean m = b1:
+// with V = b2 - b1^2 and G = E[(z - m)^3] / V the depths are the roots of x^2 - G x - V, x = z - m, on either side of the mean, and
+// w1 x1 + w2 x2 = 0 gives the weights. The roots have opposite signs, so nothing cancels once V and G are had.
+#ifndef GNOMON_MOMENTS_TWO_POINT_H
+#define GNOMON_MOMENTS_TWO_POINT_H
+#include "../numerics/select.h"
+#include "covariance.h"
+GNOMON_NAMESPACE_BEGIN
+
+/// Two depths, depth1 <= depth2, and their weights, in [0, 1] with sum 1.
+GNOMON_STRUCT distribution2 {
+    Real depth1, depth2, weight1, weight2;
+};
+
+GNOMON_CONSTANT(two_point_least_variance, 1.1920928955078125e-7); // 2^-23
+
+/// The distribution with moments b1, b2, b3 of depths in [-1, 1]. Where the variance is not above least_variance, the most that
+/// rounding makes of none (two_point_least_variance for moments stored as floats), a single depth b1: the algorithm's domain ends
+/// there. For moments of no distribution on [-1, 1] depths may lie outside, within 2^13 of the mean; a NaN gives a single depth at
+/// the far plane.
+GNOMON_KERNEL GNOMON_T(distribution2) two_point_distribution(Real b1, Real b2, Real b3, GNOMON_SETTING least_variance)
+{
+    GNOMON_T(double_word) v = subtract_product(b2, b1, b1);
+    GNOMON_T(double_word) c = subtract_product(b3, b1, b2);
+    Real mean = clamp_or_nan(b1, Real(-1), Real(1));
+    Real variance = v.high + v.low;
+    GNOMON_MASK single = !(variance > gnomon_max(least_variance, GNOMON_PIVOT_FLOOR));
+    Real g = clamp_or_nan((c.high + c.low) / variance - Real(2) * mean, Real(-4096), Real(4096));
+    Real root = Real(0.5) * (gnomon_abs(g) + gnomon_sqrt(g * g + Real(4) * variance));
+    Real far_side = gnomon_select(g < Real(0), -root, root);
+    Real near_side = -variance / far_side;
+    Real x1 = gnomon_min(far_side, near_side);
+    Real x2 = gnomon_max(far_side, near_side);
+    Real any_nan = variance + (c.high + c.low);
+    GNOMON_MASK known = any_nan == any_nan;
+    GNOMON_MASK two = known && (!single) && (x2 - x1 > Real(0)) && (x2 - x1 < Real(16384));
+    Real centre = gnomon_select(known, mean, Real(1));
+    GNOMON_T(distribution2) d;
+    d.depth1 = gnomon_select(two, mean + x1, centre);
+    d.depth2 = gnomon_select(two, mean + x2, centre);
+    d.weight2 = gnomon_select(two, saturate_or_zero(-x1 / (x2 - x1)), Real(0));
+    d.weight1 = Real(1) - d.weight2;
+    return d;
+}
+
+GNOMON_NAMESPACE_END
+#endif
