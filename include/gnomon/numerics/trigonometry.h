@@ -1,0 +1,154 @@
+// Cosine, sine and the angle of a vector with the same bits in every language.
+// Reduction to |r| <= pi / 4 with pi / 2 in three parts, each of so few bits that its multiples are exact (Cody & Waite
+// 1980), then a minimax polynomial: a short one for float, a long one for double. tests/derivations/minimax.cpp prints
+// both.
+#ifndef GNOMON_NUMERICS_TRIGONOMETRY_H
+#define GNOMON_NUMERICS_TRIGONOMETRY_H
+#include "round.h"
+#include "select.h"
+GNOMON_NAMESPACE_BEGIN
+
+GNOMON_CONSTANT(trigonometry_two_over_pi, 0.63661977236758134);
+GNOMON_CONSTANT(trigonometry_half_pi_low, 7.5497899548918821e-8);
+GNOMON_CONSTANT(trigonometry_pi, 3.1415926535897932);
+GNOMON_CONSTANT(trigonometry_half_pi, 1.5707963267948966);
+GNOMON_CONSTANT(trigonometry_quarter_pi, 0.78539816339744831);
+GNOMON_CONSTANT(trigonometry_tan_pi_8, 0.41421356237309505);
+
+// sin y = y + y^3 p(y^2), |y| <= pi / 4: relative error 2^-28.0 and 2^-57.9.
+GNOMON_CONSTANT(sin_float_0, -0.16666654609567105);
+GNOMON_CONSTANT(sin_float_1, 0.0083321607625195058);
+GNOMON_CONSTANT(sin_float_2, -0.00019515283258365583);
+GNOMON_CONSTANT(sin_double_0, -0.1666666666666663);
+GNOMON_CONSTANT(sin_double_1, 0.0083333333333221182);
+GNOMON_CONSTANT(sin_double_2, -0.00019841269829589566);
+GNOMON_CONSTANT(sin_double_3, 2.7557313621395315e-06);
+GNOMON_CONSTANT(sin_double_4, -2.5050747764366045e-08);
+GNOMON_CONSTANT(sin_double_5, 1.5896230244963151e-10);
+
+// cos y = 1 - y^2 / 2 + y^4 p(y^2), |y| <= pi / 4: relative error 2^-33.0 and 2^-64.0.
+GNOMON_CONSTANT(cos_float_0, 0.041666645683017541);
+GNOMON_CONSTANT(cos_float_1, -0.0013887316256332952);
+GNOMON_CONSTANT(cos_float_2, 2.4433157272163749e-05);
+GNOMON_CONSTANT(cos_double_0, 0.041666666666666595);
+GNOMON_CONSTANT(cos_double_1, -0.0013888888888873056);
+GNOMON_CONSTANT(cos_double_2, 2.4801587288851717e-05);
+GNOMON_CONSTANT(cos_double_3, -2.7557314179299329e-07);
+GNOMON_CONSTANT(cos_double_4, 2.0875700842250843e-09);
+GNOMON_CONSTANT(cos_double_5, -1.135853653338706e-11);
+
+// arctan y = y + y^3 p(y^2), |y| <= tan(pi / 8): relative error 2^-30.5 and 2^-59.4.
+GNOMON_CONSTANT(atan_float_0, -0.33333315189495832);
+GNOMON_CONSTANT(atan_float_1, 0.19998471559801789);
+GNOMON_CONSTANT(atan_float_2, -0.14243534037509495);
+GNOMON_CONSTANT(atan_float_3, 0.10593818186484773);
+GNOMON_CONSTANT(atan_float_4, -0.060782316918251741);
+GNOMON_CONSTANT(atan_double_0, -0.33333333333333198);
+GNOMON_CONSTANT(atan_double_1, 0.19999999999953252);
+GNOMON_CONSTANT(atan_double_2, -0.14285714280167142);
+GNOMON_CONSTANT(atan_double_3, 0.11111110782181728);
+GNOMON_CONSTANT(atan_double_4, -0.090908977259565496);
+GNOMON_CONSTANT(atan_double_5, 0.076920597289759696);
+GNOMON_CONSTANT(atan_double_6, -0.066630993254100657);
+GNOMON_CONSTANT(atan_double_7, 0.05847860099229632);
+GNOMON_CONSTANT(atan_double_8, -0.050391939209447408);
+GNOMON_CONSTANT(atan_double_9, 0.038062223780711196);
+GNOMON_CONSTANT(atan_double_10, -0.017905126733869233);
+
+/// cos x and sin x.
+GNOMON_STRUCT cosine_sine { Real cosine, sine; };
+
+/// cos x and sin x. Valid range: |x| <= 8192; beyond an end the values there, so both are always in [-1, 1] up to the
+/// error; a NaN gives two NaNs. Max error: 1.5 ulp for |x| <= pi / 4; elsewhere 1.75 2^-p, p the bits of the
+/// significand.
+GNOMON_KERNEL GNOMON_T(cosine_sine) polynomial_cosine_sine(Real x)
+{
+    x = clamp_or_nan(x, Real(-8192), Real(8192));
+    Real n = nearest_integer(x * GNOMON_LITERAL(trigonometry_two_over_pi));
+    Real y =
+        ((x - n * Real(1.5703125)) - n * Real(0.0004837512969970703125)) - n * GNOMON_LITERAL(trigonometry_half_pi_low);
+    Real z = y * y;
+    Real s = GNOMON_LITERAL(sin_float_2);
+    Real c = GNOMON_LITERAL(cos_float_2);
+    if (GNOMON_DIGITS > 24) {
+        s = GNOMON_LITERAL(sin_double_5);
+        s = s * z + GNOMON_LITERAL(sin_double_4);
+        s = s * z + GNOMON_LITERAL(sin_double_3);
+        s = s * z + GNOMON_LITERAL(sin_double_2);
+        s = s * z + GNOMON_LITERAL(sin_double_1);
+        s = s * z + GNOMON_LITERAL(sin_double_0);
+        c = GNOMON_LITERAL(cos_double_5);
+        c = c * z + GNOMON_LITERAL(cos_double_4);
+        c = c * z + GNOMON_LITERAL(cos_double_3);
+        c = c * z + GNOMON_LITERAL(cos_double_2);
+        c = c * z + GNOMON_LITERAL(cos_double_1);
+        c = c * z + GNOMON_LITERAL(cos_double_0);
+    } else {
+        s = s * z + GNOMON_LITERAL(sin_float_1);
+        s = s * z + GNOMON_LITERAL(sin_float_0);
+        c = c * z + GNOMON_LITERAL(cos_float_1);
+        c = c * z + GNOMON_LITERAL(cos_float_0);
+    }
+    s = y + y * z * s;
+    c = (Real(1) - Real(0.5) * z) + z * z * c;
+
+    // x = y + m pi / 2 with m in {-2, ..., 2}, up to full turns.
+    Real m = n - Real(4) * nearest_integer(Real(0.25) * n);
+    GNOMON_MASK odd = gnomon_abs(m) == Real(1);
+    GNOMON_MASK opposite = gnomon_abs(m) == Real(2);
+    GNOMON_T(cosine_sine) r;
+    r.cosine = gnomon_select(odd, -m * s, gnomon_select(opposite, -c, c));
+    r.sine = gnomon_select(odd, m * c, gnomon_select(opposite, -s, s));
+    return r;
+}
+
+/// cos x: domain and error as for polynomial_cosine_sine.
+GNOMON_KERNEL Real polynomial_cos(Real x) { return polynomial_cosine_sine(x).cosine; }
+
+/// sin x: domain and error as for polynomial_cosine_sine.
+GNOMON_KERNEL Real polynomial_sin(Real x) { return polynomial_cosine_sine(x).sine; }
+
+/// The angle of the vector (x, y) in [-pi, pi]; 0 for the zero vector; the sign of a zero counts as positive.
+/// Domain: coordinates whose sum is finite, one of them may be infinite; a NaN, or two infinities, give a NaN.
+/// Max error: 2.5 ulp, down to results that are denormal.
+GNOMON_KERNEL Real polynomial_atan2(Real y, Real x)
+{
+    Real ax = gnomon_abs(x);
+    Real ay = gnomon_abs(y);
+    GNOMON_MASK steep = ax < ay;
+    Real shorter = gnomon_select(steep, ax, ay);
+    Real longer = gnomon_select(steep, ay, ax);
+
+    // arctan q = pi / 4 + arctan((q - 1) / (q + 1)) above tan(pi / 8).
+    GNOMON_MASK wide = GNOMON_LITERAL(trigonometry_tan_pi_8) * longer < shorter;
+    Real denominator = gnomon_select(wide, longer + shorter, gnomon_select(longer == Real(0), Real(1), longer));
+    Real t = gnomon_select(wide, shorter - longer, shorter) / denominator;
+    Real z = t * t;
+    Real p = GNOMON_LITERAL(atan_float_4);
+    if (GNOMON_DIGITS > 24) {
+        p = GNOMON_LITERAL(atan_double_10);
+        p = p * z + GNOMON_LITERAL(atan_double_9);
+        p = p * z + GNOMON_LITERAL(atan_double_8);
+        p = p * z + GNOMON_LITERAL(atan_double_7);
+        p = p * z + GNOMON_LITERAL(atan_double_6);
+        p = p * z + GNOMON_LITERAL(atan_double_5);
+        p = p * z + GNOMON_LITERAL(atan_double_4);
+        p = p * z + GNOMON_LITERAL(atan_double_3);
+        p = p * z + GNOMON_LITERAL(atan_double_2);
+        p = p * z + GNOMON_LITERAL(atan_double_1);
+        p = p * z + GNOMON_LITERAL(atan_double_0);
+    } else {
+        p = p * z + GNOMON_LITERAL(atan_float_3);
+        p = p * z + GNOMON_LITERAL(atan_float_2);
+        p = p * z + GNOMON_LITERAL(atan_float_1);
+        p = p * z + GNOMON_LITERAL(atan_float_0);
+    }
+    Real angle = t + t * z * p;
+    angle = gnomon_select(wide, GNOMON_LITERAL(trigonometry_quarter_pi) + angle, angle);
+    angle = gnomon_select(steep, GNOMON_LITERAL(trigonometry_half_pi) - angle, angle);
+    angle = gnomon_select(x < Real(0), GNOMON_LITERAL(trigonometry_pi) - angle, angle);
+    return gnomon_select(y < Real(0), -angle, angle);
+}
+
+GNOMON_NAMESPACE_END
+#endif
