@@ -1,0 +1,122 @@
+// Algorithm 1 of Peters et al. 2017 as the paper has it, for four and for six moments: the comparator that hamburger4.h and
+// hamburger6.h are measured against, not a route to use. Both take moments that are biased already (bias.h: moments4_biased,
+// moments6_biased), and both keep the paper's steps:
+//     2  solve B q = (1, z_f, ..., z_f^(m/2)) by the square-root-free Cholesky decomposition B = L D L^T (5.4.1)
+//     3  the other depths are the roots of q_0 + q_1 z + ...: a quadratic, or a cubic in closed form after Blinn 2007 (5.4.1)
+//     4  the weights solve a Vandermonde system; their sum below z_f is E[u(z)] for the polynomial u that is 1 at the depths
+//        below z_f and 0 at the others (5.4.2)
+// Only the result is made total: moments on the boundary of the valid ones, a single depth say, give 0 = lit, whatever is right.
+#ifndef GNOMON_MOMENTS_HAMBURGER_CHOLESKY_H
+#define GNOMON_MOMENTS_HAMBURGER_CHOLESKY_H
+#include "../numerics/select.h"
+#include "../numerics/trigonometry.h"
+#include "moments.h"
+GNOMON_NAMESPACE_BEGIN
+
+GNOMON_CONSTANT(hamburger_cholesky_third, 0.33333333333333333);
+GNOMON_CONSTANT(hamburger_cholesky_sqrt3, 1.7320508075688773);
+
+/// Lower bound on the shadow intensity at z_f from four biased moments; in [0, 1], but without accuracy where the Hankel matrix is
+/// singular or indefinite in the precision of Real. Four divisions, one root.
+GNOMON_KERNEL Real hamburger4_cholesky_intensity(GNOMON_T(moments4) b, Real z_f)
+{
+    Real inverse1 = Real(1) / (b.b2 - b.b1 * b.b1);
+    Real c12 = b.b3 - b.b1 * b.b2;
+    Real l21 = c12 * inverse1;
+    Real d2 = (b.b4 - b.b2 * b.b2) - l21 * c12;
+
+    Real y1 = z_f - b.b1;
+    Real q2 = ((z_f * z_f - b.b2) - l21 * y1) / d2;
+    Real q1 = y1 * inverse1 - l21 * q2;
+    Real q0 = Real(1) - (q1 * b.b1 + q2 * b.b2);
+
+    Real inverse_q2 = Real(1) / q2;
+    Real centre = Real(-0.5) * (q1 * inverse_q2);
+    Real r = gnomon_sqrt(centre * centre - q0 * inverse_q2);
+    Real z1 = centre - r;
+    Real z2 = centre + r;
+
+    // Two depths below: all but the weight of z_f. One below: its weight. By Cramer's rule, E[(z - o) (z - z2)] / ((n - o) (n - z2)).
+    GNOMON_MASK both = z2 < z_f;
+    Real node = gnomon_select(both, z_f, z1);
+    Real other = gnomon_select(both, z1, z_f);
+    Real w = (b.b2 - b.b1 * (other + z2) + other * z2) / ((node - other) * (node - z2));
+    return saturate_or_zero(gnomon_select(both, Real(1) - w, gnomon_select(z1 < z_f, w, Real(0))));
+}
+
+/// The three real roots of a cubic, in no order.
+GNOMON_STRUCT cubic_roots {
+    Real z1, z2, z3;
+};
+
+/// The roots of z^3 + c2 z^2 + c1 z + c0, three real ones; NaN where two are complex. One of the two branches of Blinn 2007, "How to
+/// solve a cubic equation, part 5", as the paper advises.
+GNOMON_KERNEL GNOMON_T(cubic_roots) cubic_roots_blinn(Real c2, Real c1, Real c0)
+{
+    Real b = c2 * GNOMON_LITERAL(hamburger_cholesky_third);
+    Real c = c1 * GNOMON_LITERAL(hamburger_cholesky_third);
+    Real hessian1 = c - b * b;
+    Real hessian2 = c0 - b * c;
+    Real hessian3 = b * c0 - c * c;
+    Real discriminant = Real(4) * hessian1 * hessian3 - hessian2 * hessian2;
+    // Depressed: x^3 + 3 hessian1 x + d with x = z + b.
+    Real d = hessian2 - Real(2) * b * hessian1;
+    GNOMON_T(cosine_sine) t =
+        polynomial_cosine_sine(polynomial_atan2(gnomon_sqrt(discriminant), -d) * GNOMON_LITERAL(hamburger_cholesky_third));
+    Real radius = gnomon_sqrt(-hessian1);
+    Real half_cosine = radius * t.cosine;
+    Real half_sine = radius * t.sine * GNOMON_LITERAL(hamburger_cholesky_sqrt3);
+    GNOMON_T(cubic_roots) roots;
+    roots.z1 = Real(2) * half_cosine - b;
+    roots.z2 = (half_sine - half_cosine) - b;
+    roots.z3 = (-half_sine - half_cosine) - b;
+    return roots;
+}
+
+/// Lower bound on the shadow intensity at z_f from six biased moments; in [0, 1], but without accuracy where the Hankel matrix is
+/// singular or indefinite in the precision of Real. Eleven divisions, two roots, an arc tangent, a cosine and a sine.
+GNOMON_KERNEL Real hamburger6_cholesky_intensity(GNOMON_T(moments6) b, Real z_f)
+{
+    Real inverse1 = Real(1) / (b.b2 - b.b1 * b.b1);
+    Real c12 = b.b3 - b.b1 * b.b2;
+    Real c13 = b.b4 - b.b1 * b.b3;
+    Real l21 = c12 * inverse1;
+    Real l31 = c13 * inverse1;
+    Real inverse2 = Real(1) / ((b.b4 - b.b2 * b.b2) - l21 * c12);
+    Real c23 = (b.b5 - b.b2 * b.b3) - l21 * c13;
+    Real l32 = c23 * inverse2;
+    Real d3 = ((b.b6 - b.b3 * b.b3) - l31 * c13) - l32 * c23;
+
+    Real z_f2 = z_f * z_f;
+    Real y1 = z_f - b.b1;
+    Real y2 = (z_f2 - b.b2) - l21 * y1;
+    Real y3 = ((z_f2 * z_f - b.b3) - l31 * y1) - l32 * y2;
+    Real q3 = y3 / d3;
+    Real q2 = y2 * inverse2 - l32 * q3;
+    Real q1 = y1 * inverse1 - (l21 * q2 + l31 * q3);
+    Real q0 = Real(1) - (q1 * b.b1 + q2 * b.b2 + q3 * b.b3);
+
+    Real inverse_q3 = Real(1) / q3;
+    GNOMON_T(cubic_roots) z = cubic_roots_blinn(q2 * inverse_q3, q1 * inverse_q3, q0 * inverse_q3);
+
+    // The Newton form of u by divided differences, then its coefficients, and E[u(z)].
+    Real v1 = gnomon_select(z.z1 < z_f, Real(1), Real(0));
+    Real v2 = gnomon_select(z.z2 < z_f, Real(1), Real(0));
+    Real v3 = gnomon_select(z.z3 < z_f, Real(1), Real(0));
+    Real v01 = v1 / (z.z1 - z_f);
+    Real v12 = (v2 - v1) / (z.z2 - z.z1);
+    Real v23 = (v3 - v2) / (z.z3 - z.z2);
+    Real v012 = (v12 - v01) / (z.z2 - z_f);
+    Real v123 = (v23 - v12) / (z.z3 - z.z1);
+    Real v0123 = (v123 - v012) / (z.z3 - z_f);
+    // (z - z_f) (v01 + (z - z1) (v012 + (z - z2) v0123)), multiplied out from the inside.
+    Real s0 = v012 - v0123 * z.z2;
+    Real t1 = s0 - v0123 * z.z1;
+    Real t0 = v01 - s0 * z.z1;
+    Real u2 = t1 - v0123 * z_f;
+    Real u1 = t0 - t1 * z_f;
+    return saturate_or_zero(((v0123 * b.b3 + u2 * b.b2) + u1 * b.b1) - t0 * z_f);
+}
+
+GNOMON_NAMESPACE_END
+#endif
