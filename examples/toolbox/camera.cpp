@@ -39,8 +39,12 @@ bounds around(points seen)
     return result;
 }
 
-// Never zero, so that a single point can be looked at too.
-double diagonal(const bounds& seen) { return std::max(glm::length(glm::dvec3(seen.extent())), 1e-30); }
+// The size of a view: that of the bounds, but not so small that rounding of the coordinates would count.
+double diagonal(const bounds& seen)
+{
+    const glm::vec3 farthest = glm::max(glm::abs(seen.lower), glm::abs(seen.upper));
+    return std::max({glm::length(glm::dvec3(seen.extent())), margin * glm::length(glm::dvec3(farthest)), 1e-30});
+}
 
 // Puts the near and far plane around the points; in perspective a near plane stays in front of the camera.
 void set_planes(camera& eye, points seen)
