@@ -1,6 +1,7 @@
 // Depth distributions that provoke moment methods, for tests and benches: 13 families, drawn from a seed.
-// They cover what a filter region sees (one to five surfaces, a filtered plane, clamped depths) and what breaks arithmetic
-// (coincident depths, vanishing weights). No family is meant to be likely; figures over them compare methods.
+// They cover what a filter region sees (one to five surfaces, a filtered plane, clamped depths) and what breaks
+// arithmetic (coincident depths, vanishing weights). No family is meant to be likely; figures over them compare
+// methods.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace gnomon::testing {
+namespace gnomon::test {
 
 /// A discrete distribution of signed depth: weights sum to 1 up to rounding.
 struct distribution {
@@ -41,17 +42,25 @@ enum class family {
     plane,
 };
 inline constexpr int family_count = 13;
-inline constexpr std::array<std::string_view, family_count> family_names = {
-    "one point",    "one point at an end",    "two points",                  "two near points",
-    "both ends",    "three points",           "three points, one at an end", "three points, two near",
-    "four points",  "five points",            "five points, one faint",      "81 points",
-    "9x9 plane"};
+inline constexpr std::array<std::string_view, family_count> family_names = {"one point",
+                                                                            "one point at an end",
+                                                                            "two points",
+                                                                            "two near points",
+                                                                            "both ends",
+                                                                            "three points",
+                                                                            "three points, one at an end",
+                                                                            "three points, two near",
+                                                                            "four points",
+                                                                            "five points",
+                                                                            "five points, one faint",
+                                                                            "81 points",
+                                                                            "9x9 plane"};
 
 /// Fewest distinct depths that the family draws: with more than m / 2 of them the bounds are smooth in the moments.
 inline constexpr std::array<int, family_count> family_points = {1, 1, 2, 2, 2, 3, 3, 3, 4, 5, 5, 81, 9};
 
 class distribution_source {
-public:
+  public:
     explicit distribution_source(std::uint64_t seed) : random_(seed) {}
 
     double uniform(double a, double b) { return std::uniform_real_distribution<double>(a, b)(random_); }
@@ -61,24 +70,36 @@ public:
     distribution draw(family f)
     {
         switch (f) {
-        case family::one_point: return points(1);
-        case family::one_point_at_end: return weighted({sign()});
-        case family::two_points: return points(2);
-        case family::two_points_near: return near_pair(2);
-        case family::two_points_at_ends: return weighted({-1.0, 1.0});
-        case family::three_points: return points(3);
-        case family::three_points_with_end: return weighted({uniform(-1, 1), uniform(-1, 1), sign()});
-        case family::three_points_two_near: return near_pair(3);
-        case family::four_points: return points(4);
-        case family::five_points: return points(5);
-        case family::five_points_tiny_weight: {
-            distribution d = points(5);
-            d.weights[0] = log_uniform(1e-6, 1e-2);
-            normalise(d);
-            return d;
-        }
-        case family::many_points: return points(81);
-        case family::plane: return plane();
+            case family::one_point:
+                return points(1);
+            case family::one_point_at_end:
+                return weighted({sign()});
+            case family::two_points:
+                return points(2);
+            case family::two_points_near:
+                return near_pair(2);
+            case family::two_points_at_ends:
+                return weighted({-1.0, 1.0});
+            case family::three_points:
+                return points(3);
+            case family::three_points_with_end:
+                return weighted({uniform(-1, 1), uniform(-1, 1), sign()});
+            case family::three_points_two_near:
+                return near_pair(3);
+            case family::four_points:
+                return points(4);
+            case family::five_points:
+                return points(5);
+            case family::five_points_tiny_weight: {
+                distribution d = points(5);
+                d.weights[0] = log_uniform(1e-6, 1e-2);
+                normalise(d);
+                return d;
+            }
+            case family::many_points:
+                return points(81);
+            case family::plane:
+                return plane();
         }
         return points(1);
     }
@@ -93,7 +114,7 @@ public:
         return std::clamp(z + sign() * log_uniform(1e-7, 1e-1), -1.0, 1.0);
     }
 
-private:
+  private:
     distribution weighted(std::vector<double> depths)
     {
         distribution d{std::move(depths), {}};
@@ -136,4 +157,4 @@ private:
     std::mt19937_64 random_;
 };
 
-} // namespace gnomon::testing
+} // namespace gnomon::test

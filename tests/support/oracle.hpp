@@ -1,5 +1,5 @@
-// The moment problem in 120 digits, by Algorithm 1 of Peters et al. 2017 as it stands (Hankel system, roots, Vandermonde system):
-// a route that shares nothing with the kernels. For m = 4 and m = 6.
+// The moment problem in 120 digits, by Algorithm 1 of Peters et al. 2017 as it stands (Hankel system, roots,
+// Vandermonde system): a route that shares nothing with the kernels. For m = 4 and m = 6.
 #pragma once
 
 #include "distributions.hpp"
@@ -9,7 +9,7 @@
 #include <array>
 #include <cstddef>
 
-namespace gnomon::testing {
+namespace gnomon::test {
 
 using high = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<120>, boost::multiprecision::et_off>;
 
@@ -31,7 +31,8 @@ template <std::size_t m> high_moments<m> exact_moments(const distribution& d)
 /// (1 - alpha) b + alpha b*, where b* has the given even moments and no odd ones.
 template <std::size_t m> high_moments<m> biased(high_moments<m> b, const std::array<double, m / 2>& even, double alpha)
 {
-    for (std::size_t j = 1; j <= m; ++j) b[j] = (1 - high(alpha)) * b[j] + (j % 2 == 0 ? alpha * high(even[j / 2 - 1]) : high(0));
+    for (std::size_t j = 1; j <= m; ++j)
+        b[j] = (1 - high(alpha)) * b[j] + (j % 2 == 0 ? alpha * high(even[j / 2 - 1]) : high(0));
     return b;
 }
 
@@ -146,12 +147,13 @@ template <std::size_t m> oracle_result<m> oracle(const high_moments<m>& b, doubl
     return r;
 }
 
-/// The sharp lower bound for the distribution itself, without storage or bias: what leaking is measured against. Where the
-/// moments determine the distribution, which they do for up to m / 2 depths, that is the distribution's own Z(z < z_f).
+/// The sharp lower bound for the distribution itself, without storage or bias: what leaking is measured against. Where
+/// the moments determine the distribution, which they do for up to m / 2 depths, that is the distribution's own Z(z <
+/// z_f).
 template <std::size_t m> double ideal_lower(const distribution& d, double z_f)
 {
     const auto r = oracle<m>(exact_moments<m>(d), z_f);
     return r.valid ? double(r.lower) : d.below(z_f);
 }
 
-} // namespace gnomon::testing
+} // namespace gnomon::test

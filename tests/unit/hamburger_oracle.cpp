@@ -1,0 +1,158 @@
+// The error rows of hamburger4.h and hamburger6.h: both bounds against the moment problem solved in 120 digits, over
+// all families of distributions, with receivers on, near and between their depths. What no mixture describes, raised
+// pivots, is held against the kernel in double, which the first rows vouch for.
+#include "../support/distributions.hpp"
+#include "../support/effort.hpp"
+#include "../support/oracle.hpp"
+#include "../support/statistics.hpp"
+
+#include <gnomon/moments/hamburger4.h>
+#include <gnomon/moments/hamburger6.h>
+#include <gnomon/moments/stored.h>
+#include <gnomon/numerics/unorm.hpp>
+
+#include <doctest/doctest.h>
+
+#include <optional>
+#include <string>
+
+using namespace gnomon;
+using namespace gnomon::test;
+
+namespace {
+
+struct bounds {
+    double lower, upper;
+};
+
+template <class T> moments4<T> rounded(const high_moments<4>& b) { return {T(b[1]), T(b[2]), T(b[3]), T(b[4])}; }
+template <class T> moments6<T> rounded(const high_moments<6>& b)
+{
+    return {T(b[1]), T(b[2]), T(b[3]), T(b[4]), T(b[5]), T(b[6])};
+}
+template <class T> high_moments<4> exactly(const moments4<T>& b) { return {1, b.b1, b.b2, b.b3, b.b4}; }
+template <class T> high_moments<6> exactly(const moments6<T>& b) { return {1, b.b1, b.b2, b.b3, b.b4, b.b5, b.b6}; }
+template <class To, class T> moments4<To> as(const moments4<T>& b) { return {To(b.b1), To(b.b2), To(b.b3), To(b.b4)}; }
+template <class To, class T> moments6<To> as(const moments6<T>& b)
+{
+    return {To(b.b1), To(b.b2), To(b.b3), To(b.b4), To(b.b5), To(b.b6)};
+}
+
+template <class T> bounds bounds_at(const hankel4<T>& h, T z_f)
+{
+    const hamburger_bounds<T> r = hamburger4_bounds(h, z_f);
+    CHECK(r.lower == hamburger4_lower(h, z_f));
+    return {double(r.lower), double(r.upper)};
+}
+template <class T> bounds bounds_at(const hankel6<T>& h, T z_f)
+{
+    const hamburger_bounds<T> r = hamburger6_bounds(h, z_f);
+    CHECK(r.lower == hamburger6_lower(h, z_f));
+    return {double(r.lower), double(r.upper)};
+}
+
+/// The 120-digit solution for (1 - alpha) b + alpha b*; none where b, rounded, is indefinite.
+template <std::size_t m> auto solved(const std::array<double, m / 2>& bias, double alpha)
+{
+    return [=](const auto& b, auto z_f) -> std::optional<bounds> {
+        const auto r = oracle<m>(biased<m>(exactly(b), bias, alpha), double(z_f));
+        if (!r.valid) return {};
+        return bounds{double(r.lower), double(r.upper)};
+    };
+}
+
+/// The same kernel, instantiated for double.
+template <class Factor> auto in_double(Factor factor)
+{
+    return [=](const auto& b, auto z_f) { return std::optional(bounds_at(factor(as<double>(b)), double(z_f))); };
+}
+
+/// Compares over families with at least fewest_points depths; stored() maps rounded moments to what the format holds.
+template <class T, std::size_t m, class Stored, class Factor, class Reference>
+void check(const std::string& name, int fewest_points, Stored stored, Factor factor, Reference reference)
+{
+    error_sample sample;
+    distribution_source source(20170101);
+    for (int f = 0; f < family_count; ++f) {
+        if (family_points[std::size_t(f)] < fewest_points) continue;
+        for (std::int64_t i = 0; i < effort(2000); ++i) {
+            const distribution d = source.draw(family(f));
+            const auto b = stored(rounded<T>(exact_moments<m>(d)));
+            const T z_f = T(source.receiver(d));
+            const std::optional<bounds> exact = reference(b, z_f);
+            if (!exact) continue;
+            const bounds r = bounds_at(factor(b), z_f);
+            sample.add(std::max(std::abs(exact->lower - r.lower), std::abs(exact->upper - r.upper)));
+        }
+    }
+    const error_row measured{sample.quantile(0.99), sample.quantile(0.999), sample.quantile(1)};
+    const error_row stated = stated_error(m == 4 ? "moments/hamburger4.h" : "moments/hamburger6.h", name);
+    std::printf("%zu moments, %s: p99 %.2g, p99.9 %.2g, max %.2g of %zu\n", m, name.c_str(), measured.p99,
+                measured.p999, measured.maximum, sample.size());
+    CHECK(measured.p99 <= stated.p99);
+    CHECK(measured.p999 <= stated.p999);
+    CHECK(measured.maximum <= stated.maximum);
+}
+
+const auto as_they_are = [](const auto& b) { return b; };
+
+template <int bits> float snapped(float x) { return unorm_decode<bits>(unorm_encode<bits>(x)); }
+
+/// Channels of a UNORM texel with one surface's or one filter region's moments.
+template <int bits> moments4<float> texel(const moments4<float>& b)
+{
+    const moments4<float> c = theta4(b);
+    return {snapped<bits>(c.b1), snapped<bits>(c.b2), snapped<bits>(c.b3), snapped<bits>(c.b4)};
+}
+template <int bits> moments6<float> texel(const moments6<float>& b)
+{
+    const moments6<float> c = theta6(b);
+    return {snapped<bits>(c.b1), snapped<bits>(c.b2), snapped<bits>(c.b3),
+            snapped<bits>(c.b4), snapped<bits>(c.b5), snapped<bits>(c.b6)};
+}
+template <int bits> constexpr auto texels = [](const auto& b) { return texel<bits>(b); };
+
+} // namespace
+
+TEST_CASE("hamburger4, double, against 120 digits")
+{
+    const auto factor = [](auto b) { return hankel4_raised(b, 0); };
+    check<double, 4>("double, no bias, three depths and more", 3, as_they_are, factor, solved<4>({}, 0));
+}
+
+TEST_CASE("hamburger4, float, against 120 digits")
+{
+    const auto factor = [](auto b) { return hankel4_biased(b, 0.375f, 0.375f, 3e-7f); };
+    check<float, 4>("float, hankel4_biased at 3e-7", 1, as_they_are, factor, solved<4>({0.375, 0.375}, 3e-7f));
+}
+
+TEST_CASE("hamburger4, float, against double")
+{
+    const auto from_float = [](auto b) { return hankel4_from_float(b); };
+    const auto from_unorm16 = [](auto b) { return hankel4_from_unorm16(b); };
+    check<float, 4>("float, hankel4_from_float", 1, as_they_are, from_float, in_double(from_float));
+    check<float, 4>("float, hankel4_from_unorm16", 1, texels<16>, from_unorm16, in_double(from_unorm16));
+}
+
+TEST_CASE("hamburger6, double, against 120 digits")
+{
+    const auto factor = [](auto b) { return hankel6_raised(b, 0); };
+    check<double, 6>("double, no bias, four depths and more", 4, as_they_are, factor, solved<6>({}, 0));
+}
+
+TEST_CASE("hamburger6, float, against 120 digits")
+{
+    const float b2 = float(bias6_raw_b2), b4 = float(bias6_raw_b4), b6 = float(bias6_raw_b6);
+    const auto factor = [=](auto b) { return hankel6_biased(b, b2, b4, b6, 5e-6f); };
+    check<float, 6>("float, hankel6_biased at 5e-6", 1, as_they_are, factor, solved<6>({b2, b4, b6}, 5e-6f));
+}
+
+TEST_CASE("hamburger6, float, against double")
+{
+    const auto from_float = [](auto b) { return hankel6_from_float(b); };
+    const auto from_unorm16 = [](auto b) { return hankel6_from_unorm16(b); };
+    const auto from_unorm10 = [](auto b) { return hankel6_from_unorm10(b); };
+    check<float, 6>("float, hankel6_from_float", 1, as_they_are, from_float, in_double(from_float));
+    check<float, 6>("float, hankel6_from_unorm16", 1, texels<16>, from_unorm16, in_double(from_unorm16));
+    check<float, 6>("float, hankel6_from_unorm10", 1, texels<10>, from_unorm10, in_double(from_unorm10));
+}
