@@ -24,7 +24,7 @@
 
 #define GNOMON_NAMESPACE_BEGIN namespace gnomon {
 #define GNOMON_NAMESPACE_END }
-#define GNOMON_KERNEL template <class Real, class = gnomon::require_real<Real>> GNOMON_INLINE
+#define GNOMON_KERNEL template <class Real, class = gnomon::require_real<Real>> GNOMON_INLINE constexpr
 #define GNOMON_STRUCT template <class Real, class = gnomon::require_real<Real>> struct
 #define GNOMON_T(name) name<Real>
 #define GNOMON_MASK gnomon::mask_t<Real>
@@ -93,37 +93,37 @@ template <class T> constexpr bool fma_is_fused()
 }
 template <class T> inline constexpr bool is_fused = fma_is_fused<T>();
 
-template <class M, class T> GNOMON_INLINE T gnomon_select(M mask, T a, T b)
+template <class M, class T> GNOMON_INLINE constexpr T gnomon_select(M mask, T a, T b)
 {
     if constexpr (std::is_same_v<M, bool>) return mask ? a : b;
     else return select(mask, a, b);
 }
 
-template <class M> GNOMON_INLINE bool gnomon_any(M mask)
+template <class M> GNOMON_INLINE constexpr bool gnomon_any(M mask)
 {
     if constexpr (std::is_same_v<M, bool>) return mask;
     else return any(mask);
 }
 
-template <class T> GNOMON_INLINE T gnomon_min(T a, T b)
+template <class T> GNOMON_INLINE constexpr T gnomon_min(T a, T b)
 {
     if constexpr (requires { pack_operations<T>::min(a, b); }) return pack_operations<T>::min(a, b);
     else return gnomon_select(a < b, a, b);
 }
 
-template <class T> GNOMON_INLINE T gnomon_max(T a, T b)
+template <class T> GNOMON_INLINE constexpr T gnomon_max(T a, T b)
 {
     if constexpr (requires { pack_operations<T>::max(a, b); }) return pack_operations<T>::max(a, b);
     else return gnomon_select(b < a, a, b);
 }
 
-template <class T> GNOMON_INLINE T gnomon_abs(T a)
+template <class T> GNOMON_INLINE constexpr T gnomon_abs(T a)
 {
     using std::abs;
     return abs(a);
 }
 
-template <class T> GNOMON_INLINE T gnomon_sqrt(T a)
+template <class T> GNOMON_INLINE constexpr T gnomon_sqrt(T a)
 {
 #if defined(__GNUC__)
     // std::sqrt keeps a call for the sake of errno.
@@ -137,14 +137,14 @@ template <class T> GNOMON_INLINE T gnomon_sqrt(T a)
     }
 }
 
-template <class T> GNOMON_INLINE T gnomon_fma(T a, T b, T c)
+template <class T> GNOMON_INLINE constexpr T gnomon_fma(T a, T b, T c)
 {
     if constexpr (std::is_floating_point_v<T>) return std::fma(a, b, c);
     else if constexpr (requires { pack_operations<T>::fma(a, b, c); }) return pack_operations<T>::fma(a, b, c);
     else return a * b + c;
 }
 
-template <class T> GNOMON_INLINE T gnomon_power_of_two(T n)
+template <class T> GNOMON_INLINE constexpr T gnomon_power_of_two(T n)
 {
     if constexpr (std::is_same_v<T, float>) {
         // The sum leaves n in the low bits, where the shift takes it into the exponent.
@@ -168,7 +168,7 @@ template <class T> GNOMON_INLINE T gnomon_power_of_two(T n)
 
 // Contraction, GCC's default, would fold a plain product into a later sum, and the error term that two_product finds
 // would be subtracted twice. A fused product is never folded: adding -0 changes no value.
-template <class T> GNOMON_INLINE T gnomon_product(T a, T b)
+template <class T> GNOMON_INLINE constexpr T gnomon_product(T a, T b)
 {
     if constexpr (is_fused<T>) return gnomon_fma(a, b, T(lane_t<T>(-0.0)));
     else return a * b;
