@@ -1,12 +1,12 @@
-// Everything in the kernel dialect, in the order in which data flows: depth -> moments -> storage format -> bounds -> intensity.
-// What is C++ only (.hpp: formats in memory, passes over maps, adapters, packs) is included by name.
+// Everything in the kernel dialect, in the order in which data flows: depth -> moments -> storage format -> bounds ->
+// intensity. What is C++ only (.hpp: formats in memory, passes over maps, adapters, packs) is included by name.
 #ifndef GNOMON_GNOMON_H
 #define GNOMON_GNOMON_H
-#include "moments/moments.h"
-#include "moments/quantization.h"
 #include "moments/bias.h"
-#include "moments/stored.h"
 #include "moments/hamburger4.h"
 #include "moments/hamburger6.h"
+#include "moments/moments.h"
+#include "moments/quantization.h"
+#include "moments/stored.h"
 #include "moments/two_point.h"
 #endif

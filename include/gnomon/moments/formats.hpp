@@ -1,12 +1,14 @@
-// Storage formats of moment shadow maps as types, for maps in main memory: what a texel is, how moments become one and come back, and
-// the transform and bias that belong to it (stored.h), so that a map, its filter and its reconstruction cannot be mismatched.
+// Storage formats of moment shadow maps as types, for maps in main memory: what a texel is, how moments become one and
+// come back, and the transform and bias that belong to it (stored.h), so that a map, its filter and its reconstruction
+// cannot be mismatched.
 //
 //     using format = gnomon::moments4_unorm16;
 //     format::texel t = format::encode(gnomon::moments4_of_depth(z));          // while rendering the map
 //     float shadow = gnomon::hamburger4_lower(format::factor(format::decode(t)), z_f);
 //
-// decode returns what a texture unit would: the channels, still transformed, since filtering is linear in them. factor takes any
-// filtered channels, floats or packs.
+// bias and bias_weight are the vector and the weight of the constant bias; factor applies the format's default
+// (stored.h), which is adaptive where that is better. decode returns what a texture unit would: the channels, still
+// transformed, since filtering is linear in them. factor takes any filtered channels, floats or packs.
 #ifndef GNOMON_MOMENTS_FORMATS_HPP
 #define GNOMON_MOMENTS_FORMATS_HPP
 
@@ -55,13 +57,19 @@ struct moments4_half {
     static constexpr double bias_weight = stored4_half_weight;
 
     static moments channels(moments b) { return b; }
-    static texel encode_channels(moments b) { return {half_encode(b.b1), half_encode(b.b2), half_encode(b.b3), half_encode(b.b4)}; }
+    static texel encode_channels(moments b)
+    {
+        return {half_encode(b.b1), half_encode(b.b2), half_encode(b.b3), half_encode(b.b4)};
+    }
     static texel encode(moments b) { return encode_channels(b); }
-    static moments decode(texel t) { return {half_decode(t[0]), half_decode(t[1]), half_decode(t[2]), half_decode(t[3])}; }
+    static moments decode(texel t)
+    {
+        return {half_decode(t[0]), half_decode(t[1]), half_decode(t[2]), half_decode(t[3])};
+    }
     template <class Real> static hankel4<Real> factor(moments4<Real> b) { return hankel4_from_half(b); }
 };
 
-/// 128 bits: four floats. bias_weight is that of the constant bias; factor uses the adaptive one.
+/// 128 bits: four floats.
 struct moments4_float {
     using moments = moments4<float>;
     using texel = std::array<float, 4>;
@@ -95,10 +103,11 @@ struct moments6_unorm10 {
     }
     template <class Real> static hankel6<Real> factor(moments6<Real> c) { return hankel6_from_unorm10(c); }
 
-private:
+  private:
     static std::uint32_t word(float a, float b, float c)
     {
-        return std::uint32_t{unorm_encode<10>(a)} | std::uint32_t{unorm_encode<10>(b)} << 10 | std::uint32_t{unorm_encode<10>(c)} << 20;
+        return std::uint32_t{unorm_encode<10>(a)} | std::uint32_t{unorm_encode<10>(b)} << 10 |
+               std::uint32_t{unorm_encode<10>(c)} << 20;
     }
     static float field(std::uint32_t w, int shift) { return unorm_decode<10>(w >> shift & 1023u); }
 };
@@ -127,7 +136,7 @@ struct moments6_unorm16 {
     template <class Real> static hankel6<Real> factor(moments6<Real> c) { return hankel6_from_unorm16(c); }
 };
 
-/// 192 bits: six floats. bias_weight is that of the constant bias; factor uses the adaptive one.
+/// 192 bits: six floats.
 struct moments6_float {
     using moments = moments6<float>;
     using texel = std::array<float, 6>;

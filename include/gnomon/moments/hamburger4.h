@@ -1,13 +1,14 @@
 // Shadow intensity from four moments: sharp bounds on Z(z < z_f) over all depth distributions Z with these moments
 // (the Hamburger moment problem; Peters et al. 2017, Equation 1 and Algorithm 1), by counting, then weighing.
 //
-// The Christoffel-Darboux kernel K(x, y) = sum_k P_k(x) P_k(y) / D_k of the factored Hankel matrix (hankel4.h) holds the canonical
-// distribution with a node at z_f: its other two nodes are the roots of K(z_f, .), and a node z weighs 1 / K(z, z). The number
-// of nodes above z_f is the number of sign changes in P_0(z_f), P_1(z_f), P_2(z_f):
-//     none: lower = 1 - w_f       both: lower = 0       one: lower = the weight of the smaller root       upper = lower + w_f
+// The Christoffel-Darboux kernel K(x, y) = sum_k P_k(x) P_k(y) / D_k of the factored Hankel matrix (hankel4.h) holds
+// the canonical distribution with a node at z_f: its other two nodes are the roots of K(z_f, .), and a node z weighs
+// w(z) = 1 / K(z, z). The number of nodes above z_f is the number of sign changes in P_0(z_f), P_1(z_f), P_2(z_f):
+//     none: lower = 1 - w_f     both: lower = 0     one: lower = w(smaller root)     upper = lower + w_f
 // With x = z - mean, V = D_1, N = D_1 D_2, W = V N, G = L - 2 mean V and Q(x) = V P_2 = (V x - G) x - V^2:
-//     1 / K(z, z) = W / (W + x^2 N + Q(x)^2),       K(z_f, .) = 0:  Q V x^2 + (u N - Q G) x + (W - Q V^2) = 0,  u = z_f - mean.
-// Where one root lies on each side, Q = Q(u) < 0, so the discriminant is a sum of positive terms. Two divisions, one root.
+//     w(z) = W / (W + x^2 N + Q(x)^2)     K(z_f, .) = 0: Q V x^2 + (u N - Q G) x + (W - Q V^2) = 0, u = z_f - mean
+// Where one root lies on each side, Q = Q(u) < 0, so the discriminant is a sum of positive terms. Two divisions and one
+// square root in all.
 #ifndef GNOMON_MOMENTS_HAMBURGER4_H
 #define GNOMON_MOMENTS_HAMBURGER4_H
 #include "../numerics/quadratic.h"
@@ -16,10 +17,8 @@
 #include "hankel4.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// The canonical distribution: a node at the receiver and two more, depth1 <= depth2, with weights in [0, 1] that sum to 1.
-GNOMON_STRUCT distribution3 {
-    Real depth0, depth1, depth2, weight0, weight1, weight2;
-};
+/// The canonical distribution: a node at the receiver and two more, depth1 <= depth2; weights in [0, 1] sum to 1.
+GNOMON_STRUCT distribution3 { Real depth0, depth1, depth2, weight0, weight1, weight2; };
 
 GNOMON_CONSTANT(hamburger4_scale, 72057594037927936.0); // 2^56
 
@@ -38,9 +37,7 @@ GNOMON_KERNEL Real hamburger4_weight(GNOMON_T(hankel4) h, Real x, Real q)
 }
 
 /// The coefficients of a x^2 + 2 b x + c with the two other nodes, less the mean, as roots; q = Q(u).
-GNOMON_STRUCT hamburger4_quadratic {
-    Real a, b, c;
-};
+GNOMON_STRUCT hamburger4_quadratic { Real a, b, c; };
 
 GNOMON_KERNEL GNOMON_T(hamburger4_quadratic) hamburger4_other_nodes(GNOMON_T(hankel4) h, Real u, Real q)
 {
@@ -54,15 +51,22 @@ GNOMON_KERNEL GNOMON_T(hamburger4_quadratic) hamburger4_other_nodes(GNOMON_T(han
     return r;
 }
 
-/// The smaller of two nodes on either side of z_f = mean + u, less the mean. Domain: q = Q(u) < 0; elsewhere any number or NaN.
+/// The smaller of two nodes on either side of z_f = mean + u, less the mean. Domain: q = Q(u) < 0; elsewhere any number
+/// or NaN.
 GNOMON_KERNEL Real hamburger4_smaller_root(GNOMON_T(hankel4) h, Real u, Real q)
 {
     GNOMON_T(hamburger4_quadratic) p = hamburger4_other_nodes(h, u, q);
     return quadratic_negative_root(p.a, p.b, p.c);
 }
 
-/// Lower bound on the shadow intensity at z_f: what a surface should show, since it never darkens a lit one (paper, 2.2.1).
-/// z_f in [-1, 1], clamped. A NaN anywhere gives 0, lit.
+/// Lower bound on the shadow intensity at z_f: what a surface should show, since it never darkens a lit one
+/// (paper, 2.2.1). z_f in [-1, 1], clamped. A NaN anywhere gives 0, lit. Against the moment problem solved in 120
+/// digits (tests/unit/hamburger_oracle.cpp),
+///     error, double, no bias, three depths and more: p99 1e-13, p99.9 2e-12, max 1e-11
+///     error, float, hankel4_biased at 3e-7: p99 3e-5, p99.9 1e-4, max 3e-4
+/// and against the same in double,
+///     error, float, hankel4_from_float: p99 3e-5, p99.9 1e-4, max 3e-4
+///     error, float, hankel4_from_unorm16: p99 3e-5, p99.9 1e-4, max 3e-4
 GNOMON_KERNEL Real hamburger4_lower(GNOMON_T(hankel4) h, Real z_f)
 {
     Real u = clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean;
@@ -91,8 +95,8 @@ GNOMON_KERNEL GNOMON_T(hamburger_bounds) hamburger4_bounds(GNOMON_T(hankel4) h, 
     return r;
 }
 
-/// The canonical distribution with a node at z_f. Depths are finite and within 1024 of the mean: a node that runs to infinity has no
-/// weight. A NaN anywhere gives a single depth at the far plane.
+/// The canonical distribution with a node at z_f. Depths are finite and within 1024 of the mean: a node that runs to
+/// infinity has no weight. A NaN anywhere gives a single depth at the far plane.
 GNOMON_KERNEL GNOMON_T(distribution3) hamburger4_distribution(GNOMON_T(hankel4) h, Real z_f)
 {
     Real u = clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean;

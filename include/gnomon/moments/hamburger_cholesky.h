@@ -1,11 +1,13 @@
-// Algorithm 1 of Peters et al. 2017 as the paper has it, for four and for six moments: the comparator that hamburger4.h and
-// hamburger6.h are measured against, not a route to use. Both take moments that are biased already (bias.h: moments4_biased,
-// moments6_biased), and both keep the paper's steps:
+// Algorithm 1 of Peters et al. 2017 as the paper has it, for four and for six moments: the comparator that hamburger4.h
+// and hamburger6.h are measured against, not a route to use. Both take moments that are biased already (bias.h:
+// moments4_biased, moments6_biased), and both keep the paper's steps:
 //     2  solve B q = (1, z_f, ..., z_f^(m/2)) by the square-root-free Cholesky decomposition B = L D L^T (5.4.1)
-//     3  the other depths are the roots of q_0 + q_1 z + ...: a quadratic, or a cubic in closed form after Blinn 2007 (5.4.1)
-//     4  the weights solve a Vandermonde system; their sum below z_f is E[u(z)] for the polynomial u that is 1 at the depths
+//     3  the other depths are the roots of q_0 + q_1 z + ...: a quadratic, or a cubic in closed form after Blinn 2007
+//     (5.4.1) 4  the weights solve a Vandermonde system; their sum below z_f is E[u(z)] for the polynomial u that is 1
+//     at the depths
 //        below z_f and 0 at the others (5.4.2)
-// Only the result is made total: moments on the boundary of the valid ones, a single depth say, give 0 = lit, whatever is right.
+// Only the result is made total: moments on the boundary of the valid ones, a single depth say, give 0 = lit, whatever
+// is right.
 #ifndef GNOMON_MOMENTS_HAMBURGER_CHOLESKY_H
 #define GNOMON_MOMENTS_HAMBURGER_CHOLESKY_H
 #include "../numerics/select.h"
@@ -16,8 +18,8 @@ GNOMON_NAMESPACE_BEGIN
 GNOMON_CONSTANT(hamburger_cholesky_third, 0.33333333333333333);
 GNOMON_CONSTANT(hamburger_cholesky_sqrt3, 1.7320508075688773);
 
-/// Lower bound on the shadow intensity at z_f from four biased moments; in [0, 1], but without accuracy where the Hankel matrix is
-/// singular or indefinite in the precision of Real. Four divisions, one root.
+/// Lower bound on the shadow intensity at z_f from four biased moments; in [0, 1], but without accuracy where the
+/// Hankel matrix is singular or indefinite in the precision of Real. Four divisions, one root.
 GNOMON_KERNEL Real hamburger4_cholesky_intensity(GNOMON_T(moments4) b, Real z_f)
 {
     Real inverse1 = Real(1) / (b.b2 - b.b1 * b.b1);
@@ -36,7 +38,8 @@ GNOMON_KERNEL Real hamburger4_cholesky_intensity(GNOMON_T(moments4) b, Real z_f)
     Real z1 = centre - r;
     Real z2 = centre + r;
 
-    // Two depths below: all but the weight of z_f. One below: its weight. By Cramer's rule, E[(z - o) (z - z2)] / ((n - o) (n - z2)).
+    // Two depths below: all but the weight of z_f. One below: its weight. By Cramer's rule, E[(z - o) (z - z2)] / ((n -
+    // o) (n - z2)).
     GNOMON_MASK both = z2 < z_f;
     Real node = gnomon_select(both, z_f, z1);
     Real other = gnomon_select(both, z1, z_f);
@@ -45,12 +48,10 @@ GNOMON_KERNEL Real hamburger4_cholesky_intensity(GNOMON_T(moments4) b, Real z_f)
 }
 
 /// The three real roots of a cubic, in no order.
-GNOMON_STRUCT cubic_roots {
-    Real z1, z2, z3;
-};
+GNOMON_STRUCT cubic_roots { Real z1, z2, z3; };
 
-/// The roots of z^3 + c2 z^2 + c1 z + c0, three real ones; NaN where two are complex. One of the two branches of Blinn 2007, "How to
-/// solve a cubic equation, part 5", as the paper advises.
+/// The roots of z^3 + c2 z^2 + c1 z + c0, three real ones; NaN where two are complex. One of the two branches of Blinn
+/// 2007, "How to solve a cubic equation, part 5", as the paper advises.
 GNOMON_KERNEL GNOMON_T(cubic_roots) cubic_roots_blinn(Real c2, Real c1, Real c0)
 {
     Real b = c2 * GNOMON_LITERAL(hamburger_cholesky_third);
@@ -61,8 +62,9 @@ GNOMON_KERNEL GNOMON_T(cubic_roots) cubic_roots_blinn(Real c2, Real c1, Real c0)
     Real discriminant = Real(4) * hessian1 * hessian3 - hessian2 * hessian2;
     // Depressed: x^3 + 3 hessian1 x + d with x = z + b.
     Real d = hessian2 - Real(2) * b * hessian1;
-    GNOMON_T(cosine_sine) t =
-        polynomial_cosine_sine(polynomial_atan2(gnomon_sqrt(discriminant), -d) * GNOMON_LITERAL(hamburger_cholesky_third));
+    GNOMON_T(cosine_sine)
+    t = polynomial_cosine_sine(polynomial_atan2(gnomon_sqrt(discriminant), -d) *
+                               GNOMON_LITERAL(hamburger_cholesky_third));
     Real radius = gnomon_sqrt(-hessian1);
     Real half_cosine = radius * t.cosine;
     Real half_sine = radius * t.sine * GNOMON_LITERAL(hamburger_cholesky_sqrt3);
@@ -73,8 +75,9 @@ GNOMON_KERNEL GNOMON_T(cubic_roots) cubic_roots_blinn(Real c2, Real c1, Real c0)
     return roots;
 }
 
-/// Lower bound on the shadow intensity at z_f from six biased moments; in [0, 1], but without accuracy where the Hankel matrix is
-/// singular or indefinite in the precision of Real. Eleven divisions, two roots, an arc tangent, a cosine and a sine.
+/// Lower bound on the shadow intensity at z_f from six biased moments; in [0, 1], but without accuracy where the Hankel
+/// matrix is singular or indefinite in the precision of Real. Eleven divisions, two roots, an arc tangent, a cosine and
+/// a sine.
 GNOMON_KERNEL Real hamburger6_cholesky_intensity(GNOMON_T(moments6) b, Real z_f)
 {
     Real inverse1 = Real(1) / (b.b2 - b.b1 * b.b1);

@@ -5,8 +5,8 @@
 //         | b2 b3 b4 |      (Peters et al. 2017, Algorithm 1, step 2, without its right-hand side).
 //
 // After the first step of elimination the covariances of (z, z^2) remain: V = var z = D_1, L = cov(z, z^2),
-// M = var z^2, and D_1 D_2 = V M - L^2. All three cancel, so they are kept as double words, and a bias (bias.h) is added to
-// them instead of to the moments: it would be rounded away there. Division is put off to hamburger4.h.
+// M = var z^2, and D_1 D_2 = V M - L^2. All three cancel, so they are kept as double words, and a bias (bias.h) is
+// added to them instead of to the moments: it would be rounded away there. Division is put off to hamburger4.h.
 #ifndef GNOMON_MOMENTS_HANKEL4_H
 #define GNOMON_MOMENTS_HANKEL4_H
 #include "../numerics/two_product.h"
@@ -14,14 +14,12 @@
 #include "moments.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// The factored matrix: mean b1, variance D_1, covariance L of z and z^2, determinant D_1 D_2. Variance and determinant are
-/// positive, whatever the moments were, or NaN where one of these was.
-GNOMON_STRUCT hankel4 {
-    Real mean, variance, covariance, determinant;
-};
+/// The factored matrix: mean b1, variance D_1, covariance L of z and z^2, determinant D_1 D_2. Variance and determinant
+/// are positive, whatever the moments were, or NaN where one of these was.
+GNOMON_STRUCT hankel4 { Real mean, variance, covariance, determinant; };
 
-/// Guards the pivots: no variance or D_2 below the floor, so that indefinite moments still name a distribution. In this order of
-/// arguments a NaN least value gives way to the floor, and a NaN pivot stays one (portable.h).
+/// Guards the pivots: no variance or D_2 below the floor, so that indefinite moments still name a distribution. In this
+/// order of arguments a NaN least value gives way to the floor, and a NaN pivot stays one (portable.h).
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_guard(GNOMON_T(hankel4) h, Real least_variance, Real least_determinant)
 {
     h.variance = gnomon_max(gnomon_max(least_variance, GNOMON_PIVOT_FLOOR), h.variance);
@@ -40,9 +38,10 @@ GNOMON_KERNEL GNOMON_T(hankel4) hankel4_fast(GNOMON_T(moments4) b)
     return hankel4_guard(h, Real(0), Real(0));
 }
 
-/// The moments of the mixture (1 - alpha) Z + alpha Z*, where Z* is symmetric with second and fourth moments bias2 and bias4
-/// (paper, 2.5).
-GNOMON_KERNEL GNOMON_T(hankel4) hankel4_biased(GNOMON_T(moments4) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4, GNOMON_SETTING alpha)
+/// The moments of the mixture (1 - alpha) Z + alpha Z*, where Z* is symmetric with second and fourth moments bias2 and
+/// bias4 (paper, 2.5).
+GNOMON_KERNEL GNOMON_T(hankel4)
+    hankel4_biased(GNOMON_T(moments4) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4, GNOMON_SETTING alpha)
 {
     GNOMON_T(moments4) e;
     e.b1 = -alpha * b.b1;
@@ -61,8 +60,21 @@ GNOMON_KERNEL GNOMON_T(hankel4) hankel4_biased(GNOMON_T(moments4) b, GNOMON_SETT
     return hankel4_guard(h, Real(0), Real(0));
 }
 
-/// The moments as they are, with each pivot raised to at least what storage noise makes of it (notes on the adaptive bias in
-/// bias.h): D_k >= noise |coefficients of P_k^2|_1. Much less leaking than a constant bias at the same stability.
+/// The coefficients c1, ..., c4 of D_1 P_2^2 as a polynomial in z, on the boundary of valid moments, which is where
+/// they are asked for: there L^2 = V M, and D_1 P_2 = V z^2 - L z + r needs no division. m = var z^2.
+GNOMON_KERNEL GNOMON_T(moments4) hankel4_noise_coefficients(GNOMON_T(hankel4) h, GNOMON_T(moments4) b, Real m)
+{
+    Real r = b.b1 * h.covariance - b.b2 * h.variance;
+    GNOMON_T(moments4) c;
+    c.b1 = Real(-2) * (b.b1 * m - b.b2 * h.covariance);
+    c.b2 = m + Real(2) * r;
+    c.b3 = Real(-2) * h.covariance;
+    c.b4 = h.variance;
+    return c;
+}
+
+/// The moments as they are, with each pivot D_k raised to at least noise |coefficients of P_k^2|_1, what errors up to
+/// noise in each stored moment make of it (bias.h, adaptive).
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_raised(GNOMON_T(moments4) b, GNOMON_SETTING noise)
 {
     GNOMON_T(double_word) v = subtract_product(b.b2, b.b1, b.b1);
@@ -75,11 +87,33 @@ GNOMON_KERNEL GNOMON_T(hankel4) hankel4_raised(GNOMON_T(moments4) b, GNOMON_SETT
     h.variance = gnomon_max(least_variance, v.high + v.low);
     h.covariance = l.high + l.low;
     h.determinant = n.high + n.low;
-    // D_1 P_2 = D_1 z^2 - L z + r; where D_2 is small enough to be raised, L^2 = D_1 M, and nothing needs a division.
-    Real r = b.b1 * h.covariance - b.b2 * h.variance;
-    Real p = (h.variance + Real(2) * gnomon_abs(h.covariance)) +
-             (gnomon_abs(m.high + Real(2) * r) + Real(2) * gnomon_abs(b.b1 * m.high - b.b2 * h.covariance));
-    return hankel4_guard(h, least_variance, noise * p);
+    GNOMON_T(moments4) c = hankel4_noise_coefficients(h, b, m.high);
+    Real norm = (gnomon_abs(c.b1) + gnomon_abs(c.b2)) + (gnomon_abs(c.b3) + c.b4);
+    return hankel4_guard(h, least_variance, noise * norm);
+}
+
+GNOMON_CONSTANT(hankel4_third, 0.33333333333333333);
+GNOMON_CONSTANT(hankel4_root3, 1.7320508075688772);
+
+/// As hankel4_raised, in plain arithmetic, for errors up to noise in each channel behind theta4 (quantization.h):
+/// coefficients pass through its inverse, transposed.
+GNOMON_KERNEL GNOMON_T(hankel4) hankel4_raised_theta(GNOMON_T(moments4) b, GNOMON_SETTING noise)
+{
+    // |theta4^-T (-2 b1, 1, 0, 0)|_1 = 2 (1/3 + sqrt 3) |b1| + 9/8
+    Real slope = Real(2) * (GNOMON_LITERAL(hankel4_third) + GNOMON_LITERAL(hankel4_root3));
+    Real least_variance = noise * (Real(1.125) + slope * gnomon_abs(b.b1));
+    Real m = b.b4 - b.b2 * b.b2;
+    GNOMON_T(hankel4) h;
+    h.mean = b.b1;
+    h.variance = gnomon_max(least_variance, b.b2 - b.b1 * b.b1);
+    h.covariance = b.b3 - b.b1 * b.b2;
+    h.determinant = h.variance * m - h.covariance * h.covariance;
+    GNOMON_T(moments4) c = hankel4_noise_coefficients(h, b, m);
+    Real odd = Real(0.75) * c.b3;
+    Real norm = (gnomon_abs(GNOMON_LITERAL(hankel4_third) * c.b1 + odd) +
+                 GNOMON_LITERAL(hankel4_root3) * gnomon_abs(c.b1 + odd)) +
+                (Real(0.125) * gnomon_abs(c.b2 - c.b4) + gnomon_abs(c.b2 + c.b4));
+    return hankel4_guard(h, least_variance, noise * norm);
 }
 
 GNOMON_NAMESPACE_END

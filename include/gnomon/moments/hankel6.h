@@ -1,13 +1,13 @@
 // The Hankel matrix of six moments, factored: everything that all receivers under one filter region share.
 //
-// After one step of elimination the covariances c_ij = b_(i+j) - b_i b_j of (z, z^2, z^3) remain, after the next (without
-// divisions, Bareiss) s_22 = c_11 c_22 - c_12^2, s_23, s_33, and then t = s_22 s_33 - s_23^2. The pivots of L D L^T are
-// D_1 = c_11, D_2 = s_22 / c_11, D_3 = t / (c_11 s_22), the columns of L hold l21 = c_12 / c_11 and l32 = s_23 / s_22, and with
-// u = z - b1 the monic orthogonal polynomials of the distribution, for which D_k = E[P_k^2], are
+// After one step of elimination the covariances c_ij = b_(i+j) - b_i b_j of (z, z^2, z^3) remain, after the next
+// (without divisions, Bareiss) s_22 = c_11 c_22 - c_12^2, s_23, s_33, and then t = s_22 s_33 - s_23^2. With L D L^T of
+// pivots D_1 = c_11, D_2 = s_22 / c_11, D_3 = t / (c_11 s_22) and l21 = c_12 / c_11, l32 = s_23 / s_22 below the
+// diagonal, and with u = z - b1, the monic orthogonal polynomials of the distribution, for which D_k = E[P_k^2], are
 //     P_1 = u,    P_2 = (u - (l21 - 2 b1)) P_1 - D_1,    P_3 = (u - (l32 - l21 - b1)) P_2 - (D_2 / D_1) P_1
-// (Peters et al. 2017, 5.4, Algorithm 1, step 2; the three-term recurrence: Gautschi 2004, 1.3). Every difference of moments
-// cancels, so all are kept as double words until a pivot is had, and a bias (bias.h) is added to the covariances: in the moments
-// it would be rounded away.
+// (Peters et al. 2017, 5.4, Algorithm 1, step 2; the three-term recurrence: Gautschi 2004, 1.3). Every difference of
+// moments cancels, so all are kept as double words until a pivot is had, and a bias (bias.h) is added to the
+// covariances: in the moments it would be rounded away.
 #ifndef GNOMON_MOMENTS_HANKEL6_H
 #define GNOMON_MOMENTS_HANKEL6_H
 #include "../numerics/two_product.h"
@@ -15,16 +15,12 @@
 #include "moments.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// The recurrence: mean b1, D_1, D_2 / D_1, the shifts of u in P_2 and P_3, and one over each pivot. Pivots are positive,
-/// whatever the moments were, or NaN where one of these was.
-GNOMON_STRUCT hankel6 {
-    Real mean, variance, ratio, shift2, shift3, inverse1, inverse2, inverse3;
-};
+/// The recurrence: mean b1, D_1, D_2 / D_1, the shifts of u in P_2 and P_3, and one over each pivot. Pivots are
+/// positive, whatever the moments were, or NaN where one of these was.
+GNOMON_STRUCT hankel6 { Real mean, variance, ratio, shift2, shift3, inverse1, inverse2, inverse3; };
 
 /// The covariances of (z, z^2, z^3).
-GNOMON_STRUCT covariances6 {
-    GNOMON_T(double_word) c11, c12, c13, c22, c23, c33;
-};
+GNOMON_STRUCT covariances6 { GNOMON_T(double_word) c11, c12, c13, c22, c23, c33; };
 
 /// Elimination, with pivots no smaller than noise |coefficients of P_k^2|_1 and the floor; noise = 0 leaves them.
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_factor(GNOMON_T(moments6) b, GNOMON_T(covariances6) c, GNOMON_SETTING noise)
@@ -43,7 +39,8 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_factor(GNOMON_T(moments6) b, GNOMON_T(co
     GNOMON_T(double_word) s23 = double_word_minor(c.c11, c.c23, c.c12, c.c13);
     GNOMON_T(double_word) s33 = double_word_minor(c.c11, c.c33, c.c13, c.c13);
     Real p0 = l21 * b.b1 - b.b2; // P_2 = z^2 - l21 z + p0
-    Real least2 = (Real(1) + Real(2) * gnomon_abs(l21)) + (gnomon_abs(l21 * l21 + Real(2) * p0) + Real(2) * gnomon_abs(l21 * p0));
+    Real least2 =
+        (Real(1) + Real(2) * gnomon_abs(l21)) + (gnomon_abs(l21 * l21 + Real(2) * p0) + Real(2) * gnomon_abs(l21 * p0));
     Real s = gnomon_max(gnomon_max(noise * least2, GNOMON_PIVOT_FLOOR) * d1, s22.high + s22.low);
     Real inverse_s = Real(1) / s;
     Real l32 = (s23.high + s23.low) * inverse_s;
@@ -53,7 +50,8 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_factor(GNOMON_T(moments6) b, GNOMON_T(co
 
     Real q1 = l32 * l21 - l31; // P_3 = z^3 - l32 z^2 + q1 z + q0
     Real q0 = (l31 * b.b1 - b.b3) - l32 * p0;
-    Real least3 = ((Real(1) + Real(2) * gnomon_abs(l32)) + (gnomon_abs(l32 * l32 + Real(2) * q1) + Real(2) * gnomon_abs(q0 - q1 * l32))) +
+    Real least3 = ((Real(1) + Real(2) * gnomon_abs(l32)) +
+                   (gnomon_abs(l32 * l32 + Real(2) * q1) + Real(2) * gnomon_abs(q0 - q1 * l32))) +
                   (gnomon_abs(q1 * q1 - Real(2) * (q0 * l32)) + Real(2) * gnomon_abs(q0 * q1));
     GNOMON_T(double_word) t = double_word_minor(s22, s33, s23, s23);
     Real d1s = d1 * s;
@@ -61,7 +59,8 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_factor(GNOMON_T(moments6) b, GNOMON_T(co
     return h;
 }
 
-/// The moments as they are, with each pivot raised to at least what storage noise makes of it (bias.h); noise = 0 for exact moments.
+/// The moments as they are, with each pivot raised to at least what storage noise makes of it (bias.h); noise = 0 for
+/// exact moments.
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_raised(GNOMON_T(moments6) b, GNOMON_SETTING noise)
 {
     GNOMON_T(covariances6) c;
@@ -74,9 +73,10 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_raised(GNOMON_T(moments6) b, GNOMON_SETT
     return hankel6_factor(b, c, noise);
 }
 
-/// The moments of the mixture (1 - alpha) Z + alpha Z*, where Z* is symmetric with even moments bias2, bias4, bias6 (paper, 2.5, 5.4.3).
-GNOMON_KERNEL GNOMON_T(hankel6) hankel6_biased(GNOMON_T(moments6) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4, GNOMON_SETTING bias6,
-                                               GNOMON_SETTING alpha)
+/// The moments of the mixture (1 - alpha) Z + alpha Z*, where Z* is symmetric with even moments bias2, bias4, bias6
+/// (paper, 2.5, 5.4.3).
+GNOMON_KERNEL GNOMON_T(hankel6) hankel6_biased(GNOMON_T(moments6) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4,
+                                               GNOMON_SETTING bias6, GNOMON_SETTING alpha)
 {
     GNOMON_T(moments6) e;
     e.b1 = -alpha * b.b1;

@@ -1,9 +1,11 @@
-// The sparse quantization transforms: affine maps of the moments into [0, 1], odd and even ones apart, that spread what a UNORM
-// format can tell apart as evenly as possible over what depth distributions need (Peters et al. 2017, 2.4, 5.4.3).
+// The sparse quantization transforms: affine maps of the moments into [0, 1], odd and even ones apart, that spread what
+// a UNORM format can tell apart as evenly as possible over what depth distributions need (Peters et al.
+// 2017, 2.4, 5.4.3).
 //
-// Each output is a polynomial in z that touches 0 and 1 on [-1, 1], and their determinant is the largest: an entropy gain of 4.21 bits
-// over storing four moments as they are, 12.51 bits for six. Entries to full precision by tests/derivations; the paper's digits for
-// six moments are a little off the optimum (range exceeded by 6e-9, entries up to 3e-3 away).
+// Each output is a polynomial in z that touches 0 and 1 on [-1, 1], and their determinant is the largest: an entropy
+// gain of 4.21 bits over storing four moments as they are, 12.51 bits for six. Entries to full precision by
+// tests/derivations; the paper's digits for six moments are a little off the optimum (range exceeded by 6e-9, entries
+// up to 3e-3 away).
 #ifndef GNOMON_MOMENTS_QUANTIZATION_H
 #define GNOMON_MOMENTS_QUANTIZATION_H
 #include "moments.h"
@@ -46,7 +48,8 @@ GNOMON_CONSTANT(theta6_25, -1.8300875998372463);
 GNOMON_CONSTANT(theta6_31, 1.2643431422063351);
 GNOMON_CONSTANT(theta6_33, -1.4716161665593888);
 GNOMON_CONSTANT(theta6_35, 0.70727302435305361);
-// Even row 3: -sqrt(3)/3, 8 sqrt(3)/3, -16 sqrt(3)/9 and 1/2 - 5 sqrt(3)/18; rows 1 and 2 are 4 z^2 (1 - z^2) and T_3(z)^2.
+// Even row 3: -sqrt(3)/3, 8 sqrt(3)/3, -16 sqrt(3)/9 and 1/2 - 5 sqrt(3)/18; rows 1 and 2 are 4 z^2 (1 - z^2) and
+// T_3(z)^2.
 GNOMON_CONSTANT(theta6_62, -0.57735026918962573);
 GNOMON_CONSTANT(theta6_64, 4.6188021535170058);
 GNOMON_CONSTANT(theta6_66, -3.0792014356780042);
@@ -64,16 +67,20 @@ GNOMON_CONSTANT(theta6_inverse_sixth, 0.16666666666666666);
 GNOMON_CONSTANT(theta6_inverse23, 0.8660254037844386);
 GNOMON_CONSTANT(theta6_inverse63, 0.81189881604791125);
 
-/// Theta_6* (paper, 5.4.3): six moments of signed depth to six channels in [0, 1]: three from the odd, three from the even moments.
+/// Theta_6* (paper, 5.4.3): six moments of signed depth to six channels in [0, 1]: three from the odd, three from the
+/// even moments.
 GNOMON_KERNEL GNOMON_T(moments6) theta6(GNOMON_T(moments6) b)
 {
     GNOMON_T(moments6) c;
     c.b1 = Real(2.5) * b.b1 - Real(10) * b.b3 + Real(8) * b.b5 + Real(0.5);
-    c.b2 = GNOMON_LITERAL(theta6_21) * b.b1 + GNOMON_LITERAL(theta6_23) * b.b3 + GNOMON_LITERAL(theta6_25) * b.b5 + Real(0.5);
-    c.b3 = GNOMON_LITERAL(theta6_31) * b.b1 + GNOMON_LITERAL(theta6_33) * b.b3 + GNOMON_LITERAL(theta6_35) * b.b5 + Real(0.5);
+    c.b2 = GNOMON_LITERAL(theta6_21) * b.b1 + GNOMON_LITERAL(theta6_23) * b.b3 + GNOMON_LITERAL(theta6_25) * b.b5 +
+           Real(0.5);
+    c.b3 = GNOMON_LITERAL(theta6_31) * b.b1 + GNOMON_LITERAL(theta6_33) * b.b3 + GNOMON_LITERAL(theta6_35) * b.b5 +
+           Real(0.5);
     c.b4 = Real(4) * (b.b2 - b.b4);
     c.b5 = Real(9) * b.b2 - Real(24) * b.b4 + Real(16) * b.b6;
-    c.b6 = GNOMON_LITERAL(theta6_62) * b.b2 + GNOMON_LITERAL(theta6_64) * b.b4 + GNOMON_LITERAL(theta6_66) * b.b6 + GNOMON_LITERAL(theta6_60);
+    c.b6 = GNOMON_LITERAL(theta6_62) * b.b2 + GNOMON_LITERAL(theta6_64) * b.b4 + GNOMON_LITERAL(theta6_66) * b.b6 +
+           GNOMON_LITERAL(theta6_60);
     return c;
 }
 
@@ -86,9 +93,12 @@ GNOMON_KERNEL GNOMON_T(moments6) theta6_inverse(GNOMON_T(moments6) c)
     Real c5 = GNOMON_LITERAL(theta6_inverse_sixth) * c.b5;
     Real c6 = c.b6 - GNOMON_LITERAL(theta6_60);
     GNOMON_T(moments6) b;
-    b.b1 = GNOMON_LITERAL(theta6_inverse11) * c1 + GNOMON_LITERAL(theta6_inverse12) * c2 + GNOMON_LITERAL(theta6_inverse13) * c3;
-    b.b3 = GNOMON_LITERAL(theta6_inverse31) * c1 + GNOMON_LITERAL(theta6_inverse32) * c2 + GNOMON_LITERAL(theta6_inverse33) * c3;
-    b.b5 = GNOMON_LITERAL(theta6_inverse51) * c1 + GNOMON_LITERAL(theta6_inverse52) * c2 + GNOMON_LITERAL(theta6_inverse53) * c3;
+    b.b1 = GNOMON_LITERAL(theta6_inverse11) * c1 + GNOMON_LITERAL(theta6_inverse12) * c2 +
+           GNOMON_LITERAL(theta6_inverse13) * c3;
+    b.b3 = GNOMON_LITERAL(theta6_inverse31) * c1 + GNOMON_LITERAL(theta6_inverse32) * c2 +
+           GNOMON_LITERAL(theta6_inverse33) * c3;
+    b.b5 = GNOMON_LITERAL(theta6_inverse51) * c1 + GNOMON_LITERAL(theta6_inverse52) * c2 +
+           GNOMON_LITERAL(theta6_inverse53) * c3;
     b.b2 = c5 + GNOMON_LITERAL(theta6_inverse23) * c6;
     b.b4 = (c5 + GNOMON_LITERAL(theta6_inverse23) * c6) - Real(0.25) * c.b4;
     b.b6 = (Real(0.21875) * c.b5 + GNOMON_LITERAL(theta6_inverse63) * c6) - Real(0.375) * c.b4;

@@ -1,15 +1,18 @@
-// From a fetched texel to the factored Hankel matrix, one function per storage format: each undoes the format's transform and applies
-// the bias that belongs to it, so that nobody pairs the wrong three. What a shader calls after filtering; then hamburger4_lower.
+// From a fetched texel to the factored Hankel matrix, one function per storage format: each undoes the format's
+// transform and applies the bias that belongs to it, so that nobody pairs the wrong three. What a shader calls after
+// filtering; then hamburger4_lower.
 //
-//   format          transform   bias                                       bytes
-//   4 x 16 UNORM    theta4      interpolated, 6e-5                          8
-//   4 x half        none        interpolated, 3.6e-3                        8
-//   4 x float       none        adaptive, noise 2^-26                      16
-//   6 x 10 UNORM    theta6      interpolated, 5e-3 (two 10-10-10-2 words)   8
-//   6 x 16 UNORM    theta6      interpolated, 8e-5                         12
-//   6 x float       none        adaptive, noise 2^-26                      24
+//   format          transform   bias                                        bytes
+//   4 x 16 UNORM    theta4      adaptive, noise 5.7e-6 (3/4 of half a code)  8
+//   4 x half        none        adaptive, noise 1.8e-4 (3/4 of 2^-12)        8
+//   4 x float       none        adaptive, noise 2^-26                       16
+//   6 x 10 UNORM    theta6      interpolated, 4e-3                           8, as two 10-10-10-2 words
+//   6 x 16 UNORM    theta6      interpolated, 8e-5                          12
+//   6 x float       none        adaptive, noise 2^-24                       24
 //
-// Weights are 1.2 to 1.7 times delta / r (bias.h) of one rounding: maps are rounded again by each filter pass, but averaged too.
+// Noise levels are the largest that leave the result no more sensitive to storage than the constant bias does; for
+// transformed six moments an adaptive bias gains nothing. Weights, used where the bias is constant, are 1.2 to 1.7
+// times delta / r (bias.h) of one rounding: filter passes round again, but average too.
 #ifndef GNOMON_MOMENTS_STORED_H
 #define GNOMON_MOMENTS_STORED_H
 #include "bias.h"
@@ -19,25 +22,26 @@
 GNOMON_NAMESPACE_BEGIN
 
 GNOMON_CONSTANT(stored4_unorm16_weight, 6e-5);
+GNOMON_CONSTANT(stored4_unorm16_noise, 5.7221e-6);
 GNOMON_CONSTANT(stored4_half_weight, 3.6e-3);
+GNOMON_CONSTANT(stored4_half_noise, 1.8310546875e-4); // 3/4 of 2^-12
 GNOMON_CONSTANT(stored4_float_weight, 3e-7);
 GNOMON_CONSTANT(stored4_float_noise, 1.4901161193847656e-8); // 2^-26
-GNOMON_CONSTANT(stored6_unorm10_weight, 5e-3);
+GNOMON_CONSTANT(stored6_unorm10_weight, 4e-3);
 GNOMON_CONSTANT(stored6_unorm16_weight, 8e-5);
 GNOMON_CONSTANT(stored6_float_weight, 5e-6);
-GNOMON_CONSTANT(stored6_float_noise, 1.4901161193847656e-8);
+GNOMON_CONSTANT(stored6_float_noise, 5.9604644775390625e-8); // 2^-24
 
 /// From the four channels of a 4 x 16 UNORM texel, each in [0, 1].
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_unorm16(GNOMON_T(moments4) channels)
 {
-    return hankel4_fast(moments4_biased(theta4_inverse(channels), GNOMON_LITERAL(bias4_theta_b2), GNOMON_LITERAL(bias4_theta_b4),
-                                        GNOMON_LITERAL(stored4_unorm16_weight)));
+    return hankel4_raised_theta(theta4_inverse(channels), GNOMON_LITERAL(stored4_unorm16_noise));
 }
 
 /// From moments stored as half floats.
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_half(GNOMON_T(moments4) b)
 {
-    return hankel4_fast(moments4_biased(b, GNOMON_LITERAL(bias4_raw_b2), GNOMON_LITERAL(bias4_raw_b4), GNOMON_LITERAL(stored4_half_weight)));
+    return hankel4_raised(b, GNOMON_LITERAL(stored4_half_noise));
 }
 
 /// From moments stored as floats.
@@ -49,15 +53,17 @@ GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_float(GNOMON_T(moments4) b)
 /// From the six channels of two 10-10-10-2 UNORM words, each in [0, 1]: odd ones in the first, even ones in the second.
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm10(GNOMON_T(moments6) channels)
 {
-    return hankel6_fast(moments6_biased(theta6_inverse(channels), GNOMON_LITERAL(bias6_theta_b2), GNOMON_LITERAL(bias6_theta_b4),
-                                        GNOMON_LITERAL(bias6_theta_b6), GNOMON_LITERAL(stored6_unorm10_weight)));
+    return hankel6_fast(moments6_biased(theta6_inverse(channels), GNOMON_LITERAL(bias6_theta_b2),
+                                        GNOMON_LITERAL(bias6_theta_b4), GNOMON_LITERAL(bias6_theta_b6),
+                                        GNOMON_LITERAL(stored6_unorm10_weight)));
 }
 
 /// From the six channels of a 6 x 16 UNORM texel, each in [0, 1].
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm16(GNOMON_T(moments6) channels)
 {
-    return hankel6_fast(moments6_biased(theta6_inverse(channels), GNOMON_LITERAL(bias6_theta_b2), GNOMON_LITERAL(bias6_theta_b4),
-                                        GNOMON_LITERAL(bias6_theta_b6), GNOMON_LITERAL(stored6_unorm16_weight)));
+    return hankel6_fast(moments6_biased(theta6_inverse(channels), GNOMON_LITERAL(bias6_theta_b2),
+                                        GNOMON_LITERAL(bias6_theta_b4), GNOMON_LITERAL(bias6_theta_b6),
+                                        GNOMON_LITERAL(stored6_unorm16_weight)));
 }
 
 /// From moments stored as floats.

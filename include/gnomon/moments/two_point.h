@@ -1,7 +1,8 @@
-// A depth distribution of two depths from three moments: Algorithm 2 of Peters et al. 2017 (5.2, appendix B), which is Algorithm 1
-// with the prescribed depth at infinity. In the scan the algorithm lost its minus signs; derived anew around the mean m = b1:
-// with V = b2 - b1^2 and G = E[(z - m)^3] / V the depths are the roots of x^2 - G x - V, x = z - m, on either side of the mean, and
-// w1 x1 + w2 x2 = 0 gives the weights. The roots have opposite signs, so nothing cancels once V and G are had.
+// A depth distribution of two depths from three moments: Algorithm 2 of Peters et al. 2017 (5.2, appendix B), which is
+// Algorithm 1 with the prescribed depth at infinity. In the scan the algorithm lost its minus signs; derived anew
+// around the mean m = b1: with V = b2 - b1^2 and G = E[(z - m)^3] / V the depths are m plus the roots of x^2 - G x - V,
+// on either side of the mean, and w1 x1 + w2 x2 = 0 gives the weights. The roots have opposite signs, so nothing
+// cancels once V and G are had.
 #ifndef GNOMON_MOMENTS_TWO_POINT_H
 #define GNOMON_MOMENTS_TWO_POINT_H
 #include "../numerics/select.h"
@@ -9,16 +10,14 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// Two depths, depth1 <= depth2, and their weights, in [0, 1] with sum 1.
-GNOMON_STRUCT distribution2 {
-    Real depth1, depth2, weight1, weight2;
-};
+GNOMON_STRUCT distribution2 { Real depth1, depth2, weight1, weight2; };
 
 GNOMON_CONSTANT(two_point_least_variance, 1.1920928955078125e-7); // 2^-23
 
-/// The distribution with moments b1, b2, b3 of depths in [-1, 1]. Where the variance is not above least_variance, the most that
-/// rounding makes of none (two_point_least_variance for moments stored as floats), a single depth b1: the algorithm's domain ends
-/// there. For moments of no distribution on [-1, 1] depths may lie outside, within 2^13 of the mean; a NaN gives a single depth at
-/// the far plane.
+/// The distribution with moments b1, b2, b3 of depths in [-1, 1]. Where the variance is not above least_variance, the
+/// most that rounding makes of none (two_point_least_variance for moments stored as floats), a single depth b1: the
+/// algorithm's domain ends there. For moments of no distribution on [-1, 1] depths may lie outside, within 2^13 of the
+/// mean; a NaN gives a single depth at the far plane.
 GNOMON_KERNEL GNOMON_T(distribution2) two_point_distribution(Real b1, Real b2, Real b3, GNOMON_SETTING least_variance)
 {
     GNOMON_T(double_word) v = subtract_product(b2, b1, b1);

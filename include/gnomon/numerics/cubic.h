@@ -1,4 +1,5 @@
-// The largest root of a cubic whose three roots are real: a closed form without trigonometry as a start, then Halley's iteration.
+// The largest root of a cubic whose three roots are real: a closed form without trigonometry as a start, then Halley's
+// iteration.
 #ifndef GNOMON_NUMERICS_CUBIC_H
 #define GNOMON_NUMERICS_CUBIC_H
 #include "../portable.h"
@@ -30,8 +31,10 @@ GNOMON_KERNEL Real cubic_largest_root(Real a, Real b, Real c, Real d)
     Real f = ((a * mean + b) * mean + c) * mean + d;
     Real cosine = -Real(1.5) * f * third / (spread2 * spread);
     Real q = gnomon_sqrt(gnomon_min(gnomon_max(Real(0.5) + Real(0.5) * cosine, Real(0)), Real(1)));
-    Real start = GNOMON_LITERAL(cubic_cosine0) + q * (GNOMON_LITERAL(cubic_cosine1) + q * (GNOMON_LITERAL(cubic_cosine2) +
-                 q * (GNOMON_LITERAL(cubic_cosine3) + q * GNOMON_LITERAL(cubic_cosine4))));
+    Real start = GNOMON_LITERAL(cubic_cosine0) +
+                 q * (GNOMON_LITERAL(cubic_cosine1) +
+                      q * (GNOMON_LITERAL(cubic_cosine2) +
+                           q * (GNOMON_LITERAL(cubic_cosine3) + q * GNOMON_LITERAL(cubic_cosine4))));
     Real t = mean + Real(2) * spread * start;
     t = cubic_halley(a, b, c, d, t);
     return cubic_halley(a, b, c, d, t);

@@ -1,16 +1,16 @@
 // Error-free transformations: a sum or product of two numbers as the rounded result and its exact error.
-// A double word (high + low, unevaluated) carries such a pair on: Dekker 1971; Knuth, TAOCP 2, 4.2.2; Ogita, Rump & Oishi 2005.
+// A double word (high + low, unevaluated) carries such a pair on: Dekker 1971; Knuth, TAOCP 2, 4.2.2; Ogita, Rump &
+// Oishi 2005.
 #ifndef GNOMON_NUMERICS_TWO_PRODUCT_H
 #define GNOMON_NUMERICS_TWO_PRODUCT_H
 #include "../portable.h"
 GNOMON_NAMESPACE_BEGIN
 
 /// The unevaluated sum high + low.
-GNOMON_STRUCT double_word {
-    Real high, low;
-};
+GNOMON_STRUCT double_word { Real high, low; };
 
-/// a b - p for p = a b rounded, without a fused multiply-add: both factors are split into halves whose products are exact.
+/// a b - p for p = a b rounded, without a fused multiply-add: both factors are split into halves whose products are
+/// exact.
 GNOMON_KERNEL Real dekker_product_error(Real a, Real b, Real p)
 {
     Real as = GNOMON_SPLITTER * a;
@@ -22,8 +22,8 @@ GNOMON_KERNEL Real dekker_product_error(Real a, Real b, Real p)
     return al * bl - (((p - ah * bh) - al * bh) - ah * bl);
 }
 
-/// a b exactly. Domain: |a|, |b| <= 2^100 and |a b| = 0 or >= 2^-100 in float (2^900, 2^-900 in double); there the fused and
-/// the split route give the same bits. Below, low is within the smallest denormal of the error.
+/// a b exactly. Domain: |a|, |b| <= 2^100 and |a b| = 0 or >= 2^-100 in float (2^900, 2^-900 in double); there the
+/// fused and the split route give the same bits. Below, low is within the smallest denormal of the error.
 GNOMON_KERNEL GNOMON_T(double_word) two_product(Real a, Real b)
 {
     GNOMON_T(double_word) r;
@@ -65,7 +65,8 @@ GNOMON_KERNEL GNOMON_T(double_word) subtract_product(Real c, Real a, Real b)
 }
 
 /// a b - c d within 2 roundings of the exact value, whatever cancels.
-/// Source: Jeannerod, Louvet & Muller 2013, "Further analysis of Kahan's algorithm for the accurate computation of 2x2 determinants".
+/// Source: Jeannerod, Louvet & Muller 2013, "Further analysis of Kahan's algorithm for the accurate computation of 2x2
+/// determinants".
 GNOMON_KERNEL Real difference_of_products(Real a, Real b, Real c, Real d)
 {
     GNOMON_T(double_word) p = two_product(a, b);
@@ -74,8 +75,8 @@ GNOMON_KERNEL Real difference_of_products(Real a, Real b, Real c, Real d)
 }
 
 /// a b - c d for double words, as a double word: relative error below 2^-40 (|a b| + |c d|) in float.
-GNOMON_KERNEL GNOMON_T(double_word) double_word_minor(GNOMON_T(double_word) a, GNOMON_T(double_word) b, GNOMON_T(double_word) c,
-                                                      GNOMON_T(double_word) d)
+GNOMON_KERNEL GNOMON_T(double_word) double_word_minor(GNOMON_T(double_word) a, GNOMON_T(double_word) b,
+                                                      GNOMON_T(double_word) c, GNOMON_T(double_word) d)
 {
     GNOMON_T(double_word) p = two_product(a.high, b.high);
     GNOMON_T(double_word) q = two_product(c.high, d.high);

@@ -43,7 +43,7 @@ template <class T> struct lane {
     using type = T;
 };
 template <class T>
-    requires(!std::is_arithmetic_v<T>) && requires { typename T::value_type; }
+requires(!std::is_arithmetic_v<T>) && requires { typename T::value_type; }
 struct lane<T> {
     using type = typename T::value_type;
 };
@@ -55,19 +55,31 @@ template <class T> using mask_t = std::remove_cvref_t<decltype(std::declval<T>()
 /// What a Real must be: a value closed under its own arithmetic, so that one type can hold every intermediate,
 /// over lanes that are not integers. An expression template is not: evaluate it into a value first.
 template <class T>
-concept real = !std::is_integral_v<lane_t<T>> && std::is_object_v<T> && requires(const T a, const T b) {
-    { -a } -> std::same_as<T>;
-    { a + b } -> std::same_as<T>;
-    { a - b } -> std::same_as<T>;
-    { a * b } -> std::same_as<T>;
-    { a / b } -> std::same_as<T>;
-    { a < b };
+concept real = !std::is_integral_v<lane_t<T>> && std::is_object_v<T> && requires(const T a, const T b)
+{
+    {
+        -a
+        } -> std::same_as<T>;
+    {
+        a + b
+        } -> std::same_as<T>;
+    {
+        a - b
+        } -> std::same_as<T>;
+    {
+        a* b
+        } -> std::same_as<T>;
+    {
+        a / b
+        } -> std::same_as<T>;
+    {a < b};
     T(lane_t<T>(1));
 };
 
 template <class T> struct require_real_of {
-    static_assert(real<T>, "gnomon: Real must be a floating-point value or a pack of them, closed under + - * / "
-                           "(no integer, no expression template: evaluate it first)");
+    static_assert(real<T>,
+                  "gnomon: Real must be a floating-point value or a pack of them, closed under + - * / "
+                  "(no integer, no expression template: evaluate it first)");
     using type = T;
 };
 template <class T> using require_real = typename require_real_of<T>::type;
@@ -78,8 +90,10 @@ template <class T> struct pack_operations {};
 /// Rounds once, from double to the lane.
 template <class T> GNOMON_INLINE constexpr T literal(double value) { return T(static_cast<lane_t<T>>(value)); }
 
-template <class T> inline constexpr double splitter = double(std::uint64_t{1} << (std::numeric_limits<T>::digits + 1) / 2) + 1.0;
-template <class T> inline constexpr double pivot_floor = std::numeric_limits<T>::min_exponent < -1000 ? 0x1p-140 : 0x1p-30;
+template <class T>
+inline constexpr double splitter = double(std::uint64_t{1} << (std::numeric_limits<T>::digits + 1) / 2) + 1.0;
+template <class T>
+inline constexpr double pivot_floor = std::numeric_limits<T>::min_exponent < -1000 ? 0x1p-140 : 0x1p-30;
 
 // A scalar fma is a library call, correct but slow, where the target has no instruction: not worth asking for.
 template <class T> constexpr bool fma_is_fused()
@@ -148,9 +162,11 @@ template <class T> GNOMON_INLINE constexpr T gnomon_power_of_two(T n)
 {
     if constexpr (std::is_same_v<T, float>) {
         // The sum leaves n in the low bits, where the shift takes it into the exponent.
-        return __builtin_bit_cast(float, (__builtin_bit_cast(std::uint32_t, n + 0x1.8p23f) << 23) + (std::uint32_t{127} << 23));
+        return __builtin_bit_cast(
+            float, (__builtin_bit_cast(std::uint32_t, n + 0x1.8p23f) << 23) + (std::uint32_t{127} << 23));
     } else if constexpr (std::is_same_v<T, double>) {
-        return __builtin_bit_cast(double, (__builtin_bit_cast(std::uint64_t, n + 0x1.8p52) << 52) + (std::uint64_t{1023} << 52));
+        return __builtin_bit_cast(
+            double, (__builtin_bit_cast(std::uint64_t, n + 0x1.8p52) << 52) + (std::uint64_t{1023} << 52));
     } else if constexpr (requires { pack_operations<T>::power_of_two(n); }) {
         return pack_operations<T>::power_of_two(n);
     } else {

@@ -64,7 +64,8 @@ template <class T, class A> struct pack_operations<xsimd::batch<T, A>> {
         using integers = xsimd::batch<integer, A>;
         return xsimd::bitwise_cast<pack>((xsimd::bitwise_cast<integers>(shifted) << fraction_bits) + integers(bias));
 #else
-        return xsimd::bitwise_cast<T>((xsimd::bitwise_cast<integer>(shifted) << fraction_bits) + xsimd::batch<integer, A>(bias));
+        return xsimd::bitwise_cast<T>((xsimd::bitwise_cast<integer>(shifted) << fraction_bits) +
+                                      xsimd::batch<integer, A>(bias));
 #endif
     }
 };
