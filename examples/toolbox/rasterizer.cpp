@@ -151,10 +151,13 @@ void append_setups(const scene& world, triangle_id id, const viewport& view, fac
     std::array<subpixel, std::tuple_size_v<decltype(part.corners)>> snapped;
     double nearest = view.eye.far_distance, farthest = view.eye.near_distance;
     for (std::size_t i = 0; i < part.count; ++i) {
+        // Of a triangle of astronomical size, rounding may leave cut corners outside of what they were cut to.
         const glm::dvec4& corner = part.corners[i];
-        const glm::dvec2 pixel = 0.5 * view.size + glm::dvec2(corner) / corner.w;
+        const double distance = std::clamp(corner.z, view.eye.near_distance, view.eye.far_distance);
+        const glm::dvec2 from_centre = glm::dvec2(corner) / (view.eye.perspective() ? distance : 1);
+        const glm::dvec2 pixel = 0.5 * view.size + glm::clamp(from_centre, -guard_band, guard_band);
         snapped[i] = {std::llround(subpixels * pixel.x), std::llround(subpixels * pixel.y)};
-        nearest = std::min(nearest, corner.z), farthest = std::max(farthest, corner.z);
+        nearest = std::min(nearest, distance), farthest = std::max(farthest, distance);
     }
     result.q_min = view.eye.perspective() ? 1 / farthest : nearest;
     result.q_max = view.eye.perspective() ? 1 / nearest : farthest;
