@@ -1,0 +1,82 @@
+// No kernel allocates, for any Real: operator new is replaced by one that counts.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <tuple>
+
+#include "all_headers.hpp"
+#include "pack.hpp"
+
+namespace {
+
+long allocations = 0;
+
+void* count_and_allocate(std::size_t size, std::size_t alignment)
+{
+    ++allocations;
+    void* memory = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    if (memory == nullptr) std::abort();
+    return memory;
+}
+
+} // namespace
+
+void* operator new(std::size_t size) { return count_and_allocate(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t alignment) { return count_and_allocate(size, std::size_t(alignment)); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+namespace {
+
+// Every parameter of a kernel is a Real, a struct of nothing else, or a scalar.
+template <class Real, class T> T argument()
+{
+    if constexpr (std::is_arithmetic_v<T>) {
+        return T(0.5);
+    } else {
+        static_assert(sizeof(T) % sizeof(Real) == 0 && std::is_trivially_copyable_v<T>);
+        const Real half(gnomon::lane_t<Real>(0.5));
+        T value;
+        for (std::size_t i = 0; i < sizeof(T); i += sizeof(Real))
+            std::memcpy(reinterpret_cast<char*>(&value) + i, &half, sizeof(Real));
+        return value;
+    }
+}
+
+template <class Real, class Result, class... Arguments> long allocations_of(Result (*kernel)(Arguments...))
+{
+    Result (*volatile opaque)(Arguments...) = kernel; // or the call might be dropped, its result being unused
+    const std::tuple<Arguments...> arguments{argument<Real, Arguments>()...};
+    const long before = allocations;
+    std::apply(opaque, arguments);
+    return allocations - before;
+}
+
+template <class Real> void check_every_kernel()
+{
+    using namespace gnomon;
+#define KERNEL(name) CHECK_MESSAGE(allocations_of<Real>(&name<Real>) == 0, #name);
+#include "every_kernel.inc"
+}
+
+} // namespace
+
+TEST_CASE("the counter counts")
+{
+    const long before = allocations;
+    int* volatile memory = new int(1);
+    delete memory;
+    CHECK(allocations == before + 1);
+}
+
+TEST_CASE("no kernel allocates")
+{
+    check_every_kernel<float>();
+    check_every_kernel<double>();
+#define CHECK_PACK(lanes, T) check_every_kernel<pack<T, lanes>>();
+    FOR_EACH_PACK(CHECK_PACK)
+}

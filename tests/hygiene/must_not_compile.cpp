@@ -1,0 +1,18 @@
+// Compiled with REAL set to a type that is no Real, which must fail with the library's own message, and to one that is.
+#include <gnomon/numerics/select.h>
+
+// The smallest expression template: a sum is a promise, not yet a number.
+struct promise {};
+struct lazy {
+    lazy(float);
+    lazy(promise);
+};
+promise operator+(lazy, lazy);
+promise operator-(lazy, lazy);
+promise operator*(lazy, lazy);
+promise operator/(lazy, lazy);
+promise operator-(lazy);
+bool operator<(lazy, lazy);
+
+REAL call(REAL x);
+REAL call(REAL x) { return gnomon::saturate_or_zero<REAL>(x); }
