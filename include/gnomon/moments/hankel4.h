@@ -87,7 +87,7 @@ GNOMON_KERNEL GNOMON_T(hankel4) hankel4_raised(GNOMON_T(moments4) b, GNOMON_SETT
     h.variance = gnomon_max(least_variance, v.high + v.low);
     h.covariance = l.high + l.low;
     h.determinant = n.high + n.low;
-    GNOMON_T(moments4) c = hankel4_noise_coefficients(h, b, m.high);
+    GNOMON_T(moments4) c = hankel4_noise_coefficients(h, b, m.high + m.low);
     Real norm = (gnomon_abs(c.b1) + gnomon_abs(c.b2)) + (gnomon_abs(c.b3) + c.b4);
     return hankel4_guard(h, least_variance, noise * norm);
 }
