@@ -22,6 +22,8 @@
 
 #if defined(__cplusplus)
 #include "portable/cpp.h"
+#elif defined(GL_core_profile) || defined(GL_es_profile) || defined(VULKAN)
+#include "portable/glsl.h"
 #else
 #error "gnomon: no prelude for this language yet"
 #endif
