@@ -1,0 +1,2 @@
+#include "drivers.hpp"
+void gnomon::demo::bounds(const settings&) {}

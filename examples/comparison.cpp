@@ -1,0 +1,262 @@
+#include "comparison.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "methods.hpp"
+#include "percentage_closer.hpp"
+#include "receivers.hpp"
+#include "toolbox/file.hpp"
+#include "toolbox/rasterizer.hpp"
+#include "toolbox/report.hpp"
+#include "toolbox/shading.hpp"
+#include "toolbox/tracer.hpp"
+
+namespace gnomon::demo {
+
+using namespace toolbox;
+
+namespace {
+
+// Two standard deviations to either side.
+std::vector<float> gaussian_taps(int count)
+{
+    std::vector<float> taps(static_cast<std::size_t>(count));
+    float sum = 0;
+    for (int i = 0; i < count; ++i) {
+        const float x = 4 * (static_cast<float>(i) + 0.5f) / static_cast<float>(count) - 2;
+        sum += taps[static_cast<std::size_t>(i)] = std::exp(-0.5f * x * x);
+    }
+    for (float& tap : taps) tap /= sum;
+    return taps;
+}
+
+const std::vector<float> taps = gaussian_taps(9);
+
+// Texels from the middle of the filter that the depth bias spares from shadowing themselves.
+constexpr double bias_radius = 5.5;
+
+constexpr float error_scale = 0.5f; // visibility at which error colours saturate
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+struct outcome {
+    std::string method, format;
+    double bytes_per_texel, build_ms, ns_per_receiver;
+    std::vector<float> visibility; // per receiver
+};
+
+template <method M> outcome outcome_of(const depth_map& depths, const receivers& where)
+{
+    outcome result{std::string(M::name), std::string(M::format), double(M::bytes_per_texel), 0, 0, {}};
+    auto start = std::chrono::steady_clock::now();
+    const typename M::map map{depths, taps};
+    result.build_ms = 1e3 * seconds_since(start);
+
+    std::vector<typename M::fetched> fetched(where.size());
+    tbb::parallel_for(std::size_t(0), where.size(),
+                      [&](std::size_t i) { fetched[i] = M::fetch(map, where.places[i]); });
+
+    result.visibility.resize(where.size());
+    double least = std::numeric_limits<double>::infinity();
+    for (int repetition = 0; repetition < 3; ++repetition) {
+        start = std::chrono::steady_clock::now();
+        for (std::size_t i = 0; i < where.size(); ++i)
+            result.visibility[i] = 1 - M::intensity(fetched[i], where.depths[i]);
+        least = std::min(least, seconds_since(start));
+    }
+    result.ns_per_receiver = 1e9 * least / double(std::max<std::size_t>(where.size(), 1));
+    return result;
+}
+
+// The mean of each block of factor x factor pixels.
+template <class T> image<T> reduced(const image<T>& source, int factor)
+{
+    if (factor == 1) return source;
+    image<T> result(source.width / factor, source.height / factor);
+    tbb::parallel_for(0, result.height, [&](int y) {
+        for (int x = 0; x < result.width; ++x) {
+            T sum(0);
+            for (int j = 0; j < factor; ++j)
+                for (int i = 0; i < factor; ++i) sum += source(x * factor + i, y * factor + j);
+            result(x, y) = sum / static_cast<float>(factor * factor);
+        }
+    });
+    return result;
+}
+
+class comparison {
+  public:
+    comparison(std::string name, const stage& scenery, const settings& how)
+        : name_(std::move(name)), stage_(scenery), how_(how), folder_(how.out / "gallery" / name_)
+    {
+        progress(name_, "shadow map, camera image, ray tracing");
+        const int columns = how.width * how.supersampling, rows = how.height * how.supersampling;
+        tracer rays(stage_.world);
+        depths_ = rasterize_depth<4>(stage_.world, stage_.light, how.map_resolution, how.map_resolution);
+        seen_ = rasterize_surfaces(stage_.world, stage_.eye, columns, rows);
+        where_ = receivers_of(seen_, stage_.light, how.map_resolution, bias_radius);
+        traced_image_ = traced_visibility(rays, stage_.light, seen_);
+        for (const std::size_t pixel : where_.pixels) traced_.push_back(traced_image_.pixels[pixel]);
+
+        progress(name_, "reference: percentage-closer filtering with the same weights");
+        filtered_.resize(where_.size());
+        tbb::parallel_for(std::size_t(0), where_.size(), [&](std::size_t i) {
+            filtered_[i] =
+                1 - static_cast<float>(percentage_closer<double>(depths_, where_.places[i], where_.depths[i], taps));
+        });
+        filtered_image_ = image_of(filtered_);
+
+        const int gap = 4, magnification = 4;
+        const int size = (how.width - 2 * gap) / (3 * magnification);
+        for (const point_of_interest& place : stage_.interests)
+            insets_.push_back(inset_around(place, stage_.eye, size, how.width, how.height));
+        facts_ = {{"scene", stage_.world.name},
+                  {"width", how.width},
+                  {"height", how.height},
+                  {"supersampling", how.supersampling},
+                  {"map_resolution", how.map_resolution},
+                  {"taps", taps.size()},
+                  {"bias_radius", bias_radius},
+                  {"error_scale", error_scale},
+                  {"receivers", where_.size()},
+                  {"methods", nlohmann::json::array()},
+                  {"insets", nlohmann::json::array()}};
+        for (const point_of_interest& place : stage_.interests) {
+            const glm::vec3& c = place.colour;
+            facts_["insets"].push_back(
+                {{"name", place.name},
+                 {"colour", fmt::format("#{:02x}{:02x}{:02x}", srgb8(c.r), srgb8(c.g), srgb8(c.b))}});
+        }
+        write_png(folder_ / "traced.png", figure(shaded(traced_image_)));
+        write_png(folder_ / "filtered.png", figure(shaded(filtered_image_)));
+    }
+
+    void add(const outcome& o)
+    {
+        const std::string file = fmt::format("method{:02}", facts_["methods"].size());
+        const image<float> estimate = image_of(o.visibility);
+        tbb::parallel_invoke(
+            [&] { write_png(folder_ / (file + ".png"), figure(shaded(estimate))); },
+            [&] { write_png(folder_ / (file + "-filtered.png"), figure(error(estimate, filtered_image_))); },
+            [&] { write_png(folder_ / (file + "-traced.png"), figure(error(estimate, traced_image_))); });
+        facts_["methods"].push_back({{"method", o.method}, {"format", o.format}, {"file", file}});
+        add_rows(o);
+    }
+
+    void finish() const
+    {
+        write_file(folder_ / "facts.json", facts_.dump(1));
+        merge_report(how_.out / "report.json", rows_);
+    }
+
+    const depth_map& depths() const { return depths_; }
+    const receivers& where() const { return where_; }
+
+  private:
+    image<float> image_of(std::span<const float> visibility) const
+    {
+        image<float> result(seen_.width, seen_.height, 1);
+        for (std::size_t i = 0; i < where_.size(); ++i) result.pixels[where_.pixels[i]] = visibility[i];
+        return result;
+    }
+
+    picture shaded(const image<float>& visibility) const
+    {
+        return reduced(shade(stage_.world, stage_.light, seen_, visibility), how_.supersampling);
+    }
+
+    picture error(const image<float>& estimate, const image<float>& reference) const
+    {
+        return error_picture(reduced(estimate, how_.supersampling), reduced(reference, how_.supersampling),
+                             error_scale);
+    }
+
+    // The picture with its insets framed, above the insets magnified.
+    picture figure(const picture& whole) const
+    {
+        if (insets_.empty()) return whole;
+        picture framed = whole;
+        std::vector<picture> magnified;
+        for (std::size_t i = 0; i < insets_.size(); ++i) {
+            const glm::vec3& colour = stage_.interests[i].colour;
+            outline(framed, insets_[i], colour);
+            picture inset = magnify(whole, insets_[i], 4);
+            outline(inset, {4, 4, inset.width - 8, inset.height - 8}, colour, 4);
+            magnified.push_back(std::move(inset));
+        }
+        return stacked(std::array{framed, side_by_side(magnified)});
+    }
+
+    void add_rows(const outcome& o)
+    {
+        add_rows(o, stage_.world.name, {0, 0, how_.width, how_.height});
+        for (std::size_t i = 0; i < insets_.size(); ++i)
+            add_rows(o, stage_.world.name + ": " + stage_.interests[i].name, insets_[i]);
+    }
+
+    void add_rows(const outcome& o, const std::string& scene, const rectangle& part)
+    {
+        std::vector<float> estimate, filtered, traced;
+        for (std::size_t i = 0; i < where_.size(); ++i) {
+            const int pixel = static_cast<int>(where_.pixels[i]);
+            const int x = pixel % seen_.width / how_.supersampling, y = pixel / seen_.width / how_.supersampling;
+            if (x < part.x || x >= part.x + part.width || y < part.y || y >= part.y + part.height) continue;
+            estimate.push_back(o.visibility[i]);
+            filtered.push_back(filtered_[i]);
+            traced.push_back(traced_[i]);
+        }
+        report_row row{.scene = scene,
+                       .method = o.method,
+                       .format = o.format,
+                       .reference = "filtered",
+                       .receivers = static_cast<long long>(estimate.size()),
+                       .bytes_per_texel = o.bytes_per_texel,
+                       .errors = compare(estimate, filtered),
+                       .ns_per_receiver = o.ns_per_receiver,
+                       .build_ms = o.build_ms};
+        rows_.push_back(row);
+        row.reference = "traced";
+        row.errors = compare(estimate, traced);
+        rows_.push_back(row);
+    }
+
+    std::string name_;
+    const stage& stage_;
+    settings how_;
+    std::filesystem::path folder_;
+    depth_map depths_;
+    image<surface> seen_;
+    receivers where_;
+    std::vector<float> filtered_, traced_; // visibility per receiver
+    image<float> filtered_image_, traced_image_;
+    std::vector<rectangle> insets_;
+    nlohmann::ordered_json facts_;
+    std::vector<report_row> rows_;
+};
+
+} // namespace
+
+void compare_methods(const std::string& name, const stage& scenery, const settings& how)
+{
+    comparison c(name, scenery, how);
+    for_each_method([&]<method M>() {
+        progress(name, M::name);
+        c.add(outcome_of<M>(c.depths(), c.where()));
+    });
+    c.finish();
+}
+
+} // namespace gnomon::demo

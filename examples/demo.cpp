@@ -1,0 +1,65 @@
+// The program behind ./run demo.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "drivers.hpp"
+
+namespace {
+
+struct driver {
+    const char* name;
+    void (*run)(const gnomon::demo::settings&);
+};
+
+constexpr std::array drivers{driver{"hard_shadows", gnomon::demo::hard_shadows},
+                             driver{"bounds", gnomon::demo::bounds}};
+
+} // namespace
+
+void gnomon::demo::progress(std::string_view driver, std::string_view what)
+{
+    fmt::print(stderr, "demo: {}: {}\n", driver, what);
+}
+
+int main(int argc, char** argv)
+try {
+    using gnomon::demo::settings;
+    settings how;
+    std::vector<std::string> names;
+    std::string model, out = how.out.string();
+    bool full = false, tiny = false;
+
+    CLI::App app("Renders shadows by every method of Gnomon; with no argument all drivers run.", "gnomon_demo");
+    std::vector<std::string> known;
+    for (const driver& d : drivers) known.emplace_back(d.name);
+    app.add_option("NAME", names, "drivers to run")->check(CLI::IsMember(known));
+    app.add_flag("--full", full, "four camera samples per pixel");
+    app.add_flag("--tiny", tiny, "a quarter of the size, for tests")->excludes("--full");
+    app.add_option("--model", model, "OBJ, PLY, glTF or similar, put on a ground plane and shaded by every method");
+    app.add_option("--out", out, "folder for the gallery and report.json")->capture_default_str();
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        fmt::print(stderr, "demo: {}\n", error.what());
+        return 2;
+    }
+    if (full) how.supersampling = 2;
+    if (tiny) how.width /= 4, how.height /= 4, how.map_resolution /= 4;
+    how.out = out;
+
+    if (!model.empty()) gnomon::demo::model(how, model);
+    for (const driver& d : drivers)
+        if (names.empty() ? model.empty() : std::count(names.begin(), names.end(), d.name) > 0) d.run(how);
+    return 0;
+} catch (const std::exception& error) {
+    fmt::print(stderr, "demo: {}\n", error.what());
+    return 2;
+}

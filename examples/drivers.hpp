@@ -1,0 +1,29 @@
+// The drivers of the demo. Each leaves pictures and a page of facts, FOLDER/NAME/facts.json, for the gallery, and rows
+// in report.json.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace gnomon::demo {
+
+struct settings {
+    int width = 1280, height = 720;
+    int supersampling = 1; // camera samples per pixel and axis
+    int map_resolution = 1024;
+    std::filesystem::path out = "out";
+};
+
+// A line of progress on the standard error stream.
+void progress(std::string_view driver, std::string_view what);
+
+// The scene of Peters et al. 2017, Figure 4, by every method.
+void hard_shadows(const settings& how);
+
+// A model from a file on a ground plane, by every method.
+void model(const settings& how, const std::filesystem::path& file);
+
+// Bounds and representations of one depth distribution from 2, 4 and 6 moments, after the paper's Figure 2.
+void bounds(const settings& how);
+
+} // namespace gnomon::demo

@@ -1,0 +1,9 @@
+#include "toolbox/model.hpp"
+
+#include "comparison.hpp"
+
+void gnomon::demo::model(const settings& how, const std::filesystem::path& file)
+{
+    progress("model", file.string());
+    compare_methods("model", toolbox::model_stage(toolbox::load_model(file), double(how.width) / how.height), how);
+}

@@ -1,0 +1,31 @@
+// What is shaded: the surfaces that a camera sees and a light can reach, as a shadow map sees them.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "toolbox/camera.hpp"
+#include "toolbox/image.hpp"
+#include "toolbox/rasterizer.hpp"
+
+namespace gnomon::demo {
+
+// Where to look into a shadow map: texture coordinates in [0, 1] and the level of detail.
+struct look_up {
+    float u, v, level;
+};
+
+struct receivers {
+    std::vector<std::size_t> pixels; // indices into the picture
+    std::vector<look_up> places;
+    std::vector<float> depths; // biased
+
+    std::size_t size() const { return pixels.size(); }
+};
+
+// Depths are moved towards the light by the most that a plane through the receiver rises within bias_radius texels of
+// the level looked at: the customary slope-scaled bias, the same for every method (Peters et al. 2017, D.2).
+receivers receivers_of(const toolbox::image<toolbox::surface>& seen, const toolbox::camera& light, int resolution,
+                       double bias_radius);
+
+} // namespace gnomon::demo
