@@ -13,10 +13,10 @@ GNOMON_STRUCT double_word { Real high, low; };
 /// exact.
 GNOMON_KERNEL Real dekker_product_error(Real a, Real b, Real p)
 {
-    Real as = GNOMON_SPLITTER * a;
-    Real bs = GNOMON_SPLITTER * b;
-    Real ah = as - (as - a);
-    Real bh = bs - (bs - b);
+    Real sa = GNOMON_SPLITTER * a;
+    Real sb = GNOMON_SPLITTER * b;
+    Real ah = sa - (sa - a);
+    Real bh = sb - (sb - b);
     Real al = a - ah;
     Real bl = b - bh;
     return al * bl - (((p - ah * bh) - al * bh) - ah * bl);
