@@ -24,7 +24,10 @@ void* count_and_allocate(std::size_t size, std::size_t alignment)
 } // namespace
 
 void* operator new(std::size_t size) { return count_and_allocate(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) { return count_and_allocate(size, std::size_t(alignment)); }
+void* operator new(std::size_t size, std::align_val_t alignment)
+{
+    return count_and_allocate(size, std::size_t(alignment));
+}
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }

@@ -1,5 +1,5 @@
-// Compiled by calls.py, never run: a function around every kernel for every pack. Operands come from memory and results go
-// there, as in a caller's loop; by value, large structs would be copied by memcpy for the calling convention's sake.
+// Compiled by calls.py, never run: a function around every kernel for every pack. Operands come from memory and results
+// go there, as in a caller's loop; by value, large structs would be copied by memcpy for the calling convention's sake.
 #include "all_headers.hpp"
 #include "pack.hpp"
 

@@ -1,4 +1,5 @@
-// The packs that every kernel is tried with: 4, 8 and 16 lanes of float, 2, 4 and 8 of double, as far as the target has them.
+// The packs that every kernel is tried with: 4, 8 and 16 lanes of float, 2, 4 and 8 of double, as far as the target has
+// them.
 #ifndef GNOMON_TESTS_HYGIENE_PACK_HPP
 #define GNOMON_TESTS_HYGIENE_PACK_HPP
 
