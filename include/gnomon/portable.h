@@ -20,12 +20,18 @@
 #ifndef GNOMON_PORTABLE_H
 #define GNOMON_PORTABLE_H
 
-#if defined(__cplusplus)
+#if defined(__METAL_VERSION__)
+#include "portable/msl.h"
+#elif defined(__OPENCL_C_VERSION__) || defined(__OPENCL_CPP_VERSION__)
+#include "portable/opencl.h"
+#elif defined(GNOMON_HLSL) || defined(__HLSL_VERSION) || defined(__hlsl_dx_compiler) || defined(__SLANG__)
+#include "portable/hlsl.h"
+#elif defined(__cplusplus)
 #include "portable/cpp.h"
 #elif defined(GL_core_profile) || defined(GL_es_profile) || defined(VULKAN)
 #include "portable/glsl.h"
 #else
-#error "gnomon: no prelude for this language yet"
+#error "gnomon: unknown language; an HLSL compiler that defines no macro of its own needs GNOMON_HLSL"
 #endif
 
 #endif

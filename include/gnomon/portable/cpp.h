@@ -52,28 +52,17 @@ template <class T> using lane_t = typename lane<T>::type;
 /// bool for a scalar, the pack's own mask for a pack.
 template <class T> using mask_t = std::remove_cvref_t<decltype(std::declval<T>() < std::declval<T>())>;
 
+template <class T>
+using arithmetic_result =
+    decltype((-std::declval<T>() + std::declval<T>()) * std::declval<T>() / (std::declval<T>() - std::declval<T>()));
+
 /// What a Real must be: a value closed under its own arithmetic, so that one type can hold every intermediate,
 /// over lanes that are not integers. An expression template is not: evaluate it into a value first.
 template <class T>
-concept real = !std::is_integral_v<lane_t<T>> && std::is_object_v<T> && requires(const T a, const T b)
+concept real = std::same_as<arithmetic_result<T>, T> && !std::is_integral_v<lane_t<T>> &&
+               std::constructible_from<T, lane_t<T>> && requires
 {
-    {
-        -a
-        } -> std::same_as<T>;
-    {
-        a + b
-        } -> std::same_as<T>;
-    {
-        a - b
-        } -> std::same_as<T>;
-    {
-        a* b
-        } -> std::same_as<T>;
-    {
-        a / b
-        } -> std::same_as<T>;
-    {a < b};
-    T(lane_t<T>(1));
+    typename mask_t<T>;
 };
 
 template <class T> struct require_real_of {

@@ -1,0 +1,36 @@
+// The HLSL prelude, for float as Real. No templates, so that old front ends take it too.
+// For the same bits as on the CPU compile with strict IEEE arithmetic (/Gis); precise keeps the exact products whole in
+// any case.
+#ifndef GNOMON_PORTABLE_HLSL_H
+#define GNOMON_PORTABLE_HLSL_H
+
+#define Real float
+#define GNOMON_NAMESPACE_BEGIN
+#define GNOMON_NAMESPACE_END
+#define GNOMON_KERNEL
+#define GNOMON_STRUCT struct
+#define GNOMON_T(name) name
+#define GNOMON_MASK bool
+#define GNOMON_SETTING Real
+#define GNOMON_CONSTANT(name, value) static const Real name = Real(value)
+#define GNOMON_LITERAL(name) name
+#define GNOMON_FUSED false
+#define GNOMON_DIGITS 24
+#define GNOMON_SPLITTER Real(4097.0)
+#define GNOMON_PIVOT_FLOOR Real(9.31322574615478515625e-10)
+
+Real gnomon_select(bool mask, Real a, Real b) { return mask ? a : b; }
+bool gnomon_any(bool mask) { return mask; }
+Real gnomon_min(Real a, Real b) { return a < b ? a : b; }
+Real gnomon_max(Real a, Real b) { return b < a ? a : b; }
+Real gnomon_abs(Real a) { return abs(a); }
+Real gnomon_sqrt(Real a) { return sqrt(a); }
+Real gnomon_fma(Real a, Real b, Real c) { return mad(a, b, c); }
+Real gnomon_product(Real a, Real b)
+{
+    precise Real p = a * b;
+    return p;
+}
+Real gnomon_power_of_two(Real n) { return asfloat((int(n) + 127) << 23); }
+
+#endif

@@ -1,0 +1,35 @@
+// The OpenCL C prelude, 1.2 and later, for float as Real.
+// For the same bits as on the CPU put #pragma OPENCL FP_CONTRACT OFF before the kernels and build without relaxed
+// mathematics.
+#ifndef GNOMON_PORTABLE_OPENCL_H
+#define GNOMON_PORTABLE_OPENCL_H
+
+// OpenCL C has no Real(x): a macro of the type's name supplies it, and leaves the type alone where no parenthesis
+// follows.
+typedef float Real;
+#define Real(x) ((float)(x))
+#define GNOMON_NAMESPACE_BEGIN
+#define GNOMON_NAMESPACE_END
+#define GNOMON_KERNEL static inline
+#define GNOMON_STRUCT struct
+#define GNOMON_T(name) struct name
+#define GNOMON_MASK bool
+#define GNOMON_SETTING Real
+#define GNOMON_CONSTANT(name, value) __constant float name = (float)(value)
+#define GNOMON_LITERAL(name) name
+#define GNOMON_FUSED true
+#define GNOMON_DIGITS 24
+#define GNOMON_SPLITTER 4097.0f
+#define GNOMON_PIVOT_FLOOR 9.31322574615478515625e-10f
+
+static inline Real gnomon_select(bool mask, Real a, Real b) { return mask ? a : b; }
+static inline bool gnomon_any(bool mask) { return mask; }
+static inline Real gnomon_min(Real a, Real b) { return a < b ? a : b; }
+static inline Real gnomon_max(Real a, Real b) { return b < a ? a : b; }
+static inline Real gnomon_abs(Real a) { return fabs(a); }
+static inline Real gnomon_sqrt(Real a) { return sqrt(a); }
+static inline Real gnomon_fma(Real a, Real b, Real c) { return fma(a, b, c); }
+static inline Real gnomon_product(Real a, Real b) { return fma(a, b, -0.0f); }
+static inline Real gnomon_power_of_two(Real n) { return as_float((convert_int_rtz(n) + 127) << 23); }
+
+#endif
