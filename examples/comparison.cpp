@@ -108,14 +108,15 @@ class comparison {
         depths_ = rasterize_depth<4>(stage_.world, stage_.light, how.map_resolution, how.map_resolution);
         seen_ = rasterize_surfaces(stage_.world, stage_.eye, columns, rows);
         where_ = receivers_of(seen_, stage_.light, how.map_resolution, bias_radius);
-        traced_image_ = traced_visibility(rays, stage_.light, seen_);
-        for (const std::size_t pixel : where_.pixels) traced_.push_back(traced_image_.pixels[pixel]);
+        const image<float> traced = traced_visibility(rays, stage_.light, seen_);
+        for (const std::size_t pixel : where_.pixels) traced_.push_back(traced.pixels[pixel]);
+        traced_image_ = image_of(traced_);
 
         progress(name_, "reference: percentage-closer filtering with the same weights");
         filtered_.resize(where_.size());
         tbb::parallel_for(std::size_t(0), where_.size(), [&](std::size_t i) {
-            filtered_[i] =
-                1 - static_cast<float>(percentage_closer<double>(depths_, where_.places[i], where_.depths[i], taps));
+            filtered_[i] = 1 - static_cast<float>(percentage_closer_intensity<double>(depths_, where_.places[i],
+                                                                                      where_.depths[i], taps));
         });
         filtered_image_ = image_of(filtered_);
 

@@ -17,42 +17,45 @@
 
 namespace gnomon::demo {
 
-// A storage format: what a texel is, and its linearly filterable channels.
-template <class F>
-concept storage = requires(typename F::texel texel, typename F::channels channels, float z)
+// Linearly filterable channels, and the texel that stores them.
+template <class S>
+concept storage = requires(typename S::texel texel, typename S::channels channels, float z)
 {
     {
-        F::of_depth(z)
-        } -> std::same_as<typename F::channels>;
+        S::values_of_depth(z)
+        } -> std::same_as<typename S::channels>; // before any transform of the format
     {
-        F::encode(channels)
-        } -> std::same_as<typename F::texel>;
+        S::encode_values(channels)
+        } -> std::same_as<typename S::texel>;
     {
-        F::decode(texel)
-        } -> std::same_as<typename F::channels>;
+        S::encode(channels)
+        } -> std::same_as<typename S::texel>;
+    {
+        S::decode(texel)
+        } -> std::same_as<typename S::channels>;
     {
         channels[0]
         } -> std::same_as<float&>;
 };
 
-template <storage F> class filtered_map {
+template <storage S> class filtered_map {
   public:
-    using channels = typename F::channels;
+    using channels = typename S::channels;
 
     filtered_map(const depth_map& depths, std::span<const float> taps)
     {
         const level_map resolved = made(depths.width, depths.height, [&](int x, int y) {
             channels sum{};
-            for (const float z : depths(x, y)) add(sum, F::of_depth(z), 0.25f);
-            return sum;
+            for (const float z : depths(x, y)) add(sum, S::values_of_depth(z), 0.25f);
+            return S::encode_values(sum);
         });
         levels_.push_back(blurred(blurred(resolved, taps, 1, 0), taps, 0, 1));
         while (levels_.back().width > 1) {
             const level_map& fine = levels_.back();
             levels_.push_back(made(fine.width / 2, fine.height / 2, [&](int x, int y) {
                 channels sum{};
-                for (const int k : {0, 1, 2, 3}) add(sum, F::decode(fine(2 * x + k % 2, 2 * y + k / 2)), 0.25f);
-                return sum;
+                for (const int k : {0, 1, 2, 3}) add(sum, S::decode(fine(2 * x + k % 2, 2 * y + k / 2)), 0.25f);
+                return S::encode(sum);
             }));
         }
     }
@@ -68,18 +71,18 @@ template <storage F> class filtered_map {
     }
 
   private:
-    using level_map = toolbox::image<typename F::texel>;
+    using level_map = toolbox::image<typename S::texel>;
 
     static void add(channels& sum, const channels& c, float weight)
     {
         for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight * c[k];
     }
 
-    static level_map made(int width, int height, auto&& channels_at)
+    static level_map made(int width, int height, auto&& texel_at)
     {
         level_map result(width, height);
         tbb::parallel_for(0, height, [&](int y) {
-            for (int x = 0; x < width; ++x) result(x, y) = F::encode(channels_at(x, y));
+            for (int x = 0; x < width; ++x) result(x, y) = texel_at(x, y);
         });
         return result;
     }
@@ -91,10 +94,10 @@ template <storage F> class filtered_map {
             channels sum{};
             for (int t = -radius; t <= radius; ++t)
                 add(sum,
-                    F::decode(source(std::clamp(x + t * dx, 0, source.width - 1),
+                    S::decode(source(std::clamp(x + t * dx, 0, source.width - 1),
                                      std::clamp(y + t * dy, 0, source.height - 1))),
                     taps[static_cast<std::size_t>(t + radius)]);
-            return sum;
+            return S::encode(sum);
         });
     }
 
@@ -106,7 +109,7 @@ template <storage F> class filtered_map {
         for (const int j : {0, 1})
             for (const int i : {0, 1})
                 add(sum,
-                    F::decode(map(std::clamp(static_cast<int>(left) + i, 0, map.width - 1),
+                    S::decode(map(std::clamp(static_cast<int>(left) + i, 0, map.width - 1),
                                   std::clamp(static_cast<int>(top) + j, 0, map.height - 1))),
                     (i ? x - left : 1 - (x - left)) * (j ? y - top : 1 - (y - top)));
         return sum;

@@ -9,6 +9,7 @@
 #include <bit>
 #include <concepts>
 #include <cstddef>
+#include <gnomon/filters/formats.hpp>
 #include <gnomon/moments/formats.hpp>
 #include <span>
 #include <string_view>
@@ -57,100 +58,129 @@ struct pcf {
     static fetched fetch(const map& source, const look_up& place) { return {&source, place}; }
     static float intensity(const fetched& f, float z_f)
     {
-        return percentage_closer<float>(f.source->depths, f.place, z_f, f.source->taps);
+        return percentage_closer_intensity<float>(f.source->depths, f.place, z_f, f.source->taps);
     }
 };
 
-// Storage of moments: the library's formats speak of moments4 and moments6, filters of arrays.
-template <class Format> struct moment_storage {
+// A storage format of the library for filters that see its channels as an array.
+template <class Format> struct stored {
     static constexpr std::string_view format = Format::name;
     static constexpr std::size_t bytes_per_texel = Format::bytes_per_texel;
-    using moments = typename Format::moments;
+    using values = typename Format::moments;
     using texel = typename Format::texel;
-    using channels = std::array<float, sizeof(moments) / sizeof(float)>;
+    using channels = std::array<float, sizeof(values) / sizeof(float)>;
 
-    static channels of_depth(float z)
+    static channels values_of_depth(float z)
     {
-        if constexpr (sizeof(moments) == sizeof(moments4<float>))
-            return std::bit_cast<channels>(Format::channels(moments4_of_depth(z)));
-        else return std::bit_cast<channels>(Format::channels(moments6_of_depth(z)));
+        if constexpr (requires { Format::moments_of_depth(z); })
+            return std::bit_cast<channels>(Format::moments_of_depth(z));
+        else if constexpr (std::same_as<values, moments4<float>>) return std::bit_cast<channels>(moments4_of_depth(z));
+        else return std::bit_cast<channels>(moments6_of_depth(z));
     }
-    static texel encode(const channels& c) { return Format::encode_channels(std::bit_cast<moments>(c)); }
+    static texel encode_values(const channels& v) { return Format::encode(std::bit_cast<values>(v)); }
+    static texel encode(const channels& c) { return Format::encode_channels(std::bit_cast<values>(c)); }
     static channels decode(const texel& t) { return std::bit_cast<channels>(Format::decode(t)); }
 };
 
-// Moments of depth in [0, 1], as moment shadow maps had them before signed depth.
-struct unit_moment_storage : moment_storage<moments4_float> {
-    static channels of_depth(float z) { return std::bit_cast<channels>(moments4_of_depth(0.5f * z + 0.5f)); }
-};
+// A filterable map in a format, by default with the reconstruction that belongs to the format.
+template <class Format> struct filterable : stored<Format> {
+    using typename stored<Format>::values;
+    using fetched = typename stored<Format>::channels;
+    using map = filtered_map<stored<Format>>;
 
-template <storage S> struct filterable : S {
-    using map = filtered_map<S>;
-    using fetched = typename S::channels;
     static fetched fetch(const map& source, const look_up& place) { return source.trilinear(place); }
-};
-
-// The library's default for a format: its transform, its bias, its bias weight.
-template <class Format> struct moment_method : filterable<moment_storage<Format>> {
-    static float intensity(const auto& c, float z_f)
+    static float intensity(const fetched& f, float z_f)
     {
-        const auto factored = Format::factor(std::bit_cast<typename Format::moments>(c));
-        if constexpr (requires { hamburger4_lower(factored, z_f); }) return hamburger4_lower(factored, z_f);
-        else return hamburger6_lower(factored, z_f);
+        const values v = std::bit_cast<values>(f);
+        if constexpr (requires { Format::intensity(v, z_f); }) return Format::intensity(v, z_f);
+        else if constexpr (std::same_as<values, moments4<float>>) return hamburger4_lower(Format::factor(v), z_f);
+        else return hamburger6_lower(Format::factor(v), z_f);
     }
 };
 
-struct moments4_64_paper : filterable<moment_storage<moments4_unorm16>> {
-    static constexpr std::string_view name = "Moments, 64 bit (paper's bias)";
-    static float intensity(const channels& c, float z_f)
+struct vsm_32 : filterable<variance_unorm16> {
+    static constexpr std::string_view name = "VSM 32 bit";
+};
+
+struct esm_32 : filterable<exponential_float> {
+    static constexpr std::string_view name = "ESM 32 bit";
+};
+
+struct evsm_64 : filterable<exponential_variance_half> {
+    static constexpr std::string_view name = "EVSM 64 bit";
+};
+
+struct evsm_128 : filterable<exponential_variance_float> {
+    static constexpr std::string_view name = "EVSM 128 bit";
+};
+
+struct csm_256 : filterable<convolution_unorm8> {
+    static constexpr std::string_view name = "CSM 256 bit";
+};
+
+// Peters et al. 2017, Figure 4b.
+struct msm_64_paper : filterable<moments4_unorm16> {
+    static constexpr std::string_view name = "MSM 64 bit (paper)";
+    static float intensity(const fetched& f, float z_f)
     {
-        const auto b = theta4_inverse(std::bit_cast<moments4<float>>(c));
-        return hamburger4_lower(hankel4_fast(moments4_biased(b, 0.628f, 0.628f, 6e-5f)), z_f);
+        const auto b = theta4_inverse(std::bit_cast<moments4<float>>(f));
+        const auto biased = moments4_biased(b, float(bias4_theta_paper_b2), float(bias4_theta_paper_b4), 6e-5f);
+        return hamburger4_lower(hankel4_fast(biased), z_f);
     }
 };
 
-struct moments4_64 : moment_method<moments4_unorm16> {
-    static constexpr std::string_view name = "Moments, 64 bit";
+struct msm_64 : filterable<moments4_unorm16> {
+    static constexpr std::string_view name = "MSM 64 bit";
 };
 
-struct moments4_128_unit : filterable<unit_moment_storage> {
-    static constexpr std::string_view name = "Moments, 128 bit, depth in [0, 1] (2015)";
-    static float intensity(const channels& c, float z_f)
+struct msm_64_half : filterable<moments4_half> {
+    static constexpr std::string_view name = "MSM 64 bit half";
+};
+
+// Moments of depth in [0, 1], as moment shadow maps had them before signed depth (Figure 4d).
+struct moments4_unit_float : moments4_float {
+    static moments moments_of_depth(float z) { return moments4_of_depth(0.5f * z + 0.5f); }
+};
+
+struct msm_128_unit : filterable<moments4_unit_float> {
+    static constexpr std::string_view name = "MSM 128 bit, depth in [0, 1]";
+    static float intensity(const fetched& f, float z_f)
     {
-        auto b = std::bit_cast<moments4<float>>(c);
-        const float alpha = 2e-6f;
-        for (float* channel : {&b.b1, &b.b2, &b.b3, &b.b4}) *channel += alpha * (0.5f - *channel);
+        auto b = std::bit_cast<moments4<float>>(f);
+        for (float* moment : {&b.b1, &b.b2, &b.b3, &b.b4}) *moment += 2e-6f * (0.5f - *moment);
         return hamburger4_lower(hankel4_fast(b), 0.5f * z_f + 0.5f);
     }
 };
 
-struct moments4_128_paper : filterable<moment_storage<moments4_float>> {
-    static constexpr std::string_view name = "Moments, 128 bit (paper's bias)";
-    static float intensity(const channels& c, float z_f)
+// Figure 4f.
+struct msm_128_paper : filterable<moments4_float> {
+    static constexpr std::string_view name = "MSM 128 bit (paper)";
+    static float intensity(const fetched& f, float z_f)
     {
-        const auto b = std::bit_cast<moments4<float>>(c);
-        return hamburger4_lower(hankel4_fast(moments4_biased(b, 0.375f, 0.375f, 3e-7f)), z_f);
+        const auto b = std::bit_cast<moments4<float>>(f);
+        const auto biased = moments4_biased(b, float(bias4_raw_paper_b2), float(bias4_raw_paper_b4), 3e-7f);
+        return hamburger4_lower(hankel4_fast(biased), z_f);
     }
 };
 
-struct moments4_128 : moment_method<moments4_float> {
-    static constexpr std::string_view name = "Moments, 128 bit";
+struct msm_128 : filterable<moments4_float> {
+    static constexpr std::string_view name = "MSM 128 bit";
 };
 
-struct moments6_60 : moment_method<moments6_unorm10> {
-    static constexpr std::string_view name = "Six moments, 60 bit";
+struct msm6_60 : filterable<moments6_unorm10> {
+    static constexpr std::string_view name = "MSM6 60 bit";
 };
 
-struct moments6_96 : moment_method<moments6_unorm16> {
-    static constexpr std::string_view name = "Six moments, 96 bit";
+struct msm6_96 : filterable<moments6_unorm16> {
+    static constexpr std::string_view name = "MSM6 96 bit";
 };
 
-struct moments6_192 : moment_method<moments6_float> {
-    static constexpr std::string_view name = "Six moments, 192 bit";
+struct msm6_192 : filterable<moments6_float> {
+    static constexpr std::string_view name = "MSM6 192 bit";
 };
 
-using all_methods = std::tuple<pcf, moments4_64_paper, moments4_64, moments4_128_unit, moments4_128_paper, moments4_128,
-                               moments6_60, moments6_96, moments6_192>;
+using all_methods = std::tuple<pcf, vsm_32, esm_32, evsm_64, evsm_128, csm_256, msm_64_paper, msm_64, msm_64_half,
+                               msm_128_unit, msm_128_paper, msm_128, msm6_60, msm6_96, msm6_192>;
 
 // Calls each.template operator()<M>() for every method.
 template <class Each> void for_each_method(Each each)

@@ -3,6 +3,7 @@
 // weight per sample. What a filterable map differs from it by is reconstruction error alone.
 #pragma once
 
+#include <gnomon/filters/percentage_closer.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -45,32 +46,26 @@ void set_footprint(footprint<Real>& result, double coordinate, int level, int re
 
 // The weighted share of samples that are closer to the light than z_f.
 template <class Real>
-Real percentage_closer(const depth_map& depths, const look_up& place, float z_f, std::span<const float> taps)
+Real percentage_closer_intensity(const depth_map& depths, const look_up& place, float z_f, std::span<const float> taps)
 {
     thread_local footprint<Real> columns, rows;
     const int coarsest = static_cast<int>(std::log2(depths.width));
     const double level = std::min<double>(double{place.level}, coarsest), fine = std::floor(level);
-    Real result = 0;
+    auto state = percentage_closer_begin(Real(z_f));
     for (const int k : {0, 1}) {
-        const Real share = Real(k == 0 ? 1 - (level - fine) : level - fine);
+        const Real share = Real(0.25 * (k == 0 ? 1 - (level - fine) : level - fine));
         if (!(share > 0)) continue;
         const int l = static_cast<int>(fine) + k;
         set_footprint(columns, double{place.u}, l, depths.width, taps);
         set_footprint(rows, double{place.v}, l, depths.height, taps);
-        Real closer = 0;
         for (std::size_t j = 0; j < rows.weights.size(); ++j) {
             const auto* samples = &depths(columns.first, rows.first + static_cast<int>(j));
-            Real along_row = 0;
-            for (std::size_t i = 0; i < columns.weights.size(); ++i) {
-                int count = 0;
-                for (const float z : samples[i]) count += z < z_f;
-                along_row += columns.weights[i] * Real(count);
-            }
-            closer += rows.weights[j] * along_row;
+            for (std::size_t i = 0; i < columns.weights.size(); ++i)
+                for (const float z : samples[i])
+                    state = percentage_closer_add(state, Real(z), share * rows.weights[j] * columns.weights[i]);
         }
-        result += share * closer / 4;
     }
-    return std::clamp(result, Real(0), Real(1));
+    return percentage_closer_end(state);
 }
 
 } // namespace gnomon::demo
