@@ -34,8 +34,33 @@ template <typename Scalar, int m> class StoredSpace {
 
     explicit StoredSpace(const Matrix<Scalar, m>& transform) : inverse_(transform.inverse()) {}
 
+    /// The Hankel matrix of b_0 to b_m.
+    [[nodiscard]] static Hankel hankel(const Moments& b, const Scalar& b0)
+    {
+        Hankel matrix;
+        for (int i = 0; i <= half; ++i)
+            for (int j = 0; j <= half; ++j) matrix(i, j) = i + j ? b[i + j - 1] : b0;
+        return matrix;
+    }
+
+    /// Beside the Hankel matrix, this one has to be positive semi-definite for b to come from depths in [-1, 1].
+    [[nodiscard]] static Matrix<Scalar, half> localizing(const Moments& b)
+    {
+        const Hankel matrix = hankel(b, 1);
+        return matrix.template topLeftCorner<half, half>() - matrix.template bottomRightCorner<half, half>();
+    }
+
     /// Theta^-T applied to the coefficients 1 to m of a polynomial: its gradient by the stored channels.
     [[nodiscard]] Moments gradient(const Moments& coefficients) const { return inverse_.transpose() * coefficients; }
+
+    /// The coefficients 0 to m of q^2.
+    [[nodiscard]] static Vector<Scalar, m + 1> square(const Polynomial& q)
+    {
+        Vector<Scalar, m + 1> p = Vector<Scalar, m + 1>::Zero();
+        for (int i = 0; i <= half; ++i)
+            for (int j = 0; j <= half; ++j) p[i + j] += q[i] * q[j];
+        return p;
+    }
 
     /// The distance from b to the boundary of conv b(R), and the polynomial whose square touches there.
     struct Contact {
@@ -94,11 +119,8 @@ template <typename Scalar, int m> class StoredSpace {
             const Vector<Scalar, m + 1> p = square(contact(b, norm).polynomial.normalized().eval());
             const auto boundary = cut(p, dual_norm(gradient(p.template tail<m>()), norm));
             // Depths in [-1, 1]: E[(1 - z^2) s^2] >= 0 (Markov, Lukacs).
-            Matrix<Scalar, half> localizing;
-            for (int i = 0; i < half; ++i)
-                for (int j = 0; j < half; ++j) localizing(i, j) = (i + j ? b[i + j - 1] : Scalar(1)) - b[i + j + 1];
             const Vector<Scalar, half> s =
-                Eigen::SelfAdjointEigenSolver<Matrix<Scalar, half>>(localizing).eigenvectors().col(0);
+                Eigen::SelfAdjointEigenSolver<Matrix<Scalar, half>>(localizing(b)).eigenvectors().col(0);
             Vector<Scalar, m + 1> inside = Vector<Scalar, m + 1>::Zero();
             for (int i = 0; i < half; ++i)
                 for (int j = 0; j < half; ++j) {
@@ -113,22 +135,6 @@ template <typename Scalar, int m> class StoredSpace {
     }
 
   private:
-    [[nodiscard]] static Hankel hankel(const Moments& b, const Scalar& b0)
-    {
-        Hankel matrix;
-        for (int i = 0; i <= half; ++i)
-            for (int j = 0; j <= half; ++j) matrix(i, j) = i + j ? b[i + j - 1] : b0;
-        return matrix;
-    }
-
-    [[nodiscard]] static Vector<Scalar, m + 1> square(const Polynomial& q)
-    {
-        Vector<Scalar, m + 1> p = Vector<Scalar, m + 1>::Zero();
-        for (int i = 0; i <= half; ++i)
-            for (int j = 0; j <= half; ++j) p[i + j] += q[i] * q[j];
-        return p;
-    }
-
     [[nodiscard]] static Moments even_moments(const Vector<Scalar, half + 1>& x)
     {
         Moments b = Moments::Zero();

@@ -16,12 +16,15 @@ using Json = nlohmann::ordered_json;
 
 std::string digits(double x) { return fmt::format("{:.17g}", x); }
 
+/// Zero for what a matrix of 20 to 50 digits has instead of it.
+double tidied(double x) { return std::abs(x) < 1e-20 ? 0 : x; }
+
 template <typename Matrix> Json rows(const Matrix& matrix)
 {
     Json result = Json::array();
     for (int i = 0; i < matrix.rows(); ++i) {
         result.push_back(Json::array());
-        for (int j = 0; j < matrix.cols(); ++j) result[i].push_back(static_cast<double>(matrix(i, j)));
+        for (int j = 0; j < matrix.cols(); ++j) result[i].push_back(tidied(static_cast<double>(matrix(i, j))));
     }
     return result;
 }
