@@ -1,0 +1,115 @@
+// Four moments: the default route, its variants, and Algorithm 1 as the paper has it. Compiled once as the library is meant to be,
+// and once with contraction allowed.
+#include "measure.hpp"
+#include "moments.hpp"
+
+#include <gnomon/moments/hamburger4.h>
+#include <gnomon/moments/hamburger_cholesky.h>
+#include <gnomon/moments/stored.h>
+#include <gnomon/moments/two_point.h>
+
+namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {
+
+/// Which compilation this is, for the names of the rows.
+struct compilation {
+    static constexpr auto arithmetic = GNOMON_BENCH_STRING(GNOMON_BENCH_ARITHMETIC);
+};
+struct moments : moments_and_receiver<4>, compilation {};
+struct channels : channels_and_receiver<4>, compilation {};
+
+struct algorithm1 : moments {
+    static constexpr auto name = "Algorithm 1";
+    static constexpr bool has_error = true;
+    template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
+    {
+        const moments4<Real> b =
+            moments4_biased(moments4<Real>{b1, b2, b3, b4}, literal<Real>(bias4_raw_b2), literal<Real>(bias4_raw_b4),
+                            literal<Real>(stored4_float_weight));
+        return hamburger4_cholesky_intensity(b, z_f);
+    }
+};
+
+struct adaptive : moments {
+    static constexpr auto name = "default";
+    static constexpr bool has_error = true;
+    template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
+    {
+        return hamburger4_lower(hankel4_from_float(moments4<Real>{b1, b2, b3, b4}), z_f);
+    }
+};
+
+struct apart : moments {
+    static constexpr auto name = "accurate: bias kept apart";
+    static constexpr bool has_error = true;
+    template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
+    {
+        return hamburger4_lower(hankel4_biased(moments4<Real>{b1, b2, b3, b4}, literal<Real>(bias4_raw_b2),
+                                               literal<Real>(bias4_raw_b4), literal<Real>(stored4_float_weight)),
+                                z_f);
+    }
+};
+
+struct fast : moments {
+    static constexpr auto name = "fast: bias interpolated";
+    static constexpr bool has_error = true;
+    template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
+    {
+        const moments4<Real> b =
+            moments4_biased(moments4<Real>{b1, b2, b3, b4}, literal<Real>(bias4_raw_b2), literal<Real>(bias4_raw_b4),
+                            literal<Real>(stored4_float_weight));
+        return hamburger4_lower(hankel4_fast(b), z_f);
+    }
+};
+
+struct unorm16 : channels {
+    static constexpr auto name = "4 x UNORM16";
+    static constexpr bool has_error = true;
+    template <class Real> static GNOMON_INLINE constexpr Real run(Real c1, Real c2, Real c3, Real c4, Real z_f)
+    {
+        return hamburger4_lower(hankel4_from_unorm16(moments4<Real>{c1, c2, c3, c4}), z_f);
+    }
+};
+
+struct both_bounds : moments {
+    static constexpr auto name = "both bounds";
+    static constexpr bool has_error = true;
+    template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
+    {
+        return bounds_intensity(hamburger4_bounds(hankel4_from_float(moments4<Real>{b1, b2, b3, b4}), z_f),
+                                literal<Real>(0.5));
+    }
+};
+
+/// A kernel with many results returns a sum of them, so that none is left out.
+struct distribution : moments {
+    static constexpr auto name = "distribution";
+    template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
+    {
+        const auto d = hamburger4_distribution(hankel4_from_float(moments4<Real>{b1, b2, b3, b4}), z_f);
+        return (d.depth0 * d.weight0 + d.depth1 * d.weight1) + d.depth2 * d.weight2;
+    }
+};
+
+struct two_point : moments {
+    static constexpr auto name = "Algorithm 2";
+    template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real, Real)
+    {
+        const auto d = two_point_distribution(b1, b2, b3, literal<Real>(two_point_least_variance));
+        return d.depth1 * d.weight1 + d.depth2 * d.weight2;
+    }
+};
+
+struct decode : channels {
+    static constexpr auto name = "quantization undone";
+    template <class Real> static GNOMON_INLINE constexpr Real run(Real c1, Real c2, Real c3, Real c4, Real)
+    {
+        const auto b = theta4_inverse(moments4<Real>{c1, c2, c3, c4});
+        return (b.b1 + b.b2) + (b.b3 + b.b4);
+    }
+};
+
+[[maybe_unused]] const bool registered =
+    add_kernels<algorithm1, algorithm1, adaptive, apart, fast, unorm16, both_bounds, distribution, two_point, decode>(
+        "four moments");
+
+} // namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC

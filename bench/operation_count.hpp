@@ -1,0 +1,105 @@
+// How many operations of each kind a kernel takes, counted while compiling by running it on a Real that only counts.
+#ifndef GNOMON_BENCH_OPERATION_COUNT_HPP
+#define GNOMON_BENCH_OPERATION_COUNT_HPP
+
+#include <gnomon/portable.h>
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+namespace gnomon::bench {
+
+/// The first five are the arithmetic that a floor executes; the others move and compare.
+struct operations {
+    int additions = 0, multiplications = 0, fused = 0, divisions = 0, roots = 0;
+    int comparisons = 0, selections = 0, extrema = 0, signs = 0;
+};
+
+/// A Real without a value. What two constants make is a constant, which a compiler computes, and is not counted.
+struct counting_real {
+    using value_type = float;
+    operations* total = nullptr;
+
+    counting_real() = default;
+    template <class Number>
+        requires std::is_arithmetic_v<Number>
+    constexpr explicit counting_real(Number) {}
+    constexpr explicit counting_real(operations* counted) : total(counted) {}
+
+    struct mask {
+        operations* total;
+        friend constexpr mask operator&&(mask a, mask b) { return {a.total ? a.total : b.total}; }
+        friend constexpr mask operator||(mask a, mask b) { return a && b; }
+        friend constexpr mask operator!(mask a) { return a; }
+        friend constexpr bool any(mask) { return true; } // a skip that is never taken
+        friend constexpr counting_real select(mask m, counting_real a, counting_real b)
+        {
+            return count(&operations::selections, counting_real(m.total), a, b);
+        }
+    };
+
+    template <class... Operands> static constexpr counting_real count(int operations::* kind, Operands... operands)
+    {
+        counting_real result;
+        ((result.total = result.total ? result.total : operands.total), ...);
+        if (result.total) ++(result.total->*kind);
+        return result;
+    }
+
+    friend constexpr counting_real operator+(counting_real a, counting_real b)
+    {
+        return count(&operations::additions, a, b);
+    }
+    friend constexpr counting_real operator-(counting_real a, counting_real b)
+    {
+        return count(&operations::additions, a, b);
+    }
+    friend constexpr counting_real operator*(counting_real a, counting_real b)
+    {
+        return count(&operations::multiplications, a, b);
+    }
+    friend constexpr counting_real operator/(counting_real a, counting_real b)
+    {
+        return count(&operations::divisions, a, b);
+    }
+    friend constexpr counting_real operator-(counting_real a) { return count(&operations::signs, a); }
+    friend constexpr counting_real abs(counting_real a) { return count(&operations::signs, a); }
+    friend constexpr counting_real sqrt(counting_real a) { return count(&operations::roots, a); }
+    friend constexpr mask operator<(counting_real a, counting_real b)
+    {
+        return {count(&operations::comparisons, a, b).total};
+    }
+    friend constexpr mask operator>(counting_real a, counting_real b) { return a < b; }
+    friend constexpr mask operator<=(counting_real a, counting_real b) { return a < b; }
+    friend constexpr mask operator>=(counting_real a, counting_real b) { return a < b; }
+    friend constexpr mask operator==(counting_real a, counting_real b) { return a < b; }
+    friend constexpr mask operator!=(counting_real a, counting_real b) { return a < b; }
+};
+
+template <class Kernel> constexpr operations count_operations()
+{
+    operations total;
+    [&]<std::size_t... k>(std::index_sequence<k...>) {
+        Kernel::run((static_cast<void>(k), counting_real(&total))...);
+    }(std::make_index_sequence<Kernel::inputs>());
+    return total;
+}
+
+/// The operations of Kernel::run, whose operands are Kernel::inputs Reals.
+template <class Kernel> inline constexpr operations operations_of = count_operations<Kernel>();
+
+} // namespace gnomon::bench
+
+namespace gnomon {
+
+template <> struct pack_operations<bench::counting_real> {
+    using real = bench::counting_real;
+    static constexpr bool fused = is_fused<float>;
+    static constexpr real min(real a, real b) { return real::count(&bench::operations::extrema, a, b); }
+    static constexpr real max(real a, real b) { return real::count(&bench::operations::extrema, a, b); }
+    static constexpr real fma(real a, real b, real c) { return real::count(&bench::operations::fused, a, b, c); }
+};
+
+} // namespace gnomon
+#endif
