@@ -88,7 +88,9 @@ TEST_CASE("bad files answer with one line: file and cause")
     check("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99\n# padding\n", "");
     check("model.unknown", "whatever", "No suitable reader");
     check("cut.gltf", "{ \"asset\": { \"ver", "");
+#ifndef __SANITIZE_ADDRESS__ // which the memory limit is not for, see import_guard.cpp
     check("bomb.off", "OFF\n353535235358 6 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "needs too much memory");
+#endif
     CHECK(complaint_about(folder.path) == folder.path.string() + ": not a file");
     CHECK(complaint_about(folder / "none.obj") == (folder / "none.obj").string() + ": no such file");
 }
