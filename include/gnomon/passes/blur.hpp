@@ -1,0 +1,136 @@
+// Separable blur of a shadow map in its storage format: each pass decodes, sums over the taps in float and encodes, so
+// a two-pass blur rounds twice, as on a GPU. Beyond the edge the outermost texel repeats. No allocation; bands of rows
+// may run on different threads.
+//
+//     const auto weights = gnomon::gaussian_weights();                                  // 9 taps
+//     gnomon::blur<gnomon::moments4_unorm16>(map, scratch, map, weights);
+#ifndef GNOMON_PASSES_BLUR_HPP
+#define GNOMON_PASSES_BLUR_HPP
+
+#include "map_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+
+/// Gaussian weights at whole distances from the middle tap, normalised to sum to 1 up to rounding. sigma in texels.
+template <std::size_t taps = 9> std::array<float, taps> gaussian_weights(double sigma = (taps - 1) / 4.0)
+{
+    static_assert(taps % 2 == 1, "gnomon: a blur has a middle tap");
+    std::array<double, taps> weights{};
+    double sum = 0;
+    for (std::size_t i = 0; i < taps; ++i) {
+        const double distance = double(i) - double(taps / 2);
+        sum += weights[i] = std::exp(-distance * distance / (2 * sigma * sigma));
+    }
+    std::array<float, taps> result{};
+    for (std::size_t i = 0; i < taps; ++i) result[i] = float(weights[i] / sum);
+    return result;
+}
+
+/// The most taps that a blur accepts: its window of decoded texels lies on the stack.
+inline constexpr std::size_t maximum_blur_taps = 63;
+
+namespace detail {
+
+template <class T> struct lines {
+    T* data;
+    std::size_t along, across; // steps between texels of a line, and between lines
+};
+
+/// Blurs texels [first, last) of each of the given count of lines, which are length texels long; a few lines at a time,
+/// keeping the decoded texels under the taps in a ring.
+template <class Format>
+void blur_lines(lines<const format_texel<Format>> source, lines<format_texel<Format>> target, std::size_t length,
+                std::size_t first, std::size_t last, std::size_t count, std::span<const float> weights)
+{
+    constexpr std::size_t channels = channel_count<Format>;
+    constexpr std::size_t batch = channels < 64 ? 64 / channels : 1;
+    using decoded = std::array<float, batch * channels>;
+    std::array<decoded, maximum_blur_taps> ring{};
+    const std::size_t taps = weights.size();
+    const std::size_t radius = taps / 2;
+
+    for (std::size_t begin = 0; begin < count; begin += batch) {
+        const std::size_t lanes = std::min(batch, count - begin);
+        // Position p of the padded line, which repeats its ends radius times, goes into slot p % taps.
+        const auto load = [&](std::size_t p) {
+            const std::size_t i = std::min(p > radius ? p - radius : 0, length - 1);
+            for (std::size_t k = 0; k < lanes; ++k) {
+                const auto c = load_channels<Format>(source.data[i * source.along + (begin + k) * source.across]);
+                std::copy(c.begin(), c.end(), ring[p % taps].begin() + std::ptrdiff_t(k * channels));
+            }
+        };
+        for (std::size_t p = first; p < first + 2 * radius; ++p) load(p);
+        for (std::size_t i = first; i < last; ++i) {
+            load(i + 2 * radius);
+            decoded sum{};
+            for (std::size_t t = 0, slot = i % taps; t < taps; ++t) {
+                const float weight = weights[t];
+                const decoded& tap = ring[slot];
+                for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight * tap[k];
+                slot = slot + 1 == taps ? 0 : slot + 1;
+            }
+            for (std::size_t k = 0; k < lanes; ++k) {
+                channel_array<Format> c;
+                std::copy_n(sum.begin() + std::ptrdiff_t(k * channels), channels, c.begin());
+                target.data[i * target.along + (begin + k) * target.across] = store_channels<Format>(c);
+            }
+        }
+    }
+}
+
+template <class Format>
+void expect_blur(map_view<const format_texel<Format>> source, map_view<format_texel<Format>> target,
+                 std::span<const float> weights, row_range rows)
+{
+    constexpr std::string_view pass = "blur";
+    expect_map(pass, "source", source);
+    expect_map(pass, "target", target);
+    expect_same_extent(pass, source, target);
+    expect_apart(pass, source, target);
+    expect_rows(pass, target, rows);
+    GNOMON_EXPECTS(weights.size() % 2 == 1, mismatch(pass, "weights.size()", weights.size(), "its remainder by 2", 0));
+    GNOMON_EXPECTS(weights.size() <= maximum_blur_taps,
+                   mismatch(pass, "weights.size()", weights.size(), "maximum_blur_taps", maximum_blur_taps));
+}
+
+} // namespace detail
+
+/// One pass along x into the given rows of target, which shares no memory with source. Weights: an odd number, any
+/// signs.
+template <class Format>
+void blur_along_x(map_view<const format_texel<Format>> source, map_view<format_texel<Format>> target,
+                  std::span<const float> weights, row_range rows)
+{
+    detail::expect_blur<Format>(source, target, weights, rows);
+    if (rows.first == rows.last) return;
+    detail::blur_lines<Format>({&source(0, rows.first), 1, source.stride}, {&target(0, rows.first), 1, target.stride},
+                               source.width, 0, source.width, rows.last - rows.first, weights);
+}
+
+/// One pass along y into the given rows of target, which shares no memory with source; it reads rows beyond them.
+template <class Format>
+void blur_along_y(map_view<const format_texel<Format>> source, map_view<format_texel<Format>> target,
+                  std::span<const float> weights, row_range rows)
+{
+    detail::expect_blur<Format>(source, target, weights, rows);
+    detail::blur_lines<Format>({source.texels.data(), source.stride, 1}, {target.texels.data(), target.stride, 1},
+                               source.height, rows.first, rows.last, source.width, weights);
+}
+
+/// Both passes over the whole map: source to scratch, scratch to target. Target may be the source.
+template <class Format>
+void blur(map_view<const format_texel<Format>> source, map_view<format_texel<Format>> scratch,
+          map_view<format_texel<Format>> target, std::span<const float> weights)
+{
+    const row_range all{0, source.height};
+    detail::expect_blur<Format>(source, scratch, weights, all);
+    detail::expect_blur<Format>(scratch, target, weights, all);
+    blur_along_x<Format>(source, scratch, weights, all);
+    blur_along_y<Format>(scratch, target, weights, all);
+}
+
+} // namespace gnomon
+#endif

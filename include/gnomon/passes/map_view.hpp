@@ -1,0 +1,92 @@
+// Rectangles of texels in the caller's memory, and what passes over them have in common: shape checks, and texels as
+// arrays of floats. A pass is generic in a storage format (moments/formats.hpp, filters/formats.hpp): texels are
+// decoded, combined linearly in float and encoded, so that every pass rounds to the format, as it would on a GPU.
+#ifndef GNOMON_PASSES_MAP_VIEW_HPP
+#define GNOMON_PASSES_MAP_VIEW_HPP
+
+#include "expects.hpp"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+namespace gnomon {
+
+/// width x height texels, rows stride texels apart, the first one at the beginning of the span.
+template <class T> struct map_view {
+    std::span<T> texels;
+    std::size_t width = 0, height = 0, stride = 0;
+
+    constexpr map_view() = default;
+    constexpr map_view(std::span<T> t, std::size_t w, std::size_t h) : map_view(t, w, h, w) {}
+    constexpr map_view(std::span<T> t, std::size_t w, std::size_t h, std::size_t s)
+        : texels(t), width(w), height(h), stride(s)
+    {}
+    constexpr operator map_view<const T>() const { return {texels, width, height, stride}; }
+
+    constexpr T& operator()(std::size_t x, std::size_t y) const { return texels[y * stride + x]; }
+};
+
+/// A band of rows, first to last - 1: what one thread of the caller works on.
+struct row_range {
+    std::size_t first = 0, last = 0;
+};
+
+template <class Format> using format_texel = typename Format::texel;
+template <class Format> using format_channels = decltype(Format::decode(std::declval<format_texel<Format>>()));
+template <class Format> inline constexpr std::size_t channel_count = sizeof(format_channels<Format>) / sizeof(float);
+template <class Format> using channel_array = std::array<float, channel_count<Format>>;
+
+template <class Format> channel_array<Format> load_channels(const format_texel<Format>& t)
+{
+    static_assert(std::is_trivially_copyable_v<format_channels<Format>>,
+                  "gnomon: a format decodes into a struct of floats");
+    return std::bit_cast<channel_array<Format>>(Format::decode(t));
+}
+
+template <class Format> format_texel<Format> store_channels(const channel_array<Format>& c)
+{
+    return Format::encode_channels(std::bit_cast<format_channels<Format>>(c));
+}
+
+/// The map has texels, its rows do not overlap, and they all lie in the span.
+template <class T> void expect_map(std::string_view pass, std::string_view name, map_view<T> map)
+{
+    const std::string n(name);
+    GNOMON_EXPECTS(map.width > 0 && map.height > 0, mismatch(pass, n + ".width", map.width, n + ".height", map.height));
+    GNOMON_EXPECTS(map.stride >= map.width, mismatch(pass, n + ".stride", map.stride, n + ".width", map.width));
+    const std::size_t size = map.texels.size();
+    GNOMON_EXPECTS(map.width <= size && (map.height - 1) <= (size - map.width) / map.stride,
+                   mismatch(pass, n + ".texels.size()", size, n + ".height", map.height));
+}
+
+template <class T, class U> void expect_same_extent(std::string_view pass, map_view<T> source, map_view<U> target)
+{
+    GNOMON_EXPECTS(target.width == source.width,
+                   mismatch(pass, "target.width", target.width, "source.width", source.width));
+    GNOMON_EXPECTS(target.height == source.height,
+                   mismatch(pass, "target.height", target.height, "source.height", source.height));
+}
+
+template <class T> void expect_apart(std::string_view pass, map_view<const T> source, map_view<T> target)
+{
+    const T* s = source.texels.data();
+    const T* t = target.texels.data();
+    const std::less_equal<const T*> before;
+    GNOMON_EXPECTS(before(s + source.texels.size(), t) || before(t + target.texels.size(), s),
+                   mismatch(pass, "target begins inside source or before its end: target.texels.size()",
+                            target.texels.size(), "source.texels.size()", source.texels.size()));
+}
+
+template <class T> void expect_rows(std::string_view pass, map_view<T> map, row_range rows)
+{
+    GNOMON_EXPECTS(rows.first <= rows.last, mismatch(pass, "rows.first", rows.first, "rows.last", rows.last));
+    GNOMON_EXPECTS(rows.last <= map.height, mismatch(pass, "rows.last", rows.last, "target.height", map.height));
+}
+
+} // namespace gnomon
+#endif
