@@ -92,7 +92,7 @@ TEST_CASE("somebody else's file and numbers that JSON lacks are refused, and the
     }
     write_file(file, "[]");
     report_row row = some_row();
-    row.errors.leak = NAN;
+    row.errors.leak = std::nan("");
     CHECK_THROWS_WITH(merge_report(file, std::vector{row}),
                       (file.string() + ": leak of moments 64 in fence is nan").c_str());
     CHECK(read_file(file) == "[]");
