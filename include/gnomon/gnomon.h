@@ -1,12 +1,23 @@
 // Everything in the kernel dialect, in the order in which data flows: depth -> moments -> storage format -> bounds ->
-// intensity. What is C++ only (.hpp: formats in memory, passes over maps, adapters, packs) is included by name.
+// intensity; then the comparators. What is C++ only (.hpp: formats in memory, passes over maps, adapters, packs) is
+// included by name.
 #ifndef GNOMON_GNOMON_H
 #define GNOMON_GNOMON_H
-#include "moments/bias.h"
+#include "moments/moments.h"
+
+#include "moments/quantization.h"
+
+#include "moments/stored.h"
+
 #include "moments/hamburger4.h"
 #include "moments/hamburger6.h"
-#include "moments/moments.h"
-#include "moments/quantization.h"
-#include "moments/stored.h"
+
+#include "moments/bounds.h"
 #include "moments/two_point.h"
+
+#include "filters/convolution.h"
+#include "filters/exponential.h"
+#include "filters/exponential_variance.h"
+#include "filters/percentage_closer.h"
+#include "filters/variance.h"
 #endif
