@@ -3,6 +3,8 @@
 //     M::map map(depths, taps);                            // from the depths of a multisampled shadow map
 //     M::fetched texel = M::fetch(map, place, z_f);        // what texture units do
 //     float shadow = M::intensity(texel, z_f);             // what the shader does: the kernel that is timed
+//
+// Filterable methods do the last step for packs too: M::intensity(std::array<pack, n>, pack).
 #pragma once
 
 #include <array>
@@ -39,6 +41,12 @@ concept method = requires(const depth_map& depths, std::span<const float> taps, 
     {
         M::intensity(fetched, z_f)
         } -> std::same_as<float>;
+};
+
+template <class M>
+concept packable = method<M> && requires
+{
+    typename M::template channels_of<float>;
 };
 
 // Percentage-closer filtering has no filterable map: its look-up is its kernel.
@@ -82,58 +90,69 @@ template <class Format> struct stored {
     static channels decode(const texel& t) { return std::bit_cast<channels>(Format::decode(t)); }
 };
 
+// Channels as the values of the library that they are; Real is float or a pack.
+template <template <class...> class Values, class Real, std::size_t n>
+Values<Real> as(const std::array<Real, n>& channels)
+{
+    return std::bit_cast<Values<Real>>(channels);
+}
+
 // A filterable map in a format, by default with the reconstruction that belongs to the format.
-template <class Format> struct filterable : stored<Format> {
-    using typename stored<Format>::values;
-    using fetched = typename stored<Format>::channels;
+template <class Format, template <class...> class Values> struct filterable : stored<Format> {
+    static_assert(std::same_as<typename Format::moments, Values<float>>);
+    template <class Real> using channels_of = std::array<Real, std::tuple_size_v<typename stored<Format>::channels>>;
+    using fetched = channels_of<float>;
     using map = filtered_map<stored<Format>>;
 
     static fetched fetch(const map& source, const look_up& place) { return source.trilinear(place); }
-    static float intensity(const fetched& f, float z_f)
+
+    template <class Real> static Real intensity(const channels_of<Real>& f, Real z_f)
     {
-        const values v = std::bit_cast<values>(f);
-        if constexpr (requires { Format::intensity(v, z_f); }) return Format::intensity(v, z_f);
-        else if constexpr (std::same_as<values, moments4<float>>) return hamburger4_lower(Format::factor(v), z_f);
-        else return hamburger6_lower(Format::factor(v), z_f);
+        const auto values = as<Values>(f);
+        if constexpr (requires { Format::intensity(values, z_f); }) return Format::intensity(values, z_f);
+        else if constexpr (std::same_as<Values<Real>, moments4<Real>>)
+            return hamburger4_lower(Format::factor(values), z_f);
+        else return hamburger6_lower(Format::factor(values), z_f);
     }
 };
 
-struct vsm_32 : filterable<variance_unorm16> {
+struct vsm_32 : filterable<variance_unorm16, variance_moments> {
     static constexpr std::string_view name = "VSM 32 bit";
 };
 
-struct esm_32 : filterable<exponential_float> {
+struct esm_32 : filterable<exponential_float, exponential_moment> {
     static constexpr std::string_view name = "ESM 32 bit";
 };
 
-struct evsm_64 : filterable<exponential_variance_half> {
+struct evsm_64 : filterable<exponential_variance_half, exponential_variance_moments> {
     static constexpr std::string_view name = "EVSM 64 bit";
 };
 
-struct evsm_128 : filterable<exponential_variance_float> {
+struct evsm_128 : filterable<exponential_variance_float, exponential_variance_moments> {
     static constexpr std::string_view name = "EVSM 128 bit";
 };
 
-struct csm_256 : filterable<convolution_unorm8> {
+struct csm_256 : filterable<convolution_unorm8, convolution_series> {
     static constexpr std::string_view name = "CSM 256 bit";
 };
 
 // Peters et al. 2017, Figure 4b.
-struct msm_64_paper : filterable<moments4_unorm16> {
+struct msm_64_paper : filterable<moments4_unorm16, moments4> {
     static constexpr std::string_view name = "MSM 64 bit (paper)";
-    static float intensity(const fetched& f, float z_f)
+    template <class Real> static Real intensity(const std::array<Real, 4>& f, Real z_f)
     {
-        const auto b = theta4_inverse(std::bit_cast<moments4<float>>(f));
-        const auto biased = moments4_biased(b, float(bias4_theta_paper_b2), float(bias4_theta_paper_b4), 6e-5f);
+        const auto b = theta4_inverse(as<moments4>(f));
+        const auto biased = moments4_biased(b, literal<Real>(bias4_theta_paper_b2), literal<Real>(bias4_theta_paper_b4),
+                                            literal<Real>(6e-5));
         return hamburger4_lower(hankel4_fast(biased), z_f);
     }
 };
 
-struct msm_64 : filterable<moments4_unorm16> {
+struct msm_64 : filterable<moments4_unorm16, moments4> {
     static constexpr std::string_view name = "MSM 64 bit";
 };
 
-struct msm_64_half : filterable<moments4_half> {
+struct msm_64_half : filterable<moments4_half, moments4> {
     static constexpr std::string_view name = "MSM 64 bit half";
 };
 
@@ -142,40 +161,39 @@ struct moments4_unit_float : moments4_float {
     static moments moments_of_depth(float z) { return moments4_of_depth(0.5f * z + 0.5f); }
 };
 
-struct msm_128_unit : filterable<moments4_unit_float> {
+struct msm_128_unit : filterable<moments4_unit_float, moments4> {
     static constexpr std::string_view name = "MSM 128 bit, depth in [0, 1]";
-    static float intensity(const fetched& f, float z_f)
+    template <class Real> static Real intensity(std::array<Real, 4> f, Real z_f)
     {
-        auto b = std::bit_cast<moments4<float>>(f);
-        for (float* moment : {&b.b1, &b.b2, &b.b3, &b.b4}) *moment += 2e-6f * (0.5f - *moment);
-        return hamburger4_lower(hankel4_fast(b), 0.5f * z_f + 0.5f);
+        for (Real& moment : f) moment = moment + literal<Real>(2e-6) * (Real(0.5f) - moment);
+        return hamburger4_lower(hankel4_fast(as<moments4>(f)), Real(0.5f) * z_f + Real(0.5f));
     }
 };
 
 // Figure 4f.
-struct msm_128_paper : filterable<moments4_float> {
+struct msm_128_paper : filterable<moments4_float, moments4> {
     static constexpr std::string_view name = "MSM 128 bit (paper)";
-    static float intensity(const fetched& f, float z_f)
+    template <class Real> static Real intensity(const std::array<Real, 4>& f, Real z_f)
     {
-        const auto b = std::bit_cast<moments4<float>>(f);
-        const auto biased = moments4_biased(b, float(bias4_raw_paper_b2), float(bias4_raw_paper_b4), 3e-7f);
+        const auto biased = moments4_biased(as<moments4>(f), literal<Real>(bias4_raw_paper_b2),
+                                            literal<Real>(bias4_raw_paper_b4), literal<Real>(3e-7));
         return hamburger4_lower(hankel4_fast(biased), z_f);
     }
 };
 
-struct msm_128 : filterable<moments4_float> {
+struct msm_128 : filterable<moments4_float, moments4> {
     static constexpr std::string_view name = "MSM 128 bit";
 };
 
-struct msm6_60 : filterable<moments6_unorm10> {
+struct msm6_60 : filterable<moments6_unorm10, moments6> {
     static constexpr std::string_view name = "MSM6 60 bit";
 };
 
-struct msm6_96 : filterable<moments6_unorm16> {
+struct msm6_96 : filterable<moments6_unorm16, moments6> {
     static constexpr std::string_view name = "MSM6 96 bit";
 };
 
-struct msm6_192 : filterable<moments6_float> {
+struct msm6_192 : filterable<moments6_float, moments6> {
     static constexpr std::string_view name = "MSM6 192 bit";
 };
 
