@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <gnomon/simd/xsimd.hpp>
 #include <limits>
@@ -33,20 +34,7 @@ using namespace toolbox;
 
 namespace {
 
-// Two standard deviations to either side.
-std::vector<float> gaussian_taps(int count)
-{
-    std::vector<float> taps(static_cast<std::size_t>(count));
-    float sum = 0;
-    for (int i = 0; i < count; ++i) {
-        const float x = 4 * (static_cast<float>(i) + 0.5f) / static_cast<float>(count) - 2;
-        sum += taps[static_cast<std::size_t>(i)] = std::exp(-0.5f * x * x);
-    }
-    for (float& tap : taps) tap /= sum;
-    return taps;
-}
-
-const std::vector<float> taps = gaussian_taps(9);
+const auto taps = gaussian_weights();
 
 // Texels from the middle of the filter that the depth bias spares from shadowing themselves.
 constexpr double bias_radius = 5.5;
@@ -96,24 +84,24 @@ using pack = xsimd::batch<float>;
 template <method M>
 double pack_ns_per_receiver(const std::vector<typename M::fetched>& fetched, const std::vector<float>& depths)
 {
+    using moments = typename M::template moments_of<pack>;
     struct group {
-        typename M::template channels_of<pack> channels;
+        moments filtered;
         pack depth;
     };
     std::vector<group> groups(fetched.size() / pack::size);
     for (std::size_t i = 0; i < groups.size(); ++i) {
-        const std::size_t first = i * pack::size;
-        for (std::size_t k = 0; k < groups[i].channels.size(); ++k) {
-            alignas(pack) std::array<float, pack::size> lanes;
-            for (std::size_t lane = 0; lane < pack::size; ++lane) lanes[lane] = fetched[first + lane][k];
-            groups[i].channels[k] = pack::load_aligned(lanes.data());
+        alignas(pack) std::array<std::array<float, pack::size>, sizeof(moments) / sizeof(pack)> lanes;
+        for (std::size_t lane = 0; lane < pack::size; ++lane) {
+            const auto channels = std::bit_cast<std::array<float, lanes.size()>>(fetched[i * pack::size + lane]);
+            for (std::size_t k = 0; k < lanes.size(); ++k) lanes[k][lane] = channels[k];
         }
-        groups[i].depth = pack::load_unaligned(&depths[first]);
+        groups[i].filtered = std::bit_cast<moments>(lanes);
+        groups[i].depth = pack::load_unaligned(&depths[i * pack::size]);
     }
     std::vector<pack> results(groups.size());
     return ns_per_receiver(groups.size() * pack::size, [&] {
-        for (std::size_t i = 0; i < groups.size(); ++i)
-            results[i] = M::template intensity<pack>(groups[i].channels, groups[i].depth);
+        for (std::size_t i = 0; i < groups.size(); ++i) results[i] = M::intensity(groups[i].filtered, groups[i].depth);
     });
 }
 

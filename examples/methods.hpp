@@ -4,7 +4,7 @@
 //     M::fetched texel = M::fetch(map, place, z_f);        // what texture units do
 //     float shadow = M::intensity(texel, z_f);             // what the shader does: the kernel that is timed
 //
-// Filterable methods do the last step for packs too: M::intensity(std::array<pack, n>, pack).
+// Filterable methods do the last step for packs too: M::intensity(M::moments_of<pack>, pack).
 #pragma once
 
 #include <array>
@@ -46,7 +46,7 @@ concept method = requires(const depth_map& depths, std::span<const float> taps, 
 template <class M>
 concept packable = method<M> && requires
 {
-    typename M::template channels_of<float>;
+    typename M::template moments_of<float>;
 };
 
 // Percentage-closer filtering has no filterable map: its look-up is its kernel.
@@ -70,49 +70,22 @@ struct pcf {
     }
 };
 
-// A storage format of the library for filters that see its channels as an array.
-template <class Format> struct stored {
+// A filterable map in a format of the library, by default with the reconstruction that belongs to the format.
+template <class Format, template <class...> class Moments> struct filterable {
     static constexpr std::string_view format = Format::name;
     static constexpr std::size_t bytes_per_texel = Format::bytes_per_texel;
-    using values = typename Format::moments;
-    using texel = typename Format::texel;
-    using channels = std::array<float, sizeof(values) / sizeof(float)>;
+    template <class Real> using moments_of = Moments<Real>;
+    using fetched = Moments<float>;
+    using map = filtered_map<Format>;
 
-    static channels values_of_depth(float z)
+    static fetched fetch(const map& source, const look_up& place) { return source.fetch(place); }
+
+    template <class Real> static Real intensity(const Moments<Real>& filtered, Real z_f)
     {
-        if constexpr (requires { Format::moments_of_depth(z); })
-            return std::bit_cast<channels>(Format::moments_of_depth(z));
-        else if constexpr (std::same_as<values, moments4<float>>) return std::bit_cast<channels>(moments4_of_depth(z));
-        else return std::bit_cast<channels>(moments6_of_depth(z));
-    }
-    static texel encode_values(const channels& v) { return Format::encode(std::bit_cast<values>(v)); }
-    static texel encode(const channels& c) { return Format::encode_channels(std::bit_cast<values>(c)); }
-    static channels decode(const texel& t) { return std::bit_cast<channels>(Format::decode(t)); }
-};
-
-// Channels as the values of the library that they are; Real is float or a pack.
-template <template <class...> class Values, class Real, std::size_t n>
-Values<Real> as(const std::array<Real, n>& channels)
-{
-    return std::bit_cast<Values<Real>>(channels);
-}
-
-// A filterable map in a format, by default with the reconstruction that belongs to the format.
-template <class Format, template <class...> class Values> struct filterable : stored<Format> {
-    static_assert(std::same_as<typename Format::moments, Values<float>>);
-    template <class Real> using channels_of = std::array<Real, std::tuple_size_v<typename stored<Format>::channels>>;
-    using fetched = channels_of<float>;
-    using map = filtered_map<stored<Format>>;
-
-    static fetched fetch(const map& source, const look_up& place) { return source.trilinear(place); }
-
-    template <class Real> static Real intensity(const channels_of<Real>& f, Real z_f)
-    {
-        const auto values = as<Values>(f);
-        if constexpr (requires { Format::intensity(values, z_f); }) return Format::intensity(values, z_f);
-        else if constexpr (std::same_as<Values<Real>, moments4<Real>>)
-            return hamburger4_lower(Format::factor(values), z_f);
-        else return hamburger6_lower(Format::factor(values), z_f);
+        if constexpr (requires { Format::intensity(filtered, z_f); }) return Format::intensity(filtered, z_f);
+        else if constexpr (std::same_as<fetched, moments4<float>>)
+            return hamburger4_lower(Format::factor(filtered), z_f);
+        else return hamburger6_lower(Format::factor(filtered), z_f);
     }
 };
 
@@ -139,9 +112,9 @@ struct csm_256 : filterable<convolution_unorm8, convolution_series> {
 // Peters et al. 2017, Figure 4b.
 struct msm_64_paper : filterable<moments4_unorm16, moments4> {
     static constexpr std::string_view name = "MSM 64 bit (paper)";
-    template <class Real> static Real intensity(const std::array<Real, 4>& f, Real z_f)
+    template <class Real> static Real intensity(const moments4<Real>& f, Real z_f)
     {
-        const auto b = theta4_inverse(as<moments4>(f));
+        const auto b = theta4_inverse(f);
         const auto biased = moments4_biased(b, literal<Real>(bias4_theta_paper_b2), literal<Real>(bias4_theta_paper_b4),
                                             literal<Real>(6e-5));
         return hamburger4_lower(hankel4_fast(biased), z_f);
@@ -163,20 +136,21 @@ struct moments4_unit_float : moments4_float {
 
 struct msm_128_unit : filterable<moments4_unit_float, moments4> {
     static constexpr std::string_view name = "MSM 128 bit, depth in [0, 1]";
-    template <class Real> static Real intensity(std::array<Real, 4> f, Real z_f)
+    template <class Real> static Real intensity(moments4<Real> b, Real z_f)
     {
-        for (Real& moment : f) moment = moment + literal<Real>(2e-6) * (Real(0.5f) - moment);
-        return hamburger4_lower(hankel4_fast(as<moments4>(f)), Real(0.5f) * z_f + Real(0.5f));
+        for (Real* moment : {&b.b1, &b.b2, &b.b3, &b.b4})
+            *moment = *moment + literal<Real>(2e-6) * (Real(0.5f) - *moment);
+        return hamburger4_lower(hankel4_fast(b), Real(0.5f) * z_f + Real(0.5f));
     }
 };
 
 // Figure 4f.
 struct msm_128_paper : filterable<moments4_float, moments4> {
     static constexpr std::string_view name = "MSM 128 bit (paper)";
-    template <class Real> static Real intensity(const std::array<Real, 4>& f, Real z_f)
+    template <class Real> static Real intensity(const moments4<Real>& f, Real z_f)
     {
-        const auto biased = moments4_biased(as<moments4>(f), literal<Real>(bias4_raw_paper_b2),
-                                            literal<Real>(bias4_raw_paper_b4), literal<Real>(3e-7));
+        const auto biased = moments4_biased(f, literal<Real>(bias4_raw_paper_b2), literal<Real>(bias4_raw_paper_b4),
+                                            literal<Real>(3e-7));
         return hamburger4_lower(hankel4_fast(biased), z_f);
     }
 };
