@@ -83,3 +83,19 @@ TEST_CASE("no kernel allocates")
 #define CHECK_PACK(lanes, T) check_every_kernel<pack<T, lanes>>();
     FOR_EACH_PACK(CHECK_PACK)
 }
+
+TEST_CASE_TEMPLATE("no pass allocates", Format, gnomon::exponential_variance_half, gnomon::convolution_unorm8)
+{
+    using namespace gnomon;
+    using texel = typename Format::texel;
+    std::array<texel, mip_texels(12, 9)> texels{};
+    std::array<texel, 12 * 9> scratch{};
+    const mip_view<texel> mips{texels, 12, 9};
+    const auto weights = gaussian_weights();
+    const long before = allocations;
+    blur<Format>(mips.level(0), {scratch, 12, 9}, mips.level(0), weights);
+    build_mips<Format>(mips);
+    const float shadow = Format::intensity(trilinear<Format>(mips, 3.0f, 4.0f, 1.5f), 0.5f);
+    CHECK(allocations == before);
+    CHECK(shadow >= 0);
+}
