@@ -1,5 +1,5 @@
-// The machine's limit for a kernel: the same count of additions, multiplications, fused multiply-adds, divisions and square roots,
-// none of which waits for another.
+// The machine's limit for a kernel: the same count of additions, multiplications, fused multiply-adds, divisions and
+// square roots, none of which waits for another.
 #ifndef GNOMON_BENCH_FLOOR_HPP
 #define GNOMON_BENCH_FLOOR_HPP
 

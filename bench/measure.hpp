@@ -1,6 +1,6 @@
-// One row of a bench: a kernel run over many fragments in one way (scalar, plain loop, pack), beside the machine's floor for its
-// operations and a baseline kernel. All three are timed in turn, some 100 times, so that the ratios a row reports come from the
-// same milliseconds; medians, since machines are shared.
+// One row of a bench: a kernel run over many fragments in one way (scalar, plain loop, pack), beside the machine's
+// floor for its operations and a baseline kernel. All three are timed in turn, some 100 times, so that the ratios a row
+// reports come from the same milliseconds; medians, since machines are shared.
 #ifndef GNOMON_BENCH_MEASURE_HPP
 #define GNOMON_BENCH_MEASURE_HPP
 
@@ -20,11 +20,17 @@
 #include <string>
 #include <vector>
 
-// The compilation a row belongs to, exact or contracted, is its namespace, so that the linker keeps both.
+namespace gnomon::bench {
+
+// A kernel stands in the namespace of its compilation, exact or contracted, so that the linker keeps both.
 #define GNOMON_BENCH_STRING_OF(name) #name
 #define GNOMON_BENCH_STRING(name) GNOMON_BENCH_STRING_OF(name)
 
-namespace gnomon::bench {
+namespace GNOMON_BENCH_ARITHMETIC {
+struct compilation {
+    static constexpr auto arithmetic = GNOMON_BENCH_STRING(GNOMON_BENCH_ARITHMETIC);
+};
+} // namespace GNOMON_BENCH_ARITHMETIC
 
 template <class Lane> using column = std::vector<Lane, xsimd::aligned_allocator<Lane, 64>>;
 
@@ -34,7 +40,7 @@ template <class Lane, std::size_t inputs> struct fragments {
     column<Lane> out;
 };
 
-inline constexpr std::size_t resident_fragments = 1024;         // 32 KiB with seven operands and a result in float
+inline constexpr std::size_t resident_fragments = 1024; // 32 KiB with seven operands and a result in float
 inline constexpr std::size_t streamed_fragments = std::size_t{1} << 24; // 0.4 to 0.5 GiB: more than any cache
 inline constexpr std::size_t streamed_window = std::size_t{1} << 14;
 
@@ -55,7 +61,8 @@ template <class Kernel, class Lane> fragments<Lane, Kernel::inputs> make_fragmen
 template <class Kernel, class Real>
 [[gnu::noinline]] void run_packs(fragments<lane_t<Real>, Kernel::inputs>& f, std::size_t begin, std::size_t end)
 {
-    [&]<std::size_t... k>(std::index_sequence<k...>) GNOMON_BENCH_INLINE {
+    [&]<std::size_t... k>(std::index_sequence<k...>) GNOMON_BENCH_INLINE
+    {
         const std::array in{f.in[k].data()...};
         lane_t<Real>* const out = f.out.data();
         if constexpr (std::is_floating_point_v<Real>) {
@@ -68,14 +75,16 @@ template <class Kernel, class Real>
             for (std::size_t i = begin; i < end; i += Real::size)
                 Kernel::run(Real::load_aligned(in[k] + i)...).store_aligned(out + i);
         }
-    }(std::make_index_sequence<Kernel::inputs>());
+    }
+    (std::make_index_sequence<Kernel::inputs>());
 }
 
 /// The loop that anybody would write, for the compiler to vectorise.
 template <class Kernel, class Real>
 [[gnu::noinline]] void run_plain_loop(fragments<Real, Kernel::inputs>& f, std::size_t begin, std::size_t end)
 {
-    [&]<std::size_t... k>(std::index_sequence<k...>) GNOMON_BENCH_INLINE {
+    [&]<std::size_t... k>(std::index_sequence<k...>) GNOMON_BENCH_INLINE
+    {
         const std::array in{f.in[k].data()...};
         Real* const out = f.out.data();
 #if defined(__clang__)
@@ -84,7 +93,8 @@ template <class Kernel, class Real>
 #pragma GCC ivdep
 #endif
         for (std::size_t i = begin; i < end; ++i) out[i] = Kernel::run(in[k][i]...);
-    }(std::make_index_sequence<Kernel::inputs>());
+    }
+    (std::make_index_sequence<Kernel::inputs>());
 }
 
 /// Bytes of a function's machine code, as the symbol table has them.
@@ -162,12 +172,13 @@ template <class Kernel> void report_errors(benchmark::State& state)
 {
     if constexpr (requires { Kernel::has_error; }) {
         std::vector<double> errors;
-        for (const auto& sample : Kernel::samples(65536, 2))
-            [&]<std::size_t... k>(std::index_sequence<k...>) {
+        for (const auto& sample : Kernel::samples(65536, 2)) [&]<std::size_t... k>(std::index_sequence<k...>)
+            {
                 const std::array rounded{static_cast<float>(sample[k])...};
                 errors.push_back(std::abs(static_cast<double>(Kernel::run(rounded[k]...)) -
                                           Kernel::run(static_cast<double>(rounded[k])...)));
-            }(std::make_index_sequence<Kernel::inputs>());
+            }
+        (std::make_index_sequence<Kernel::inputs>());
         state.counters["error_p99"] = quantile(errors, 0.99);
         state.counters["error_p999"] = quantile(errors, 0.999);
     }
@@ -186,9 +197,10 @@ template <class Kernel, class Baseline, class Real> struct row {
         auto g = make_fragments<Baseline, lane>(count);
         constexpr operations n = operations_of<Kernel>;
         constexpr std::size_t lanes = sizeof(Real) / sizeof(lane);
-        const auto times = time_in_turn({work_of(run, f),
-                                         {[] { run_floor<Kernel, Real>(resident_fragments / lanes); }, resident_fragments},
-                                         work_of<lane, Baseline::inputs>(run_packs<Baseline, lane>, g)});
+        const auto times =
+            time_in_turn({work_of(run, f),
+                          {[] { run_floor<Kernel, Real>(resident_fragments / lanes); }, resident_fragments},
+                          work_of<lane, Baseline::inputs>(run_packs<Baseline, lane>, g)});
         for (auto _ : state) state.SetIterationTime(quantile(times[0], 0.5) * 1e-9);
         state.counters["least_ns"] = quantile(times[0], 0);
         state.counters["floor_ns"] = quantile(times[1], 0.5);
@@ -211,7 +223,8 @@ void add_row(const std::string& family, const std::string& way, pass<lane_t<Real
 {
     for (const bool streamed : {false, true}) {
         if (streamed && !std::is_same_v<lane_t<Real>, float>) continue;
-        const std::string name = family + '/' + Kernel::name + '/' + way + (streamed ? "/memory/" : "/L1/") + Kernel::arithmetic;
+        const std::string name =
+            family + '/' + Kernel::name + '/' + way + (streamed ? "/memory/" : "/L1/") + Kernel::arithmetic;
         benchmark::RegisterBenchmark(name.c_str(), row<Kernel, Baseline, Real>{run, streamed})
             ->Iterations(1)
             ->UseManualTime()

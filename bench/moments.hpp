@@ -1,4 +1,5 @@
-// What the moment kernels read in a bench: moments of the 13 adversarial families of tests/support in turn, with a receiver each.
+// What the moment kernels read in a bench: moments of the 13 adversarial families of tests/support in turn, with a
+// receiver each.
 #ifndef GNOMON_BENCH_MOMENTS_HPP
 #define GNOMON_BENCH_MOMENTS_HPP
 

@@ -1,5 +1,5 @@
-// Four moments: the default route, its variants, and Algorithm 1 as the paper has it. Compiled once as the library is meant to be,
-// and once with contraction allowed.
+// Four moments: the default route, its variants, and Algorithm 1 as the paper has it. Compiled once as the library is
+// meant to be, and once with contraction allowed.
 #include "measure.hpp"
 #include "moments.hpp"
 
@@ -10,22 +10,21 @@
 
 namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {
 
-/// Which compilation this is, for the names of the rows.
-struct compilation {
-    static constexpr auto arithmetic = GNOMON_BENCH_STRING(GNOMON_BENCH_ARITHMETIC);
-};
 struct moments : moments_and_receiver<4>, compilation {};
 struct channels : channels_and_receiver<4>, compilation {};
+
+template <class Real> GNOMON_INLINE constexpr moments4<Real> biased(moments4<Real> b)
+{
+    return moments4_biased(b, literal<Real>(bias4_raw_b2), literal<Real>(bias4_raw_b4),
+                           literal<Real>(stored4_float_weight));
+}
 
 struct algorithm1 : moments {
     static constexpr auto name = "Algorithm 1";
     static constexpr bool has_error = true;
     template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
     {
-        const moments4<Real> b =
-            moments4_biased(moments4<Real>{b1, b2, b3, b4}, literal<Real>(bias4_raw_b2), literal<Real>(bias4_raw_b4),
-                            literal<Real>(stored4_float_weight));
-        return hamburger4_cholesky_intensity(b, z_f);
+        return hamburger4_cholesky_intensity(biased(moments4<Real>{b1, b2, b3, b4}), z_f);
     }
 };
 
@@ -54,10 +53,7 @@ struct fast : moments {
     static constexpr bool has_error = true;
     template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
     {
-        const moments4<Real> b =
-            moments4_biased(moments4<Real>{b1, b2, b3, b4}, literal<Real>(bias4_raw_b2), literal<Real>(bias4_raw_b4),
-                            literal<Real>(stored4_float_weight));
-        return hamburger4_lower(hankel4_fast(b), z_f);
+        return hamburger4_lower(hankel4_fast(biased(moments4<Real>{b1, b2, b3, b4})), z_f);
     }
 };
 

@@ -23,7 +23,7 @@ struct counting_real {
 
     counting_real() = default;
     template <class Number>
-        requires std::is_arithmetic_v<Number>
+    requires std::is_arithmetic_v<Number>
     constexpr explicit counting_real(Number) {}
     constexpr explicit counting_real(operations* counted) : total(counted) {}
 
@@ -39,7 +39,7 @@ struct counting_real {
         }
     };
 
-    template <class... Operands> static constexpr counting_real count(int operations::* kind, Operands... operands)
+    template <class... Operands> static constexpr counting_real count(int operations::*kind, Operands... operands)
     {
         counting_real result;
         ((result.total = result.total ? result.total : operands.total), ...);
@@ -80,9 +80,8 @@ struct counting_real {
 template <class Kernel> constexpr operations count_operations()
 {
     operations total;
-    [&]<std::size_t... k>(std::index_sequence<k...>) {
-        Kernel::run((static_cast<void>(k), counting_real(&total))...);
-    }(std::make_index_sequence<Kernel::inputs>());
+    [&]<std::size_t... k>(std::index_sequence<k...>) { Kernel::run((static_cast<void>(k), counting_real(&total))...); }
+    (std::make_index_sequence<Kernel::inputs>());
     return total;
 }
 
