@@ -21,6 +21,10 @@ target_compile_options(gnomon_strict INTERFACE
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-uninitialized;-Wno-maybe-uninitialized>
     $<$<BOOL:${GNOMON_NATIVE}>:-march=native>)
 
+# Linked after gnomon_strict, whose word on contraction it takes back: the arithmetic that a user gets without gnomon::bit_exact.
+add_library(gnomon_contracted INTERFACE)
+target_compile_options(gnomon_contracted INTERFACE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=fast>)
+
 find_package(xsimd REQUIRED)
 set_target_properties(xsimd PROPERTIES IMPORTED_GLOBAL TRUE INTERFACE_LINK_LIBRARIES "") # Debian's names xtl, unneeded and absent
 
