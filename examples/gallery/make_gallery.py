@@ -1,0 +1,202 @@
+#!/usr/bin/env python3
+"""Makes gallery/index.html and its charts from what the demo's drivers left in a folder."""
+
+import argparse
+import json
+import sys
+from html import escape
+from pathlib import Path
+from string import Template
+
+import charts
+
+HERE = Path(__file__).resolve().parent
+
+
+def read(file):
+    try:
+        return json.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise SystemExit(f"{file}: {error}") from None
+
+
+def picture(file, caption=""):
+    caption = f"<figcaption>{caption}</figcaption>" if caption else ""
+    return f'<figure><a href="{file}"><img src="{file}" alt="" loading="lazy"></a>{caption}</figure>'
+
+
+def chart(folder, name, caption):
+    return picture(f"{folder}/{name}.svg", f'{caption} (<a href="{folder}/{name}.png">PNG</a>)')
+
+
+class Rows:
+    """The report's rows of one scene."""
+
+    def __init__(self, report, facts):
+        self.scene = facts["scene"]
+        self.rows = [row for row in report if row["scene"].split(": ")[0] == self.scene]
+
+    def find(self, method, reference, part=None, lanes=None):
+        """With no lanes given the row with most of them, None where there is none."""
+        scene = f"{self.scene}: {part}" if part else self.scene
+        found = [row for row in self.rows if (row["method"], row["reference"], row["scene"]) == (method, reference, scene)
+                 and lanes in (None, row["lanes"])]
+        return max(found, key=lambda row: row["lanes"], default=None)
+
+
+def table(facts, rows):
+    lanes = max(row["lanes"] for row in rows.rows)
+    insets = [inset["name"] for inset in facts["insets"]]
+
+    def swatch(inset):
+        return f'<span class="swatch" style="background: {inset["colour"]}"></span>leak: {escape(inset["name"])}'
+
+    heads = ["method", "format", "bytes per texel", "leak", "acne", "RMSE", "largest error",
+             *(swatch(inset) for inset in facts["insets"]), "RMSE, traced", "ns, one by one", f"ns, packs of {lanes}",
+             "map, ms"]
+    records = []
+    for method in facts["methods"]:
+        name = method["method"]
+        one = rows.find(name, "filtered", lanes=1)
+        packed = rows.find(name, "filtered", lanes=lanes) if lanes > 1 else None
+        records.append([name, method["format"], one["bytes_per_texel"], one["leak"], one["acne"], one["rmse"],
+                        one["max_abs"], *(rows.find(name, "filtered", part)["leak"] for part in insets),
+                        rows.find(name, "traced")["rmse"], one["ns_per_receiver"],
+                        packed and packed["ns_per_receiver"], one["build_ms"]])
+    # The best of each column, percentage-closer filtering aside: it is the reference.
+    best = [None] * len(heads)
+    for column in range(3, len(heads)):
+        values = [record[column] for record in records if record[0] != "PCF" and record[column] is not None]
+        best[column] = min(values, default=None)
+
+    def cell(record, column):
+        value = record[column]
+        if isinstance(value, str):
+            return f'<td data-key="{escape(value)}">{escape(value)}</td>'
+        if value is None:
+            return '<td data-key="1e99">&ndash;</td>'
+        marked = ' class="best"' if value == best[column] and record[0] != "PCF" else ""
+        if column in (2, len(heads) - 1):
+            text = f"{value:.0f}"
+        elif column >= len(heads) - 3:
+            text = f"{value:.1f}"
+        else:
+            text = f"{value:.4f}"
+        return f'<td data-key="{value!r}"{marked}>{text}</td>'
+
+    body = "\n".join("<tr>" + "".join(cell(record, c) for c in range(len(heads))) + "</tr>" for record in records)
+    head = "".join(f"<th>{text}</th>" for text in heads)
+    return f'<div class="scroll"><table><thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody></table></div>'
+
+
+def chooser(folder, facts, initial):
+    choices = [("filtered.png", "reference: percentage-closer filtering, same weights"),
+               ("traced.png", "reference: ray tracing"),
+               *((f"{m['file']}.png", m["method"]) for m in facts["methods"])]
+    options = "".join(f'<option value="{folder}/{file}"{" selected" if name == initial else ""}>{escape(name)}</option>'
+                      for file, name in choices)
+    return f'<div><select aria-label="method">{options}</select><img src="" alt=""></div>'
+
+
+def comparison(out, folder, facts, report, introduction):
+    rows = Rows(report, facts)
+    for reference in ("filtered", "traced"):
+        chosen = [rows.find(m["method"], reference) for m in facts["methods"]]
+        if reference == "filtered":
+            chosen = [row for row in chosen if row["method"] != "PCF"]
+        charts.speed_against_accuracy(
+            chosen, out / "gallery" / folder, f"chart-{reference}",
+            "Error against percentage-closer filtering with the same weights" if reference == "filtered"
+            else "Error against ray tracing")
+    first, second = ("EVSM 64 bit", "MSM 64 bit")
+    size = f"{facts['width']} x {facts['height']}"
+    samples = facts["supersampling"] ** 2
+    methods = "\n".join(
+        f'<h3>{escape(m["method"])} <span class="quiet">{escape(m["format"])}</span></h3><div class="three">'
+        + picture(f"{folder}/{m['file']}.png")
+        + picture(f"{folder}/{m['file']}-filtered.png", "against percentage-closer filtering")
+        + picture(f"{folder}/{m['file']}-traced.png", "against ray tracing") + "</div>"
+        for m in facts["methods"])
+    return f"""{introduction}
+<p>{size} pixels with {samples} sample{"s" if samples > 1 else ""} each, {facts["receivers"]:,} receivers; a shadow map of
+{facts["map_resolution"]} x {facts["map_resolution"]} texels with 4 samples each, a Gaussian of {facts["taps"]} taps in two
+passes, mip levels and trilinear look-up, all rounded to the storage format. The depth bias is the rise of the
+receiver's plane within {facts["bias_radius"]:g} texels, the same for all methods; no over-darkening.</p>
+<h3>Two methods side by side</h3>
+<div class="two">{chooser(folder, facts, first)}{chooser(folder, facts, second)}</div>
+<h3>Speed against accuracy</h3>
+{chart(folder, "chart-filtered", '''Reconstruction error alone: the reference filters with exactly the same weights. Lower
+left is better; the line is the Pareto front, the area of a point is its memory. Kernels run on packs.''')}
+{chart(folder, "chart-traced", '''Everything: the reference has the hard shadows of ray tracing, so filter width, depth bias
+and resolution of the map count too. Percentage-closer filtering, which samples the whole filter region for each receiver,
+runs one receiver at a time.''')}
+<h3>Numbers</h3>
+<p>Leak is the mean of what is too bright, acne the mean of what is too dark. Where nothing else is said, the reference is
+percentage-closer filtering with the same weights. The best of each column is marked; a click sorts.</p>
+{table(facts, rows)}
+<h3>All methods</h3>
+<p>Errors of visibility: <b style="color:#2a62cc">blue</b> is light that leaks, <b style="color:#c8232c">red</b> is acne,
+saturated at {facts["error_scale"]:g}.</p>
+{methods}
+"""
+
+
+def hard_shadows(out, folder, facts, report):
+    legend = ", ".join(f'<span class="swatch" style="background: {i["colour"]}"></span>{escape(i["name"])}'
+                       for i in facts["insets"])
+    return "Hard shadows", comparison(out, folder, facts, report, f"""
+<p>A bird's eye view of a direction sign, a fence with thin slats and a thin wall, after Figure 4 of Peters et al.,
+<i>Improved Moment Shadow Maps for Translucent Occluders, Soft Shadows and Single Scattering</i> (JCGT 2017). The scene
+provokes every artifact there is: where one, two or three surfaces lie between the light and the ground within one filter
+region, a filter that only knows a few moments of their depths lets light through. Insets: {legend}.</p>""")
+
+
+def model(out, folder, facts, report):
+    return f"Model: {facts['scene']}", comparison(out, folder, facts, report, """
+<p>A model from a file on a ground plane, camera and light framed by its bounds.</p>""")
+
+
+def bounds(out, folder, facts, report):
+    charts.bounds(facts, out / "gallery" / folder, "bounds")
+    return "Bounds from moments", f"""
+<p>What a filterable shadow map stores of the depths in a filter region (black) is a few of their moments. They do not
+tell how much of the region lies in front of a receiver, but they set sharp bounds on it. A surface is shaded with the lower
+one, which never darkens it for nothing. For each receiver there is a distribution of few depths with the very same moments
+that touches both bounds; it is all that the kernels have to find. The more moments, the tighter the bounds.</p>
+{chart(folder, "bounds", "After Figure 2 of Peters et al. 2017; receivers dotted.")}
+"""
+
+
+SECTIONS = {"hard_shadows": hard_shadows, "bounds": bounds, "model": model}
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__)
+    arguments.add_argument("--out", type=Path, default=Path("out"), help="the demo's folder (default: %(default)s)")
+    out = arguments.parse_args().out
+    report = read(out / "report.json") if (out / "report.json").exists() else []
+    links, sections = [], []
+    for name, section in SECTIONS.items():
+        file = out / "gallery" / name / "facts.json"
+        if file.exists():
+            title, text = section(out, name, read(file), report)
+            links.append(f'<a href="#{name}">{escape(title)}</a>')
+            sections.append(f'<section id="{name}"><h2>{escape(title)}</h2>{text}</section>')
+    if not sections:
+        raise SystemExit(f"{out / 'gallery'}: no driver has left anything here; run the demo first")
+    page = Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
+        style=(HERE / "style.css").read_text(encoding="utf-8"), script=(HERE / "page.js").read_text(encoding="utf-8"),
+        links="".join(links), sections="\n".join(sections))
+    part = out / "gallery" / "index.html.part"
+    part.write_text(page, encoding="utf-8")
+    part.replace(out / "gallery" / "index.html")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except SystemExit as end:
+        if isinstance(end.code, str):
+            print(f"gallery: {end.code}", file=sys.stderr)
+            sys.exit(2)
+        raise
