@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,7 @@ try {
     if (full) how.supersampling = 2;
     if (tiny) how.width /= 4, how.height /= 4, how.map_resolution /= 4;
     how.out = out;
+    std::filesystem::create_directories(how.out / "gallery");
 
     if (!model.empty()) gnomon::demo::model(how, model);
     for (const driver& d : drivers)

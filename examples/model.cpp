@@ -4,6 +4,5 @@
 
 void gnomon::demo::model(const settings& how, const std::filesystem::path& file)
 {
-    progress("model", file.string());
     compare_methods("model", toolbox::model_stage(toolbox::load_model(file), double(how.width) / how.height), how);
 }

@@ -86,8 +86,8 @@ def colour(method):
 
 def speed_against_accuracy(rows, folder, name, title):
     """rows: one for each method, all with the same reference."""
-    figure, panels = plt.subplots(1, 3, figsize=(16, 5.8))
-    figure.subplots_adjust(left=0.05, right=0.99, top=0.9, bottom=0.2, wspace=0.22)
+    figure, panels = plt.subplots(1, 3, figsize=(14, 5.4))
+    figure.subplots_adjust(left=0.06, right=0.99, top=0.9, bottom=0.2, wspace=0.22)
     figure.suptitle(title)
     for axes, (key, label) in zip(panels, ERRORS.items()):
         axes.set_xscale("log")
@@ -123,7 +123,7 @@ def steps(depths, weights):
 
 
 def bounds(facts, folder, name):
-    figure, panels = plt.subplots(1, 3, figsize=(16, 5), sharey=True)
+    figure, panels = plt.subplots(1, 3, figsize=(14, 4.8), sharey=True)
     figure.subplots_adjust(left=0.05, right=0.99, top=0.93, bottom=0.2, wspace=0.06)
     colours = ("#d62728", "#ff7f0e", "#2ca02c", "#1f77b4")
     truth = steps(facts["depths"], facts["weights"])

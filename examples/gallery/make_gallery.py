@@ -81,7 +81,7 @@ def table(facts, rows):
         elif column >= len(heads) - 3:
             text = f"{value:.1f}"
         else:
-            text = f"{value:.4f}"
+            text = f"{1e3 * value:.2f}"
         return f'<td data-key="{value!r}"{marked}>{text}</td>'
 
     body = "\n".join("<tr>" + "".join(cell(record, c) for c in range(len(heads))) + "</tr>" for record in records)
@@ -131,7 +131,7 @@ left is better; the line is the Pareto front, the area of a point is its memory.
 and resolution of the map count too. Percentage-closer filtering, which samples the whole filter region for each receiver,
 runs one receiver at a time.''')}
 <h3>Numbers</h3>
-<p>Leak is the mean of what is too bright, acne the mean of what is too dark. Where nothing else is said, the reference is
+<p>Errors of visibility in thousandths: leak is the mean of what is too bright, acne the mean of what is too dark. Where nothing else is said, the reference is
 percentage-closer filtering with the same weights. The best of each column is marked; a click sorts.</p>
 {table(facts, rows)}
 <h3>All methods</h3>
