@@ -82,7 +82,7 @@ template <class T> GNOMON_INLINE constexpr T literal(double value) { return T(st
 template <class T>
 inline constexpr double splitter = double(std::uint64_t{1} << (std::numeric_limits<T>::digits + 1) / 2) + 1.0;
 template <class T>
-inline constexpr double pivot_floor = std::numeric_limits<T>::min_exponent < -1000 ? 0x1p-140 : 0x1p-30;
+inline constexpr double pivot_floor = std::numeric_limits<T>::min_exponent < -1000 ? 0x1p-66 : 0x1p-30;
 
 // A scalar fma is a library call, correct but slow, where the target has no instruction: not worth asking for.
 template <class T> constexpr bool fma_is_fused()
