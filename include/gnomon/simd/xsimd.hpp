@@ -43,12 +43,11 @@ template <class T, class A> struct pack_operations<xsimd::batch<T, A>> {
         else if constexpr (std::is_same_v<T, float> && pack::size == 8) return pack(_mm256_fmadd_ps(a, b, c));
         else if constexpr (std::is_same_v<T, double> && pack::size == 2) return pack(_mm_fmadd_pd(a, b, c));
         else if constexpr (std::is_same_v<T, double> && pack::size == 4) return pack(_mm256_fmadd_pd(a, b, c));
-#endif
 #if defined(__AVX512F__)
         else if constexpr (std::is_same_v<T, float>) return pack(_mm512_fmadd_ps(a, b, c));
         else if constexpr (std::is_same_v<T, double>) return pack(_mm512_fmadd_pd(a, b, c));
 #endif
-#if !defined(__FMA__)
+#else
         return a * b + c;
 #endif
     }
