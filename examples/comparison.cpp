@@ -110,7 +110,9 @@ template <method M> outcome outcome_of(const depth_map& depths, const receivers&
     outcome result{std::string(M::name), std::string(M::format), double(M::bytes_per_texel), 0, {}, {}};
     std::optional<typename M::map> map;
     tbb::task_arena alone(1);
-    result.build_ms = 1e3 * alone.execute([&] { return seconds(1, [&] { map.emplace(depths, taps); }); });
+    result.build_ms = 1e3 * alone.execute([&] {
+        return seconds(1, [&] { map.emplace(typename M::map{depths, taps}); });
+    });
 
     std::vector<typename M::fetched> fetched(where.size());
     tbb::parallel_for(std::size_t(0), where.size(),

@@ -9,6 +9,6 @@
 namespace gnomon::demo {
 
 // Pictures go to OUT/gallery/NAME, rows to OUT/report.json.
-void compare_methods(const std::string& name, const toolbox::stage& stage, const settings& how);
+void compare_methods(const std::string& name, const toolbox::stage& scenery, const settings& how);
 
 } // namespace gnomon::demo
