@@ -18,7 +18,8 @@ GNOMON_KERNEL Real cubic_halley(Real a, Real b, Real c, Real d, Real t)
     Real f = ((a * t + b) * t + c) * t + d;
     Real s = (Real(3) * (a * t) + Real(2) * b) * t + c;
     Real r = Real(3) * (a * t) + b;
-    return t - f * s / (s * s - f * r);
+    Real whole = s * s - f * r; // positive but at a multiple root, which is where to stay
+    return t - gnomon_select(whole > Real(0), f * s / whole, Real(0));
 }
 
 /// The largest root of a t^3 + b t^2 + c t + d, a > 0, three real roots.
