@@ -55,6 +55,8 @@ struct pcf {
     static constexpr std::size_t bytes_per_texel = sizeof(depth_map::pixels[0]);
 
     struct map {
+        map(const depth_map& d, std::span<const float> t) : depths(d), taps(t) {}
+
         const depth_map& depths;
         std::span<const float> taps;
     };

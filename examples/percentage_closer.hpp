@@ -25,10 +25,10 @@ template <class Real> struct footprint {
 };
 
 template <class Real>
-void set_footprint(footprint<Real>& result, double coordinate, int level, int resolution, std::span<const float> taps)
+void set_footprint(footprint<Real>& result, float coordinate, int level, int resolution, std::span<const float> taps)
 {
     const int radius = static_cast<int>(taps.size() / 2), box = 1 << level, size = resolution >> level;
-    const double x = coordinate * size - 0.5, left = std::floor(x);
+    const double x = static_cast<double>(coordinate) * size - 0.5, left = std::floor(x);
     const auto texel = [&](int k) { return std::clamp(static_cast<int>(left) + k, 0, size - 1) * box; };
     result.first = std::max(texel(0) - radius, 0);
     const int last = std::min(texel(1) + box - 1 + radius, resolution - 1);
@@ -39,7 +39,7 @@ void set_footprint(footprint<Real>& result, double coordinate, int level, int re
             for (int t = -radius; t <= radius; ++t) {
                 const int base = std::clamp(i + t, 0, resolution - 1);
                 result.weights[static_cast<std::size_t>(base - result.first)] +=
-                    Real(share * double{taps[static_cast<std::size_t>(t + radius)]});
+                    Real(share * static_cast<double>(taps[static_cast<std::size_t>(t + radius)]));
             }
     }
 }
@@ -50,14 +50,14 @@ Real percentage_closer_intensity(const depth_map& depths, const look_up& place, 
 {
     thread_local footprint<Real> columns, rows;
     const int coarsest = static_cast<int>(std::log2(depths.width));
-    const double level = std::min<double>(double{place.level}, coarsest), fine = std::floor(level);
+    const double level = std::min(static_cast<double>(place.level), double(coarsest)), fine = std::floor(level);
     auto state = percentage_closer_begin(Real(z_f));
     for (const int k : {0, 1}) {
         const Real share = Real(0.25 * (k == 0 ? 1 - (level - fine) : level - fine));
         if (!(share > 0)) continue;
         const int l = static_cast<int>(fine) + k;
-        set_footprint(columns, double{place.u}, l, depths.width, taps);
-        set_footprint(rows, double{place.v}, l, depths.height, taps);
+        set_footprint(columns, place.u, l, depths.width, taps);
+        set_footprint(rows, place.v, l, depths.height, taps);
         for (std::size_t j = 0; j < rows.weights.size(); ++j) {
             const auto* samples = &depths(columns.first, rows.first + static_cast<int>(j));
             for (std::size_t i = 0; i < columns.weights.size(); ++i)
