@@ -97,6 +97,7 @@ template <> struct pack_operations<bench::counting_real> {
     static constexpr bool fused = is_fused<float>;
     static constexpr real min(real a, real b) { return real::count(&bench::operations::extrema, a, b); }
     static constexpr real max(real a, real b) { return real::count(&bench::operations::extrema, a, b); }
+    static constexpr real power_of_two(real n) { return real::count(&bench::operations::signs, n); }
     static constexpr real fma(real a, real b, real c) { return real::count(&bench::operations::fused, a, b, c); }
 };
 

@@ -27,11 +27,15 @@ GNOMON_KERNEL GNOMON_T(exponential_variance_moments)
 }
 
 /// Cantelli's bound with the minimum variance carried through the warp's derivative at the receiver: |c warped|.
+/// Squares of a warped depth near 0 would be denormal, slow and inexact: below 1 everything is scaled by 2^50, exactly.
 GNOMON_KERNEL Real exponential_variance_side(GNOMON_T(variance_moments) moments, Real warped, Real exponent,
                                              Real minimum_variance)
 {
-    Real slope = exponent * warped;
-    return cantelli_lower(moments, warped, minimum_variance * (slope * slope));
+    Real scale = gnomon_select(gnomon_abs(warped) < Real(1), Real(1125899906842624.0), Real(1));
+    moments.mean = moments.mean * scale;
+    moments.square = moments.square * (scale * scale);
+    Real slope = exponent * (warped * scale);
+    return cantelli_lower(moments, warped * scale, minimum_variance * (slope * slope));
 }
 
 /// Shadow intensity in [0, 1] at depth z_f, never above percentage-closer filtering but for rounding. A NaN receiver
