@@ -48,10 +48,11 @@ GNOMON_CONSTANT(bias6_paper_b6, 0.47869382);
 GNOMON_KERNEL GNOMON_T(moments4)
     moments4_biased(GNOMON_T(moments4) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4, GNOMON_SETTING alpha)
 {
-    b.b1 = b.b1 - alpha * b.b1;
-    b.b2 = b.b2 + alpha * (bias2 - b.b2);
-    b.b3 = b.b3 - alpha * b.b3;
-    b.b4 = b.b4 + alpha * (bias4 - b.b4);
+    Real keep = Real(1) - alpha;
+    b.b1 = keep * b.b1;
+    b.b2 = keep * b.b2 + alpha * bias2;
+    b.b3 = keep * b.b3;
+    b.b4 = keep * b.b4 + alpha * bias4;
     return b;
 }
 
@@ -59,12 +60,13 @@ GNOMON_KERNEL GNOMON_T(moments4)
 GNOMON_KERNEL GNOMON_T(moments6) moments6_biased(GNOMON_T(moments6) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4,
                                                  GNOMON_SETTING bias6, GNOMON_SETTING alpha)
 {
-    b.b1 = b.b1 - alpha * b.b1;
-    b.b2 = b.b2 + alpha * (bias2 - b.b2);
-    b.b3 = b.b3 - alpha * b.b3;
-    b.b4 = b.b4 + alpha * (bias4 - b.b4);
-    b.b5 = b.b5 - alpha * b.b5;
-    b.b6 = b.b6 + alpha * (bias6 - b.b6);
+    Real keep = Real(1) - alpha;
+    b.b1 = keep * b.b1;
+    b.b2 = keep * b.b2 + alpha * bias2;
+    b.b3 = keep * b.b3;
+    b.b4 = keep * b.b4 + alpha * bias4;
+    b.b5 = keep * b.b5;
+    b.b6 = keep * b.b6 + alpha * bias6;
     return b;
 }
 

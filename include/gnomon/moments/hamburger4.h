@@ -5,7 +5,7 @@
 // the canonical distribution with a node at z_f: its other two nodes are the roots of K(z_f, .), and a node z weighs
 // w(z) = 1 / K(z, z). The number of nodes above z_f is the number of sign changes in P_0(z_f), P_1(z_f), P_2(z_f):
 //     none: lower = 1 - w_f     both: lower = 0     one: lower = w(smaller root)     upper = lower + w_f
-// With x = z - mean, V = D_1, N = D_1 D_2, W = V N, G = L - 2 mean V and Q(x) = V P_2 = (V x - G) x - V^2:
+// With x = z - mean, V = D_1, N = D_1 D_2, W = V N and Q(x) = V P_2 = (V x - G) x - V^2:
 //     w(z) = W / (W + x^2 N + Q(x)^2)     K(z_f, .) = 0: Q V x^2 + (u N - Q G) x + (W - Q V^2) = 0, u = z_f - mean
 // Where one root lies on each side, Q = Q(u) < 0, so the discriminant is a sum of positive terms. Two divisions and one
 // square root in all.
@@ -25,8 +25,7 @@ GNOMON_CONSTANT(hamburger4_scale, 72057594037927936.0); // 2^56
 /// Q(x) = V P_2(mean + x).
 GNOMON_KERNEL Real hamburger4_q(GNOMON_T(hankel4) h, Real x)
 {
-    Real g = h.covariance - Real(2) * (h.mean * h.variance);
-    return (h.variance * x - g) * x - h.variance * h.variance;
+    return (h.variance * x - h.third) * x - h.variance * h.variance;
 }
 
 /// The weight of the node at mean + x, where q = Q(x).
@@ -46,8 +45,8 @@ GNOMON_KERNEL GNOMON_T(hamburger4_quadratic) hamburger4_other_nodes(GNOMON_T(han
     Real s = q * GNOMON_LITERAL(hamburger4_scale);
     GNOMON_T(hamburger4_quadratic) r;
     r.a = s * h.variance;
-    r.b = Real(0.5) * (u * n - s * (h.covariance - Real(2) * (h.mean * h.variance)));
-    r.c = h.variance * (n - s * h.variance);
+    r.b = Real(0.5) * (u * n - s * h.third);
+    r.c = h.variance * (n - r.a);
     return r;
 }
 

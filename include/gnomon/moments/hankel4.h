@@ -6,7 +6,8 @@
 //
 // After the first step of elimination the covariances of (z, z^2) remain: V = var z = D_1, L = cov(z, z^2),
 // M = var z^2, and D_1 D_2 = V M - L^2. All three cancel, so they are kept as double words, and a bias (bias.h) is
-// added to them instead of to the moments: it would be rounded away there. Division is put off to hamburger4.h.
+// added to them instead of to the moments: it would be rounded away there. Division is put off to hamburger4.h, which
+// wants G = g V = E[P_1^3] = L - 2 b1 V for L.
 #ifndef GNOMON_MOMENTS_HANKEL4_H
 #define GNOMON_MOMENTS_HANKEL4_H
 #include "../numerics/two_product.h"
@@ -14,28 +15,41 @@
 #include "moments.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// The factored matrix: mean b1, variance D_1, covariance L of z and z^2, determinant D_1 D_2. Variance and determinant
+/// The factored matrix: mean b1, variance D_1, third central moment G, determinant D_1 D_2. Variance and determinant
 /// are positive, whatever the moments were, or NaN where one of these was.
-GNOMON_STRUCT hankel4 { Real mean, variance, covariance, determinant; };
+GNOMON_STRUCT hankel4 { Real mean, variance, third, determinant; };
 
-/// Guards the pivots: no variance or D_2 below the floor, so that indefinite moments still name a distribution. In this
-/// order of arguments a NaN least value gives way to the floor, and a NaN pivot stays one (portable.h).
-GNOMON_KERNEL GNOMON_T(hankel4) hankel4_guard(GNOMON_T(hankel4) h, Real least_variance, Real least_determinant)
+/// From mean, V, L and V M - L^2, the pivots guarded: none below the floor, so that indefinite moments still name a
+/// distribution. A NaN, the second argument of gnomon_max, stays one (portable.h).
+GNOMON_KERNEL GNOMON_T(hankel4) hankel4_of(Real mean, Real variance, Real covariance, Real determinant)
 {
-    h.variance = gnomon_max(gnomon_max(least_variance, GNOMON_PIVOT_FLOOR), h.variance);
-    h.determinant = gnomon_max(gnomon_max(least_determinant, GNOMON_PIVOT_FLOOR * h.variance), h.determinant);
+    GNOMON_T(hankel4) h;
+    h.mean = mean;
+    h.variance = gnomon_max(GNOMON_PIVOT_FLOOR, variance);
+    h.third = covariance - (mean + mean) * h.variance;
+    h.determinant = gnomon_max(GNOMON_PIVOT_FLOOR * h.variance, determinant);
     return h;
 }
 
 /// Plain arithmetic: right for moments from 16-bit storage, whose own errors are larger, and for double.
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_fast(GNOMON_T(moments4) b)
 {
-    GNOMON_T(hankel4) h;
-    h.mean = b.b1;
-    h.variance = b.b2 - b.b1 * b.b1;
-    h.covariance = b.b3 - b.b1 * b.b2;
-    h.determinant = h.variance * (b.b4 - b.b2 * b.b2) - h.covariance * h.covariance;
-    return hankel4_guard(h, Real(0), Real(0));
+    Real v = b.b2 - b.b1 * b.b1;
+    Real l = b.b3 - b.b1 * b.b2;
+    Real m = b.b4 - b.b2 * b.b2;
+    return hankel4_of(b.b1, v, l, v * m - l * l);
+}
+
+/// V, L and M without cancellation. Jensen's inequality orders the terms of V and M, not those of L.
+GNOMON_STRUCT covariances4 { GNOMON_T(double_word) v, l, m; };
+
+GNOMON_KERNEL GNOMON_T(covariances4) covariances4_of(GNOMON_T(moments4) b)
+{
+    GNOMON_T(covariances4) c;
+    c.v = subtract_product_ordered(b.b2, b.b1, b.b1);
+    c.l = subtract_product(b.b3, b.b1, b.b2);
+    c.m = subtract_product_ordered(b.b4, b.b2, b.b2);
+    return c;
 }
 
 /// The moments of the mixture (1 - alpha) Z + alpha Z*, where Z* is symmetric with second and fourth moments bias2 and
@@ -48,28 +62,22 @@ GNOMON_KERNEL GNOMON_T(hankel4)
     e.b2 = alpha * (bias2 - b.b2);
     e.b3 = -alpha * b.b3;
     e.b4 = alpha * (bias4 - b.b4);
-    GNOMON_T(double_word) v = biased_covariance(b.b2, b.b1, b.b1, e.b2, e.b1, e.b1);
-    GNOMON_T(double_word) l = biased_covariance(b.b3, b.b1, b.b2, e.b3, e.b1, e.b2);
-    GNOMON_T(double_word) m = biased_covariance(b.b4, b.b2, b.b2, e.b4, e.b2, e.b2);
-    GNOMON_T(double_word) n = double_word_minor(v, m, l, l);
-    GNOMON_T(hankel4) h;
-    h.mean = b.b1 + e.b1;
-    h.variance = v.high + v.low;
-    h.covariance = l.high + l.low;
-    h.determinant = n.high + n.low;
-    return hankel4_guard(h, Real(0), Real(0));
+    GNOMON_T(covariances4) c = covariances4_of(b);
+    GNOMON_T(double_word) v = biased_covariance(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
+    GNOMON_T(double_word) l = biased_covariance(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
+    GNOMON_T(double_word) m = biased_covariance(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
+    return hankel4_of(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
 }
 
 /// The coefficients c1, ..., c4 of D_1 P_2^2 as a polynomial in z, on the boundary of valid moments, which is where
-/// they are asked for: there L^2 = V M, and D_1 P_2 = V z^2 - L z + r needs no division. m = var z^2.
-GNOMON_KERNEL GNOMON_T(moments4) hankel4_noise_coefficients(GNOMON_T(hankel4) h, GNOMON_T(moments4) b, Real m)
+/// they are asked for: there L^2 = V M, and D_1 P_2 = V z^2 - L z + (b1 L - b2 V) needs no division.
+GNOMON_KERNEL GNOMON_T(moments4) hankel4_noise_coefficients(GNOMON_T(moments4) b, Real v, Real l, Real m)
 {
-    Real r = b.b1 * h.covariance - b.b2 * h.variance;
     GNOMON_T(moments4) c;
-    c.b1 = Real(-2) * (b.b1 * m - b.b2 * h.covariance);
-    c.b2 = m + Real(2) * r;
-    c.b3 = Real(-2) * h.covariance;
-    c.b4 = h.variance;
+    c.b1 = Real(-2) * (b.b1 * m - b.b2 * l);
+    c.b2 = m + Real(2) * (b.b1 * l - b.b2 * v);
+    c.b3 = Real(-2) * l;
+    c.b4 = v;
     return c;
 }
 
@@ -77,19 +85,12 @@ GNOMON_KERNEL GNOMON_T(moments4) hankel4_noise_coefficients(GNOMON_T(hankel4) h,
 /// noise in each stored moment make of it (bias.h, adaptive).
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_raised(GNOMON_T(moments4) b, GNOMON_SETTING noise)
 {
-    GNOMON_T(double_word) v = subtract_product(b.b2, b.b1, b.b1);
-    GNOMON_T(double_word) l = subtract_product(b.b3, b.b1, b.b2);
-    GNOMON_T(double_word) m = subtract_product(b.b4, b.b2, b.b2);
-    GNOMON_T(double_word) n = double_word_minor(v, m, l, l);
-    Real least_variance = noise * (Real(1) + Real(2) * gnomon_abs(b.b1));
-    GNOMON_T(hankel4) h;
-    h.mean = b.b1;
-    h.variance = gnomon_max(least_variance, v.high + v.low);
-    h.covariance = l.high + l.low;
-    h.determinant = n.high + n.low;
-    GNOMON_T(moments4) c = hankel4_noise_coefficients(h, b, m.high + m.low);
+    GNOMON_T(covariances4) k = covariances4_of(b);
+    Real v = gnomon_max(noise * (Real(1) + Real(2) * gnomon_abs(b.b1)), k.v.high + k.v.low);
+    Real l = k.l.high + k.l.low;
+    GNOMON_T(moments4) c = hankel4_noise_coefficients(b, v, l, k.m.high + k.m.low);
     Real norm = (gnomon_abs(c.b1) + gnomon_abs(c.b2)) + (gnomon_abs(c.b3) + c.b4);
-    return hankel4_guard(h, least_variance, noise * norm);
+    return hankel4_of(b.b1, v, l, gnomon_max(noise * norm, double_word_determinant(k.v, k.l, k.m)));
 }
 
 GNOMON_CONSTANT(hankel4_third, 0.33333333333333333);
@@ -101,19 +102,15 @@ GNOMON_KERNEL GNOMON_T(hankel4) hankel4_raised_theta(GNOMON_T(moments4) b, GNOMO
 {
     // |theta4^-T (-2 b1, 1, 0, 0)|_1 = 2 (1/3 + sqrt 3) |b1| + 9/8
     Real slope = Real(2) * (GNOMON_LITERAL(hankel4_third) + GNOMON_LITERAL(hankel4_root3));
-    Real least_variance = noise * (Real(1.125) + slope * gnomon_abs(b.b1));
+    Real v = gnomon_max(noise * (Real(1.125) + slope * gnomon_abs(b.b1)), b.b2 - b.b1 * b.b1);
+    Real l = b.b3 - b.b1 * b.b2;
     Real m = b.b4 - b.b2 * b.b2;
-    GNOMON_T(hankel4) h;
-    h.mean = b.b1;
-    h.variance = gnomon_max(least_variance, b.b2 - b.b1 * b.b1);
-    h.covariance = b.b3 - b.b1 * b.b2;
-    h.determinant = h.variance * m - h.covariance * h.covariance;
-    GNOMON_T(moments4) c = hankel4_noise_coefficients(h, b, m);
+    GNOMON_T(moments4) c = hankel4_noise_coefficients(b, v, l, m);
     Real odd = Real(0.75) * c.b3;
     Real norm = (gnomon_abs(GNOMON_LITERAL(hankel4_third) * c.b1 + odd) +
                  GNOMON_LITERAL(hankel4_root3) * gnomon_abs(c.b1 + odd)) +
                 (Real(0.125) * gnomon_abs(c.b2 - c.b4) + gnomon_abs(c.b2 + c.b4));
-    return hankel4_guard(h, least_variance, noise * norm);
+    return hankel4_of(b.b1, v, l, gnomon_max(noise * norm, v * m - l * l));
 }
 
 GNOMON_NAMESPACE_END

@@ -22,6 +22,19 @@ GNOMON_STRUCT hankel6 { Real mean, variance, ratio, shift2, shift3, inverse1, in
 /// The covariances of (z, z^2, z^3).
 GNOMON_STRUCT covariances6 { GNOMON_T(double_word) c11, c12, c13, c22, c23, c33; };
 
+/// By Hoelder's inequality the terms are ordered where i + j is even.
+GNOMON_KERNEL GNOMON_T(covariances6) covariances6_of(GNOMON_T(moments6) b)
+{
+    GNOMON_T(covariances6) c;
+    c.c11 = subtract_product_ordered(b.b2, b.b1, b.b1);
+    c.c12 = subtract_product(b.b3, b.b1, b.b2);
+    c.c13 = subtract_product_ordered(b.b4, b.b1, b.b3);
+    c.c22 = subtract_product_ordered(b.b4, b.b2, b.b2);
+    c.c23 = subtract_product(b.b5, b.b2, b.b3);
+    c.c33 = subtract_product_ordered(b.b6, b.b3, b.b3);
+    return c;
+}
+
 /// Elimination, with pivots no smaller than noise |coefficients of P_k^2|_1 and the floor; noise = 0 leaves them.
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_factor(GNOMON_T(moments6) b, GNOMON_T(covariances6) c, GNOMON_SETTING noise)
 {
@@ -53,9 +66,9 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_factor(GNOMON_T(moments6) b, GNOMON_T(co
     Real least3 = ((Real(1) + Real(2) * gnomon_abs(l32)) +
                    (gnomon_abs(l32 * l32 + Real(2) * q1) + Real(2) * gnomon_abs(q0 - q1 * l32))) +
                   (gnomon_abs(q1 * q1 - Real(2) * (q0 * l32)) + Real(2) * gnomon_abs(q0 * q1));
-    GNOMON_T(double_word) t = double_word_minor(s22, s33, s23, s23);
+    Real t = double_word_determinant(s22, s23, s33);
     Real d1s = d1 * s;
-    h.inverse3 = d1s / gnomon_max(gnomon_max(noise * least3, GNOMON_PIVOT_FLOOR) * d1s, t.high + t.low);
+    h.inverse3 = d1s / gnomon_max(gnomon_max(noise * least3, GNOMON_PIVOT_FLOOR) * d1s, t);
     return h;
 }
 
@@ -63,14 +76,7 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_factor(GNOMON_T(moments6) b, GNOMON_T(co
 /// exact moments.
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_raised(GNOMON_T(moments6) b, GNOMON_SETTING noise)
 {
-    GNOMON_T(covariances6) c;
-    c.c11 = subtract_product(b.b2, b.b1, b.b1);
-    c.c12 = subtract_product(b.b3, b.b1, b.b2);
-    c.c13 = subtract_product(b.b4, b.b1, b.b3);
-    c.c22 = subtract_product(b.b4, b.b2, b.b2);
-    c.c23 = subtract_product(b.b5, b.b2, b.b3);
-    c.c33 = subtract_product(b.b6, b.b3, b.b3);
-    return hankel6_factor(b, c, noise);
+    return hankel6_factor(b, covariances6_of(b), noise);
 }
 
 /// The moments of the mixture (1 - alpha) Z + alpha Z*, where Z* is symmetric with even moments bias2, bias4, bias6
@@ -85,13 +91,13 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_biased(GNOMON_T(moments6) b, GNOMON_SETT
     e.b4 = alpha * (bias4 - b.b4);
     e.b5 = -alpha * b.b5;
     e.b6 = alpha * (bias6 - b.b6);
-    GNOMON_T(covariances6) c;
-    c.c11 = biased_covariance(b.b2, b.b1, b.b1, e.b2, e.b1, e.b1);
-    c.c12 = biased_covariance(b.b3, b.b1, b.b2, e.b3, e.b1, e.b2);
-    c.c13 = biased_covariance(b.b4, b.b1, b.b3, e.b4, e.b1, e.b3);
-    c.c22 = biased_covariance(b.b4, b.b2, b.b2, e.b4, e.b2, e.b2);
-    c.c23 = biased_covariance(b.b5, b.b2, b.b3, e.b5, e.b2, e.b3);
-    c.c33 = biased_covariance(b.b6, b.b3, b.b3, e.b6, e.b3, e.b3);
+    GNOMON_T(covariances6) c = covariances6_of(b);
+    c.c11 = biased_covariance(c.c11, b.b1, b.b1, e.b2, e.b1, e.b1);
+    c.c12 = biased_covariance(c.c12, b.b1, b.b2, e.b3, e.b1, e.b2);
+    c.c13 = biased_covariance(c.c13, b.b1, b.b3, e.b4, e.b1, e.b3);
+    c.c22 = biased_covariance(c.c22, b.b2, b.b2, e.b4, e.b2, e.b2);
+    c.c23 = biased_covariance(c.c23, b.b2, b.b3, e.b5, e.b2, e.b3);
+    c.c33 = biased_covariance(c.c33, b.b3, b.b3, e.b6, e.b3, e.b3);
     b.b1 = b.b1 + e.b1;
     b.b2 = b.b2 + e.b2;
     b.b3 = b.b3 + e.b3;

@@ -20,7 +20,7 @@ GNOMON_CONSTANT(two_point_least_variance, 1.1920928955078125e-7); // 2^-23
 /// mean; a NaN gives a single depth at the far plane.
 GNOMON_KERNEL GNOMON_T(distribution2) two_point_distribution(Real b1, Real b2, Real b3, GNOMON_SETTING least_variance)
 {
-    GNOMON_T(double_word) v = subtract_product(b2, b1, b1);
+    GNOMON_T(double_word) v = subtract_product_ordered(b2, b1, b1);
     GNOMON_T(double_word) c = subtract_product(b3, b1, b2);
     Real mean = clamp_or_nan(b1, Real(-1), Real(1));
     Real variance = v.high + v.low;

@@ -23,7 +23,7 @@ GNOMON_KERNEL GNOMON_T(quadratic_result) quadratic_roots(Real a, Real b, Real c)
 /// ulp.
 GNOMON_KERNEL Real quadratic_negative_root(Real a, Real b, Real c)
 {
-    Real r = gnomon_sqrt(gnomon_max(b * b - a * c, Real(0)));
+    Real r = gnomon_sqrt(b * b - a * c);
     GNOMON_MASK falls = b > Real(0);
     return gnomon_select(falls, -c, r - b) / gnomon_select(falls, b + r, a);
 }

@@ -64,6 +64,15 @@ GNOMON_KERNEL GNOMON_T(double_word) subtract_product(Real c, Real a, Real b)
     return r;
 }
 
+/// The same for |c| >= |a b|; elsewhere low carries an error of a rounding of c.
+GNOMON_KERNEL GNOMON_T(double_word) subtract_product_ordered(Real c, Real a, Real b)
+{
+    GNOMON_T(double_word) p = two_product(a, b);
+    GNOMON_T(double_word) r = two_sum_ordered(c, -p.high);
+    r.low = r.low - p.low;
+    return r;
+}
+
 /// a b - c d within 2 roundings of the exact value, whatever cancels.
 /// Source: Jeannerod, Louvet & Muller 2013, "Further analysis of Kahan's algorithm for the accurate computation of 2x2
 /// determinants".
@@ -84,6 +93,15 @@ GNOMON_KERNEL GNOMON_T(double_word) double_word_minor(GNOMON_T(double_word) a, G
     Real cross = (a.high * b.low + a.low * b.high) - (c.high * d.low + c.low * d.high);
     r.low = r.low + ((p.low - q.low) + (cross + (a.low * b.low - c.low * d.low)));
     return r;
+}
+
+/// a c - b^2 for double words, rounded: relative error below 2^-40 (|a c| + b^2) in float and a rounding of the result.
+GNOMON_KERNEL Real double_word_determinant(GNOMON_T(double_word) a, GNOMON_T(double_word) b, GNOMON_T(double_word) c)
+{
+    GNOMON_T(double_word) p = two_product(a.high, c.high);
+    GNOMON_T(double_word) q = two_product(b.high, b.high);
+    Real cross = (a.high * c.low + a.low * (c.high + c.low)) - b.low * ((b.high + b.high) + b.low);
+    return (p.high - q.high) + ((p.low - q.low) + cross);
 }
 
 GNOMON_NAMESPACE_END
