@@ -4,8 +4,7 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <algorithm>
-#include <array>
+
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/eigen.hpp>
 #include <stdexcept>
@@ -16,46 +15,44 @@ namespace gnomon::derivation {
 using Decimal50 =
     boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
 
-template <typename Scalar, int n> using Vector = Eigen::Matrix<Scalar, n, 1>;
-template <typename Scalar, int n> using Matrix = Eigen::Matrix<Scalar, n, n>;
+/// Small, on the stack, and of one type for all sizes, which compiles much faster than a type for each.
+template <typename Scalar> using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1, 0, 8, 1>;
+template <typename Scalar> using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, 0, 8, 8>;
 
 /// The half space normal . x <= bound.
-template <typename Scalar, int n> struct HalfSpace {
-    Vector<Scalar, n> normal;
+template <typename Scalar> struct HalfSpace {
+    Vector<Scalar> normal;
     Scalar bound;
 
-    [[nodiscard]] Scalar violation(const Vector<Scalar, n>& x) const { return normal.dot(x) - bound; }
+    [[nodiscard]] Scalar violation(const Vector<Scalar>& x) const { return normal.dot(x) - bound; }
 };
 
 /// The x with the largest objective . x in the intersection of a bounded family of half spaces.
 /// `most_violated(x)` returns the half space of the family that x violates most, or satisfies most narrowly.
-template <typename Scalar, int n, typename Family>
-Vector<Scalar, n> maximize(const Vector<Scalar, n>& objective, Family most_violated, const Scalar& tolerance)
+template <typename Scalar, typename Family>
+Vector<Scalar> maximize(const Vector<Scalar>& objective, Family most_violated, const Scalar& tolerance)
 {
+    const auto n = objective.size();
     // A box that is far too large is a vertex to begin with: its multipliers are the objective's magnitudes.
-    std::array<HalfSpace<Scalar, n>, n> active;
+    Matrix<Scalar> normals = Matrix<Scalar>::Identity(n, n);
+    Vector<Scalar> bounds = Vector<Scalar>::Constant(n, Scalar(1000));
     for (int i = 0; i < n; ++i)
-        active[i] = {Vector<Scalar, n>::Unit(i) * Scalar(objective[i] < 0 ? -1 : 1), Scalar(1000)};
+        if (objective[i] < 0) normals(i, i) = -1;
     for (int step = 0; step < 1000; ++step) {
-        Matrix<Scalar, n> normals;
-        Vector<Scalar, n> bounds;
-        for (int i = 0; i < n; ++i) {
-            normals.row(i) = active[i].normal.transpose();
-            bounds[i] = active[i].bound;
-        }
-        const Eigen::FullPivLU<Matrix<Scalar, n>> rows(normals), columns(normals.transpose());
-        const Vector<Scalar, n> x = rows.solve(bounds);
-        const HalfSpace<Scalar, n> entering = most_violated(x);
+        const Eigen::PartialPivLU<Matrix<Scalar>> rows(normals), columns(normals.transpose());
+        const Vector<Scalar> x = rows.solve(bounds);
+        const HalfSpace<Scalar> entering = most_violated(x);
         if (entering.violation(x) <= tolerance) return x;
         // The half space that leaves keeps every multiplier non-negative.
-        const Vector<Scalar, n> multipliers = columns.solve(objective), change = columns.solve(entering.normal);
+        const Vector<Scalar> multipliers = columns.solve(objective), change = columns.solve(entering.normal);
         int leaving = -1;
         for (int i = 0; i < n; ++i)
             if (change[i] > tolerance &&
                 (leaving < 0 || multipliers[i] * change[leaving] < multipliers[leaving] * change[i]))
                 leaving = i;
         if (leaving < 0) throw std::runtime_error("exchange: the half spaces have no common point");
-        active[leaving] = entering;
+        normals.row(leaving) = entering.normal.transpose();
+        bounds[leaving] = entering.bound;
     }
     throw std::runtime_error("exchange: no convergence");
 }
