@@ -7,6 +7,7 @@
 // Filterable methods do the last step for packs too: M::intensity(M::moments_of<pack>, pack).
 #pragma once
 
+#include <gnomon/moments/hamburger_cholesky.h>
 #include <array>
 #include <bit>
 #include <concepts>
@@ -111,7 +112,7 @@ struct csm_256 : filterable<convolution_unorm8, convolution_series> {
     static constexpr std::string_view name = "CSM 256 bit";
 };
 
-// Peters et al. 2017, Figure 4b.
+// Peters et al. 2017, Figure 4b, with Algorithm 1 as it stands there, as in all methods named after the paper.
 struct msm_64_paper : filterable<moments4_unorm16, moments4> {
     static constexpr std::string_view name = "MSM 64 bit (paper)";
     template <class Real> static Real intensity(const moments4<Real>& f, Real z_f)
@@ -119,7 +120,7 @@ struct msm_64_paper : filterable<moments4_unorm16, moments4> {
         const auto b = theta4_inverse(f);
         const auto biased = moments4_biased(b, literal<Real>(bias4_theta_paper_b2), literal<Real>(bias4_theta_paper_b4),
                                             literal<Real>(6e-5));
-        return hamburger4_lower(hankel4_fast(biased), z_f);
+        return hamburger4_cholesky_intensity(biased, z_f);
     }
 };
 
@@ -142,7 +143,7 @@ struct msm_128_unit : filterable<moments4_unit_float, moments4> {
     {
         for (Real* moment : {&b.b1, &b.b2, &b.b3, &b.b4})
             *moment = *moment + literal<Real>(2e-6) * (Real(0.5f) - *moment);
-        return hamburger4_lower(hankel4_fast(b), Real(0.5f) * z_f + Real(0.5f));
+        return hamburger4_cholesky_intensity(b, Real(0.5f) * z_f + Real(0.5f));
     }
 };
 
@@ -153,7 +154,7 @@ struct msm_128_paper : filterable<moments4_float, moments4> {
     {
         const auto biased = moments4_biased(f, literal<Real>(bias4_raw_paper_b2), literal<Real>(bias4_raw_paper_b4),
                                             literal<Real>(3e-7));
-        return hamburger4_lower(hankel4_fast(biased), z_f);
+        return hamburger4_cholesky_intensity(biased, z_f);
     }
 };
 

@@ -34,7 +34,10 @@ class Rows:
 
     def __init__(self, report, facts):
         self.scene = facts["scene"]
-        self.rows = [row for row in report if row["scene"].split(": ")[0] == self.scene]
+        scenes = {self.scene, *(f"{self.scene}: {inset['name']}" for inset in facts["insets"])}
+        self.rows = [row for row in report if row["scene"] in scenes]
+        if {row["method"] for row in self.rows} < {method["method"] for method in facts["methods"]}:
+            raise SystemExit(f"report.json: rows of the scene {self.scene} are missing; run the demo again")
 
     def find(self, method, reference, part=None, lanes=None):
         """With no lanes given the row with most of them, None where there is none."""
