@@ -1,0 +1,95 @@
+// Algorithm 2: two depths from three moments, against the two depths that the moments came from, and against the
+// moments.
+#include "../support/distributions.hpp"
+#include "../support/effort.hpp"
+
+#include <gnomon/moments/two_point.h>
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+using namespace gnomon;
+using namespace gnomon::test;
+
+namespace {
+
+std::array<long double, 4> moments_of(const distribution& d)
+{
+    std::array<long double, 4> b{};
+    long double total = 0;
+    for (const double w : d.weights) total += w;
+    for (std::size_t i = 0; i < d.depths.size(); ++i) {
+        long double p = d.weights[i] / total;
+        for (long double& x : b) x += p, p *= d.depths[i];
+    }
+    return b;
+}
+
+} // namespace
+
+// Moments rounded by u have the two depths z1 < z2, s apart, and weights w1, w2 to within about u / (w1 w2 s^2) times a
+// small factor: V = w1 w2 s^2 divides errors of b1 b2 - b3, of at most 3 u, and the weights follow by dividing through
+// s.
+TEST_CASE_TEMPLATE("two depths come back", T, float, double)
+{
+    const T least_variance = std::is_same_v<T, float> ? T(two_point_least_variance) : T(0x1p-48);
+    distribution_source source(3);
+    for (std::int64_t i = 0; i < effort(200'000); ++i) {
+        const distribution d = source.draw(i % 2 == 0 ? family::two_points : family::two_points_at_ends);
+        const auto b = moments_of(d);
+        const auto [z1, z2] = std::minmax(d.depths[0], d.depths[1]);
+        const double s = z2 - z1, w1 = d.depths[0] < d.depths[1] ? d.weights[0] : d.weights[1], w2 = 1 - w1;
+        const double tolerance = 16 * double(std::numeric_limits<T>::epsilon()) / (w1 * w2 * s * s);
+        if (tolerance > 0.01) continue;
+        const distribution2<T> r = two_point_distribution(T(b[1]), T(b[2]), T(b[3]), least_variance);
+        REQUIRE(std::abs(double(r.depth1) - z1) <= tolerance);
+        REQUIRE(std::abs(double(r.depth2) - z2) <= tolerance);
+        REQUIRE(std::abs(double(r.weight1) - w1) <= 2 * tolerance / s);
+        REQUIRE(std::abs(double(r.weight2) - w2) <= 2 * tolerance / s);
+    }
+}
+
+// What the distribution is for: it has the given moments, whatever depths they came from. Depths may lie far apart;
+// errors are relative to the largest of the terms that make a moment.
+TEST_CASE_TEMPLATE("the moments come back, from every family", T, float, double)
+{
+    const T least_variance = std::is_same_v<T, float> ? T(two_point_least_variance) : T(0x1p-48);
+    distribution_source source(4);
+    for (int f = 0; f < family_count; ++f)
+        for (std::int64_t i = 0; i < effort(10'000); ++i) {
+            const auto b = moments_of(source.draw(family(f)));
+            const distribution2<T> r = two_point_distribution(T(b[1]), T(b[2]), T(b[3]), least_variance);
+            REQUIRE(r.depth1 <= r.depth2);
+            const double variance = double(b[2] - b[1] * b[1]);
+            if (r.depth1 == r.depth2) {
+                // One depth stands for a variance that rounding of b2 and b1^2 may have moved across the limit.
+                REQUIRE(variance <= double(least_variance) + 2 * double(std::numeric_limits<T>::epsilon()));
+                REQUIRE(r.depth1 == T(b[1]));
+                REQUIRE(r.weight1 + r.weight2 == T(1));
+                continue;
+            }
+            const double z1 = double(r.depth1), z2 = double(r.depth2), w1 = double(r.weight1), w2 = double(r.weight2);
+            const double scale = std::max({1.0, std::abs(z1), std::abs(z2)});
+            const double unit = 8 * double(std::numeric_limits<T>::epsilon());
+            REQUIRE(std::abs(w1 * z1 + w2 * z2 - double(b[1])) <= unit * scale);
+            REQUIRE(std::abs(w1 * z1 * z1 + w2 * z2 * z2 - double(b[2])) <= unit * scale * scale);
+            REQUIRE(std::abs(w1 * z1 * z1 * z1 + w2 * z2 * z2 * z2 - double(b[3])) <= unit * scale * scale * scale);
+        }
+}
+
+TEST_CASE_TEMPLATE("no variance, one depth; no information, the far plane", T, float, double)
+{
+    const T nan = std::numeric_limits<T>::quiet_NaN();
+    for (const T z : {T(-1), T(0), T(0.25), T(1)}) {
+        const distribution2<T> r = two_point_distribution(z, z * z, z * z * z, T(0));
+        CHECK(r.depth1 == z);
+        CHECK(r.depth2 == z);
+        CHECK(r.weight1 + r.weight2 == T(1));
+    }
+    CHECK(two_point_distribution(nan, T(0), T(0), T(0)).depth1 == T(1));
+    CHECK(two_point_distribution(T(0), nan, T(0), T(0)).depth2 <= T(1));
+    CHECK(two_point_distribution(T(0), T(0.5), nan, T(0)).weight1 <= T(1));
+}
