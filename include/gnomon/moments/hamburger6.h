@@ -89,14 +89,18 @@ GNOMON_KERNEL GNOMON_T(hamburger_bounds) hamburger6_bounds(GNOMON_T(hankel6) h, 
     GNOMON_MASK positive3 = p.p3 > Real(0);
     GNOMON_MASK all_below = positive1 && positive2 && positive3;
     GNOMON_MASK all_above = (!positive1) && positive2 && (!positive3);
-    // P_3 > 0: an even number of nodes above z_f, so two, and the lone one is below; else it is above.
-    Real side = gnomon_select(positive3, Real(-1), Real(1));
-    GNOMON_T(hamburger6_cubic) n = hamburger6_other_nodes(h, p, kernel_f, side);
-    Real x = p.p1 + side * hamburger6_distance(cubic_largest_root(n.a, n.b, n.c, n.d));
-    Real w = Real(1) / hamburger6_kernel(h, hamburger6_polynomials(h, x));
-    Real between = gnomon_select(positive3, w, (Real(1) - w_f) - w);
+    GNOMON_MASK outside = all_below || all_above;
+    Real lower = gnomon_select(all_below, Real(1) - w_f, Real(0));
+    if (gnomon_any(!outside)) {
+        // P_3 > 0: an even number of nodes above z_f, so two, and the lone one is below; else it is above.
+        Real side = gnomon_select(positive3, Real(-1), Real(1));
+        GNOMON_T(hamburger6_cubic) n = hamburger6_other_nodes(h, p, kernel_f, side);
+        Real x = p.p1 + side / gnomon_max(cubic_largest_root(n.a, n.b, n.c, n.d), Real(0.0009765625));
+        Real w = Real(1) / hamburger6_kernel(h, hamburger6_polynomials(h, x));
+        lower = gnomon_select(outside, lower, gnomon_select(positive3, w, (Real(1) - w_f) - w));
+    }
     GNOMON_T(hamburger_bounds) r;
-    r.lower = saturate_or_zero(gnomon_select(all_below, Real(1) - w_f, gnomon_select(all_above, Real(0), between)));
+    r.lower = saturate_or_zero(lower);
     r.weight = gnomon_min(saturate_or_zero(w_f), Real(1) - r.lower);
     r.upper = r.lower + r.weight;
     return r;
@@ -115,8 +119,12 @@ GNOMON_KERNEL GNOMON_T(distribution4) hamburger6_distribution(GNOMON_T(hankel6) 
     GNOMON_T(hamburger6_cubic) n = hamburger6_other_nodes(h, p, kernel_f, side);
     // The largest root, then the other two from the quadratic that division by it leaves, polished on the cubic.
     Real t1 = cubic_largest_root(n.a, n.b, n.c, n.d);
-    Real b = Real(0.5) * (n.b + n.a * t1);
-    Real c = n.c + t1 * (Real(2) * b);
+    // Divide from the end that does not cancel: a small root from the highest power, a large one from the lowest.
+    GNOMON_MASK large = n.a * (t1 * t1) * t1 > -n.d;
+    Real backward = -n.d / t1;
+    Real forward = n.b + n.a * t1;
+    Real b = Real(0.5) * gnomon_select(large, (backward - n.c) / t1, forward);
+    Real c = gnomon_select(large, backward, n.c + t1 * forward);
     GNOMON_T(quadratic_result) q = quadratic_roots(n.a, b, c);
     Real t2 = cubic_halley(n.a, n.b, n.c, n.d, q.first);
     Real t3 = cubic_halley(n.a, n.b, n.c, n.d, q.second);
