@@ -80,10 +80,11 @@ void check_bias(const BiasVectors& vectors)
     const StoredSpace space(vectors.transform);
     for (const BiasVector& vector : {vectors.printed, vectors.farthest_euclidean, vectors.farthest}) {
         const Moments b = vector.moments.cast<Real>();
+        const auto radius = static_cast<Real>(vector.maximum_norm);
         CHECK(inside(b, 1e-15L));
         // The cube is valid, because its corners are, and touches the boundary.
-        CHECK(least_eigenvalue(space, b, vector.maximum_norm * (1 - 1e-9)) > 0);
-        CHECK(least_eigenvalue(space, b, vector.maximum_norm * (1 + 1e-9)) < 0);
+        CHECK(least_eigenvalue(space, b, radius * (1 - 1e-9L)) > 0);
+        CHECK(least_eigenvalue(space, b, radius * (1 + 1e-9L)) < 0);
         // A grid finds no nearer polynomial, and one almost as near, for the minimum is flat: its angles are half a
         // degree (2 degrees) apart.
         const int steps = b.size() == 4 ? 360 : 90;
@@ -109,7 +110,8 @@ void check_bias(const BiasVectors& vectors)
         for (Real& moment : b) moment += length * normal(generator);
         if (!inside(b, 0)) continue;
         ++inside_steps;
-        CHECK(space.contact(b, Norm::maximum).distance <= vectors.farthest.maximum_norm * (1 + 1e-12L));
+        CHECK(static_cast<double>(space.contact(b, Norm::maximum).distance) <=
+              vectors.farthest.maximum_norm * (1 + 1e-12));
     }
     CHECK(inside_steps > 20);
 }
@@ -236,7 +238,7 @@ void check_library_bias(const BiasVectors& derived, std::initializer_list<double
 {
     CAPTURE(derived.stored);
     Moments b = Moments::Zero(2 * std::ssize(even));
-    for (int i = -1; const double moment : even) b[i += 2] = moment;
+    for (int i = -1; const double moment : even) b[i += 2] = static_cast<Real>(moment);
     CHECK((b - derived.farthest.moments.cast<Real>()).lpNorm<Eigen::Infinity>() <= 1e-9L);
     const auto contact = StoredSpace(derived.transform).contact(b, Norm::maximum);
     CHECK(static_cast<double>(contact.distance) == doctest::Approx(derived.farthest.maximum_norm).epsilon(1e-11));

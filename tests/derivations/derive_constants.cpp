@@ -23,8 +23,9 @@ template <typename Matrix> Json rows(const Matrix& matrix)
 {
     Json result = Json::array();
     for (int i = 0; i < matrix.rows(); ++i) {
-        result.push_back(Json::array());
-        for (int j = 0; j < matrix.cols(); ++j) result[i].push_back(tidied(static_cast<double>(matrix(i, j))));
+        Json row = Json::array();
+        for (int j = 0; j < matrix.cols(); ++j) row.push_back(tidied(static_cast<double>(matrix(i, j))));
+        result.push_back(std::move(row));
     }
     return result;
 }

@@ -32,7 +32,7 @@ template <typename Scalar> Scalar extremal_depth(const Exponents& exponents, con
     const auto value = [&](const Scalar& z) { return Scalar(sign * row.dot(monomials<Scalar>(exponents, z))); };
     Eigen::Matrix<Scalar, intervals + 1, 1> depths, values;
     for (int i = 0; i <= intervals; ++i) {
-        depths[i] = std::cos(std::numbers::pi * i / intervals);
+        depths[i] = Scalar(std::cos(std::numbers::pi * i / intervals));
         values[i] = value(depths[i]);
     }
     Scalar best = depths[0];
