@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
-#include <tbb/task_arena.h>
 #include <time.h>
 
 #include <algorithm>
@@ -49,21 +48,23 @@ double cpu_seconds()
     return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
-// The least time of some runs on this thread alone.
-double seconds(int runs, auto&& run)
+double seconds(auto&& run)
 {
-    double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < runs; ++i) {
-        const double start = cpu_seconds();
-        run();
-        least = std::min(least, cpu_seconds() - start);
-    }
-    return least;
+    const double start = cpu_seconds();
+    run();
+    return cpu_seconds() - start;
 }
 
+// The least time of at least three runs, and of as many as fit into 0.15 s.
 double ns_per_receiver(std::size_t count, auto&& run)
 {
-    return 1e9 * seconds(3, run) / double(std::max<std::size_t>(count, 1));
+    double least = std::numeric_limits<double>::infinity(), spent = 0;
+    for (int i = 0; i < 3 || spent < 0.15; ++i) {
+        const double time = seconds(run);
+        least = std::min(least, time);
+        spent += time;
+    }
+    return 1e9 * least / double(std::max<std::size_t>(count, 1));
 }
 
 struct timing {
@@ -109,10 +110,7 @@ template <method M> outcome outcome_of(const depth_map& depths, const receivers&
 {
     outcome result{std::string(M::name), std::string(M::format), double(M::bytes_per_texel), 0, {}, {}};
     std::optional<typename M::map> map;
-    tbb::task_arena alone(1);
-    result.build_ms = 1e3 * alone.execute([&] {
-        return seconds(1, [&] { map.emplace(typename M::map{depths, taps}); });
-    });
+    result.build_ms = 1e3 * seconds([&] { map.emplace(typename M::map{depths, taps}); });
 
     std::vector<typename M::fetched> fetched(where.size());
     tbb::parallel_for(std::size_t(0), where.size(),
