@@ -116,7 +116,7 @@ template <int bits> constexpr auto texels = [](const auto& b) { return texel<bit
 
 TEST_CASE("hamburger4, double, against 120 digits")
 {
-    const auto factor = [](auto b) { return hankel4_raised(b, 0); };
+    const auto factor = [](auto b) { return hankel4_biased(b, 0, 0, 0); };
     check<double, 4>("double, no bias, three depths and more", 3, as_they_are, factor, solved<4>({}, 0));
 }
 

@@ -5,10 +5,13 @@
 // the canonical distribution with a node at z_f: its other two nodes are the roots of K(z_f, .), and a node z weighs
 // w(z) = 1 / K(z, z). The number of nodes above z_f is the number of sign changes in P_0(z_f), P_1(z_f), P_2(z_f):
 //     none: lower = 1 - w_f     both: lower = 0     one: lower = w(smaller root)     upper = lower + w_f
-// With x = z - mean, V = D_1, N = D_1 D_2, W = V N and Q(x) = V P_2 = (V x - G) x - V^2:
-//     w(z) = W / (W + x^2 N + Q(x)^2)     K(z_f, .) = 0: Q V x^2 + (u N - Q G) x + (W - Q V^2) = 0, u = z_f - mean
-// Where one root lies on each side, Q = Q(u) < 0, so the discriminant is a sum of positive terms. Two divisions and one
-// square root in all.
+// With x = z - mean, u = z_f - mean, V = D_1, N = D_1 D_2, W = V N and Q(x) = V P_2 = (V x - G) x - V^2:
+//     w(z) = W / (W + x^2 N + Q(x)^2)     K(z_f, .) = 0: a x^2 + 2 b x + c = 0, a = Q V, 2 b = u N - Q G, c = W - Q V^2
+// for Q = Q(u). Where one root lies on each side, Q < 0, so r^2 = b^2 - a c is a sum of positive terms. The two nodes
+// beside z_f weigh E / (W + E) together, E = u^2 N + Q^2, and balance it about the mean, so that the weight of the
+// smaller one needs no root of its own:
+//     w(smaller root) = (E (r + b) - W u a) / (2 r (W + E))
+// One division and one square root in all.
 #ifndef GNOMON_MOMENTS_HAMBURGER4_H
 #define GNOMON_MOMENTS_HAMBURGER4_H
 #include "../numerics/quadratic.h"
@@ -20,7 +23,8 @@ GNOMON_NAMESPACE_BEGIN
 /// The canonical distribution: a node at the receiver and two more, depth1 <= depth2; weights in [0, 1] sum to 1.
 GNOMON_STRUCT distribution3 { Real depth0, depth1, depth2, weight0, weight1, weight2; };
 
-GNOMON_CONSTANT(hamburger4_scale, 72057594037927936.0); // 2^56
+GNOMON_CONSTANT(hamburger4_scale, 72057594037927936.0);     // 2^56
+GNOMON_CONSTANT(hamburger4_lower_scale, 281474976710656.0); // 2^48
 
 /// Q(x) = V P_2(mean + x).
 GNOMON_KERNEL Real hamburger4_q(GNOMON_T(hankel4) h, Real x)
@@ -50,12 +54,29 @@ GNOMON_KERNEL GNOMON_T(hamburger4_quadratic) hamburger4_other_nodes(GNOMON_T(han
     return r;
 }
 
-/// The smaller of two nodes on either side of z_f = mean + u, less the mean. Domain: q = Q(u) < 0; elsewhere any number
-/// or NaN.
-GNOMON_KERNEL Real hamburger4_smaller_root(GNOMON_T(hankel4) h, Real u, Real q)
+/// Lower bound and w_f as numerators over one denominator each: lower = share / total, w_f = receiver / whole.
+GNOMON_STRUCT hamburger4_fractions { Real share, total, receiver, whole; };
+
+GNOMON_KERNEL GNOMON_T(hamburger4_fractions) hamburger4_weigh(GNOMON_T(hankel4) h, Real z_f)
 {
-    GNOMON_T(hamburger4_quadratic) p = hamburger4_other_nodes(h, u, q);
-    return quadratic_negative_root(p.a, p.b, p.c);
+    Real u = clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean;
+    Real q = hamburger4_q(h, u);
+    // The power of two, a factor of every term, keeps those of a single depth from underflowing.
+    Real s = GNOMON_LITERAL(hamburger4_lower_scale) * q;
+    Real n = GNOMON_LITERAL(hamburger4_lower_scale) * h.determinant;
+    Real un = u * n;
+    Real a = s * h.variance;
+    Real b = Real(0.5) * (un - s * h.third);
+    Real r = gnomon_sqrt(b * b - a * (h.variance * (n - a)));
+    Real e = u * un + q * s;
+    GNOMON_T(hamburger4_fractions) f;
+    f.receiver = h.variance * n;
+    f.whole = f.receiver + e;
+    GNOMON_MASK between = q < Real(0);
+    Real outside = gnomon_select(u > Real(0), e, Real(0));
+    f.share = gnomon_select(between, e * (r + b) - f.receiver * (u * a), outside);
+    f.total = gnomon_select(between, r + r, Real(1)) * f.whole;
+    return f;
 }
 
 /// Lower bound on the shadow intensity at z_f: what a surface should show, since it never darkens a lit one
@@ -64,32 +85,21 @@ GNOMON_KERNEL Real hamburger4_smaller_root(GNOMON_T(hankel4) h, Real u, Real q)
 ///     error, double, no bias, three depths and more: p99 1e-13, p99.9 2e-12, max 1e-11
 ///     error, float, hankel4_biased at 3e-7: p99 3e-5, p99.9 1e-4, max 2e-4
 /// and against the same in double,
-///     error, float, hankel4_from_float: p99 2e-5, p99.9 1e-4, max 5e-4
-///     error, float, hankel4_from_unorm16: p99 4e-4, p99.9 2e-3, max 4e-3
+///     error, float, hankel4_from_float: p99 3e-5, p99.9 2e-3, max 3e-2
+///     error, float, hankel4_from_unorm16: p99 5e-4, p99.9 3e-3, max 1e-2
 GNOMON_KERNEL Real hamburger4_lower(GNOMON_T(hankel4) h, Real z_f)
 {
-    Real u = clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean;
-    Real q = hamburger4_q(h, u);
-    GNOMON_MASK between = q < Real(0);
-    Real x = gnomon_select(between, hamburger4_smaller_root(h, u, q), u);
-    Real w = hamburger4_weight(h, x, hamburger4_q(h, x));
-    Real outside = gnomon_select(u > Real(0), Real(1) - w, Real(0));
-    return saturate_or_zero(gnomon_select(between, w, outside));
+    GNOMON_T(hamburger4_fractions) f = hamburger4_weigh(h, z_f);
+    return saturate_or_zero(f.share / f.total);
 }
 
 /// Both bounds and the weight of the receiver; one division more than the lower bound.
 GNOMON_KERNEL GNOMON_T(hamburger_bounds) hamburger4_bounds(GNOMON_T(hankel4) h, Real z_f)
 {
-    Real u = clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean;
-    Real q = hamburger4_q(h, u);
-    GNOMON_MASK between = q < Real(0);
-    Real w_f = hamburger4_weight(h, u, q);
-    Real x = hamburger4_smaller_root(h, u, q);
-    Real w = hamburger4_weight(h, x, hamburger4_q(h, x));
-    Real outside = gnomon_select(u > Real(0), Real(1) - w_f, Real(0));
+    GNOMON_T(hamburger4_fractions) f = hamburger4_weigh(h, z_f);
     GNOMON_T(hamburger_bounds) r;
-    r.lower = saturate_or_zero(gnomon_select(between, w, outside));
-    r.weight = gnomon_min(saturate_or_zero(w_f), Real(1) - r.lower);
+    r.lower = saturate_or_zero(f.share / f.total);
+    r.weight = gnomon_min(saturate_or_zero(f.receiver / f.whole), Real(1) - r.lower);
     r.upper = r.lower + r.weight;
     return r;
 }

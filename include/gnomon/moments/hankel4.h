@@ -5,9 +5,9 @@
 //         | b2 b3 b4 |      (Peters et al. 2017, Algorithm 1, step 2, without its right-hand side).
 //
 // After the first step of elimination the covariances of (z, z^2) remain: V = var z = D_1, L = cov(z, z^2),
-// M = var z^2, and D_1 D_2 = V M - L^2. All three cancel, so they are kept as double words, and a bias (bias.h) is
-// added to them instead of to the moments: it would be rounded away there. Division is put off to hamburger4.h, which
-// wants G = g V = E[P_1^3] = L - 2 b1 V for L.
+// M = var z^2, and D_1 D_2 = V M - L^2. All three cancel, so they are taken from exact products, and a bias (bias.h) is
+// added to them, as double words, instead of to the moments: it would be rounded away there. Division is put off to
+// hamburger4.h, which wants G = g V = E[P_1^3] = L - 2 b1 V for L.
 #ifndef GNOMON_MOMENTS_HANKEL4_H
 #define GNOMON_MOMENTS_HANKEL4_H
 #include "../numerics/two_product.h"
@@ -19,16 +19,23 @@ GNOMON_NAMESPACE_BEGIN
 /// are positive, whatever the moments were, or NaN where one of these was.
 GNOMON_STRUCT hankel4 { Real mean, variance, third, determinant; };
 
-/// From mean, V, L and V M - L^2, the pivots guarded: none below the floor, so that indefinite moments still name a
-/// distribution. A NaN, the second argument of gnomon_max, stays one (portable.h).
+/// From mean, V, L and V M - L^2.
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_of(Real mean, Real variance, Real covariance, Real determinant)
 {
     GNOMON_T(hankel4) h;
     h.mean = mean;
-    h.variance = gnomon_max(GNOMON_PIVOT_FLOOR, variance);
-    h.third = covariance - (mean + mean) * h.variance;
-    h.determinant = gnomon_max(GNOMON_PIVOT_FLOOR * h.variance, determinant);
+    h.variance = variance;
+    h.third = covariance - (mean + mean) * variance;
+    h.determinant = determinant;
     return h;
+}
+
+/// The same with guarded pivots: none below the floor, so that indefinite moments still name a distribution. A NaN, the
+/// second argument of gnomon_max, stays one (portable.h).
+GNOMON_KERNEL GNOMON_T(hankel4) hankel4_guarded(Real mean, Real variance, Real covariance, Real determinant)
+{
+    Real v = gnomon_max(GNOMON_PIVOT_FLOOR, variance);
+    return hankel4_of(mean, v, covariance, gnomon_max(GNOMON_PIVOT_FLOOR * v, determinant));
 }
 
 /// Plain arithmetic: right for moments from 16-bit storage, whose own errors are larger, and for double.
@@ -37,7 +44,7 @@ GNOMON_KERNEL GNOMON_T(hankel4) hankel4_fast(GNOMON_T(moments4) b)
     Real v = b.b2 - b.b1 * b.b1;
     Real l = b.b3 - b.b1 * b.b2;
     Real m = b.b4 - b.b2 * b.b2;
-    return hankel4_of(b.b1, v, l, v * m - l * l);
+    return hankel4_guarded(b.b1, v, l, v * m - l * l);
 }
 
 /// V, L and M without cancellation. Jensen's inequality orders the terms of V and M, not those of L.
@@ -66,7 +73,7 @@ GNOMON_KERNEL GNOMON_T(hankel4)
     GNOMON_T(double_word) v = biased_covariance(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
     GNOMON_T(double_word) l = biased_covariance(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
     GNOMON_T(double_word) m = biased_covariance(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
-    return hankel4_of(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
+    return hankel4_guarded(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
 }
 
 /// The coefficients c1, ..., c4 of D_1 P_2^2 as a polynomial in z, on the boundary of valid moments, which is where
@@ -82,15 +89,17 @@ GNOMON_KERNEL GNOMON_T(moments4) hankel4_noise_coefficients(GNOMON_T(moments4) b
 }
 
 /// The moments as they are, with each pivot D_k raised to at least noise |coefficients of P_k^2|_1, what errors up to
-/// noise in each stored moment make of it (bias.h, adaptive).
+/// noise in each stored moment make of it (bias.h, adaptive). Where V, L and M come without cancellation, the roundings
+/// of V M - L^2 stay below what noise of 2^-26 makes of it in float: double words would cost much and change little.
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_raised(GNOMON_T(moments4) b, GNOMON_SETTING noise)
 {
-    GNOMON_T(covariances4) k = covariances4_of(b);
-    Real v = gnomon_max(noise * (Real(1) + Real(2) * gnomon_abs(b.b1)), k.v.high + k.v.low);
-    Real l = k.l.high + k.l.low;
-    GNOMON_T(moments4) c = hankel4_noise_coefficients(b, v, l, k.m.high + k.m.low);
+    noise = gnomon_max(GNOMON_PIVOT_FLOOR, noise);
+    Real v = gnomon_max(noise + (noise + noise) * gnomon_abs(b.b1), subtract_product_rounded(b.b2, b.b1, b.b1));
+    Real l = subtract_product_rounded(b.b3, b.b1, b.b2);
+    Real m = subtract_product_rounded(b.b4, b.b2, b.b2);
+    GNOMON_T(moments4) c = hankel4_noise_coefficients(b, v, l, m);
     Real norm = (gnomon_abs(c.b1) + gnomon_abs(c.b2)) + (gnomon_abs(c.b3) + c.b4);
-    return hankel4_of(b.b1, v, l, gnomon_max(noise * norm, double_word_determinant(k.v, k.l, k.m)));
+    return hankel4_of(b.b1, v, l, gnomon_max(noise * norm, v * m - l * l));
 }
 
 GNOMON_CONSTANT(hankel4_third, 0.33333333333333333);
@@ -100,9 +109,11 @@ GNOMON_CONSTANT(hankel4_root3, 1.7320508075688772);
 /// coefficients pass through its inverse, transposed.
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_raised_theta(GNOMON_T(moments4) b, GNOMON_SETTING noise)
 {
-    // |theta4^-T (-2 b1, 1, 0, 0)|_1 = 2 (1/3 + sqrt 3) |b1| + 9/8
-    Real slope = Real(2) * (GNOMON_LITERAL(hankel4_third) + GNOMON_LITERAL(hankel4_root3));
-    Real v = gnomon_max(noise * (Real(1.125) + slope * gnomon_abs(b.b1)), b.b2 - b.b1 * b.b1);
+    noise = gnomon_max(GNOMON_PIVOT_FLOOR, noise);
+    // A quarter of |theta4^-T (-2 b1, 1, 0, 0)|_1 = 2 (1/3 + sqrt 3) |b1| + 9/8: what the variance is raised by shows as
+    // intensity on a lit surface, in proportion to V / D_2, and a quarter is enough.
+    Real slope = Real(0.5) * (GNOMON_LITERAL(hankel4_third) + GNOMON_LITERAL(hankel4_root3));
+    Real v = gnomon_max(noise * (Real(0.28125) + slope * gnomon_abs(b.b1)), b.b2 - b.b1 * b.b1);
     Real l = b.b3 - b.b1 * b.b2;
     Real m = b.b4 - b.b2 * b.b2;
     GNOMON_T(moments4) c = hankel4_noise_coefficients(b, v, l, m);

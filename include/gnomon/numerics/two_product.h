@@ -73,6 +73,13 @@ GNOMON_KERNEL GNOMON_T(double_word) subtract_product_ordered(Real c, Real a, Rea
     return r;
 }
 
+/// c - a b within 2 roundings of the exact value, whatever cancels: where c and a b do, their difference is exact.
+GNOMON_KERNEL Real subtract_product_rounded(Real c, Real a, Real b)
+{
+    GNOMON_T(double_word) p = two_product(a, b);
+    return (c - p.high) - p.low;
+}
+
 /// a b - c d within 2 roundings of the exact value, whatever cancels.
 /// Source: Jeannerod, Louvet & Muller 2013, "Further analysis of Kahan's algorithm for the accurate computation of 2x2
 /// determinants".
