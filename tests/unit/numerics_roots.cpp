@@ -1,0 +1,94 @@
+// Roots of quadratics and of cubics with three real roots, against Newton's method in 50 digits on the same, rounded
+// coefficients.
+#include "../support/effort.hpp"
+#include "../support/hostile.hpp"
+
+#include <gnomon/numerics/cubic.h>
+#include <gnomon/numerics/quadratic.h>
+
+#include <doctest/doctest.h>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+using namespace gnomon;
+using namespace gnomon::test;
+
+namespace {
+
+using high = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
+
+template <class T> double ulps(T value, const high& exact)
+{
+    const double unit = std::ldexp(1.0, std::ilogb(double(exact)) + 1 - std::numeric_limits<T>::digits);
+    return double(abs(high(value) - exact)) / unit;
+}
+
+/// Magnitudes of all sizes within what a quadratic's squares can hold, and both signs.
+double draw(bit_source& bits) { return (bits.chance(0.5) ? 1 : -1) * std::exp2(bits.uniform(-20, 20)); }
+
+} // namespace
+
+TEST_CASE_TEMPLATE("quadratic_roots: 4 ulp where b^2 and a c do not cancel, quadratic_negative_root: 3", T, float,
+                   double)
+{
+    bit_source bits(1);
+    double worst = 0, worst_negative = 0;
+    for (std::int64_t i = 0; i < effort(100'000); ++i) {
+        const T a = T(draw(bits)), b = T(draw(bits)), c = T(draw(bits));
+        const high square = high(b) * high(b) - high(a) * high(c);
+        if (square < high(b) * high(b) / 2) continue; // cancellation, or complex
+        const high root = sqrt(square);
+        const high t = b > 0 ? high(-(high(b) + root)) : high(root - high(b));
+        const std::array<high, 2> exact = {t / high(a), high(c) / t};
+        const quadratic_result<T> r = quadratic_roots(a, b, c);
+        worst = std::max({worst, ulps(r.first, exact[0]), ulps(r.second, exact[1])});
+        if (a < 0 && c > 0)
+            worst_negative =
+                std::max(worst_negative, ulps(quadratic_negative_root(a, b, c), std::min(exact[0], exact[1])));
+    }
+    CHECK(worst <= 4);
+    CHECK(worst > 0.5); // a root is rounded more than once, so the measure sees errors
+    CHECK(worst_negative <= 3);
+    CHECK(worst_negative > 0.5);
+    CHECK(quadratic_roots(T(1), T(2), T(5)).first == T(-2)); // complex: the common real part
+    CHECK(quadratic_roots(T(0), T(1), T(3)).second == T(-1.5));
+}
+
+// The roots that hamburger6.h asks for: one positive, two negative, a = K(z_f, z_f) >= 1, of sizes that pivots of float
+// maps allow. Rounding a coefficient moves the root by about u (|a t^3| + |b t^2| + |c t| + |d|) / |f'(t)|; a few of
+// these are what Halley's iteration leaves, whose value of f carries 4 to 6 roundings.
+TEST_CASE_TEMPLATE("cubic_largest_root: within 8 roundings of the polynomial's value", T, float, double)
+{
+    bit_source bits(2);
+    const double u = double(std::numeric_limits<T>::epsilon()) / 2;
+    double worst = 0;
+    for (std::int64_t i = 0; i < effort(50'000); ++i) {
+        const double scale = std::exp2(bits.uniform(-2, 10)), a = std::exp2(bits.uniform(0, 12));
+        const std::array<double, 3> roots = {scale * std::exp2(bits.uniform(-3, 3)),
+                                             -scale * std::exp2(bits.uniform(-3, 3)),
+                                             -scale * std::exp2(bits.uniform(-3, 3))};
+        const T ca = T(a), cb = T(-a * (roots[0] + roots[1] + roots[2]));
+        const T cc = T(a * (roots[0] * roots[1] + roots[0] * roots[2] + roots[1] * roots[2]));
+        const T cd = T(-a * roots[0] * roots[1] * roots[2]);
+        const high A(ca), B(cb), C(cc), D(cd);
+        high t = roots[0];
+        for (int k = 0; k < 12; ++k) t -= (((A * t + B) * t + C) * t + D) / ((3 * A * t + 2 * B) * t + C);
+        const double conditioned =
+            double((abs(A * t * t * t) + abs(B * t * t) + abs(C * t) + abs(D)) / abs((3 * A * t + 2 * B) * t + C));
+        worst = std::max(worst, double(abs(high(cubic_largest_root(ca, cb, cc, cd)) - t)) / (u * conditioned));
+    }
+    std::printf("cubic_largest_root, %d digits: %.2f\n", std::numeric_limits<T>::digits, worst);
+    CHECK(worst <= 8);
+    CHECK(worst > 0.5);
+}
+
+TEST_CASE_TEMPLATE("cubic_halley stays at a multiple root", T, float, double)
+{
+    CHECK(cubic_halley(T(1), T(-3), T(3), T(-1), T(1)) == T(1));
+    CHECK(cubic_halley(T(2), T(0), T(0), T(0), T(0)) == T(0));
+}
