@@ -197,8 +197,8 @@ void demand(bool holds, double x, double y)
 } // namespace
 
 TEST_CASE_TEMPLATE("any bit pattern: NaN only where the comments allow it, packs equal scalars", Pack, pair_pack<float>,
-                   pair_pack<double>, xsimd::batch<float>, xsimd::batch<double>, xsimd::batch<float, xsimd::sse4_2>,
-                   xsimd::batch<double, xsimd::sse4_2>)
+                   pair_pack<double>, xsimd::batch<float>, xsimd::batch<double>, xsimd::make_sized_batch_t<float, 4>,
+                   xsimd::make_sized_batch_t<double, 2>)
 {
     using T = typename Pack::value_type;
     using bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;

@@ -298,8 +298,8 @@ template <class T> T hostile(std::uint64_t random)
 } // namespace
 
 TEST_CASE_TEMPLATE("10^7 hostile inputs per kernel and type stay in [0, 1]; packs equal scalars", Pack,
-                   xsimd::batch<float>, xsimd::batch<double>, xsimd::batch<float, xsimd::sse4_2>,
-                   xsimd::batch<double, xsimd::sse4_2>)
+                   xsimd::batch<float>, xsimd::batch<double>, xsimd::make_sized_batch_t<float, 4>,
+                   xsimd::make_sized_batch_t<double, 2>)
 {
     using T = typename Pack::value_type;
     std::mt19937_64 random(17);
