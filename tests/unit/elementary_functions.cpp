@@ -1,11 +1,6 @@
 // The error rows of the elementary functions, as their comments state them: float against double from the C library
 // over evenly spaced bit patterns of the whole range, double against Boost.Multiprecision at log-uniform arguments;
 // packs against scalars.
-#if defined(__GNUC__) && !defined(__clang__)
-// GCC bug 105593: in its own AVX-512 intrinsics.
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#pragma GCC diagnostic ignored "-Wuninitialized"
-#endif
 
 #include "../support/effort.hpp"
 

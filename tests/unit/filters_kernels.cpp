@@ -1,10 +1,5 @@
 // The filters beside moment shadow maps: their bounds are bounds, their errors are those that the comments state,
 // nothing leaves [0, 1], packs equal scalars.
-#if defined(__GNUC__) && !defined(__clang__)
-// GCC bug 105593: in its own AVX-512 intrinsics.
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#pragma GCC diagnostic ignored "-Wuninitialized"
-#endif
 
 #include "../support/distributions.hpp"
 #include "../support/effort.hpp"

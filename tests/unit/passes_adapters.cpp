@@ -1,9 +1,4 @@
 // GLM and Eigen vectors keep the order of a struct's members, both ways.
-#if defined(__GNUC__) && !defined(__clang__)
-// GCC bug 105593: in its own AVX-512 intrinsics.
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#pragma GCC diagnostic ignored "-Wuninitialized"
-#endif
 
 #include <gnomon/filters/exponential_variance.h>
 #include <gnomon/moments/moments.h>
