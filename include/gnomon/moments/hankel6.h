@@ -35,48 +35,70 @@ GNOMON_KERNEL GNOMON_T(covariances6) covariances6_of(GNOMON_T(moments6) b)
     return c;
 }
 
-/// Elimination, with pivots no smaller than noise |coefficients of P_k^2|_1 and the floor; noise = 0 leaves them.
-GNOMON_KERNEL GNOMON_T(hankel6) hankel6_factor(GNOMON_T(moments6) b, GNOMON_T(covariances6) c, GNOMON_SETTING noise)
+/// Elimination, no pivot below the floor.
+GNOMON_KERNEL GNOMON_T(hankel6) hankel6_factor(Real mean, GNOMON_T(covariances6) c)
 {
     GNOMON_T(hankel6) h;
-    Real least1 = Real(1) + Real(2) * gnomon_abs(b.b1);
-    Real d1 = gnomon_max(gnomon_max(noise * least1, GNOMON_PIVOT_FLOOR), c.c11.high + c.c11.low);
-    h.mean = b.b1;
-    h.variance = d1;
-    h.inverse1 = Real(1) / d1;
+    h.mean = mean;
+    h.variance = gnomon_max(GNOMON_PIVOT_FLOOR, c.c11.high + c.c11.low);
+    h.inverse1 = Real(1) / h.variance;
     Real l21 = (c.c12.high + c.c12.low) * h.inverse1;
-    Real l31 = (c.c13.high + c.c13.low) * h.inverse1;
-    h.shift2 = l21 - Real(2) * b.b1;
-
     GNOMON_T(double_word) s22 = double_word_minor(c.c11, c.c22, c.c12, c.c12);
     GNOMON_T(double_word) s23 = double_word_minor(c.c11, c.c23, c.c12, c.c13);
     GNOMON_T(double_word) s33 = double_word_minor(c.c11, c.c33, c.c13, c.c13);
-    Real p0 = l21 * b.b1 - b.b2; // P_2 = z^2 - l21 z + p0
-    Real least2 =
-        (Real(1) + Real(2) * gnomon_abs(l21)) + (gnomon_abs(l21 * l21 + Real(2) * p0) + Real(2) * gnomon_abs(l21 * p0));
-    Real s = gnomon_max(gnomon_max(noise * least2, GNOMON_PIVOT_FLOOR) * d1, s22.high + s22.low);
+    Real s = gnomon_max(GNOMON_PIVOT_FLOOR * h.variance, s22.high + s22.low);
     Real inverse_s = Real(1) / s;
-    Real l32 = (s23.high + s23.low) * inverse_s;
+    h.shift2 = l21 - Real(2) * mean;
+    h.shift3 = ((s23.high + s23.low) * inverse_s - l21) - mean;
     h.ratio = s * (h.inverse1 * h.inverse1);
-    h.shift3 = (l32 - l21) - b.b1;
-    h.inverse2 = d1 * inverse_s;
-
-    Real q1 = l32 * l21 - l31; // P_3 = z^3 - l32 z^2 + q1 z + q0
-    Real q0 = (l31 * b.b1 - b.b3) - l32 * p0;
-    Real least3 = ((Real(1) + Real(2) * gnomon_abs(l32)) +
-                   (gnomon_abs(l32 * l32 + Real(2) * q1) + Real(2) * gnomon_abs(q0 - q1 * l32))) +
-                  (gnomon_abs(q1 * q1 - Real(2) * (q0 * l32)) + Real(2) * gnomon_abs(q0 * q1));
-    Real t = double_word_determinant(s22, s23, s33);
-    Real d1s = d1 * s;
-    h.inverse3 = d1s / gnomon_max(gnomon_max(noise * least3, GNOMON_PIVOT_FLOOR) * d1s, t);
+    h.inverse2 = h.variance * inverse_s;
+    Real scale = h.variance * s;
+    h.inverse3 = scale / gnomon_max(GNOMON_PIVOT_FLOOR * scale, double_word_determinant(s22, s23, s33));
     return h;
 }
 
-/// The moments as they are, with each pivot raised to at least what storage noise makes of it (bias.h); noise = 0 for
-/// exact moments.
+/// |coefficients of (z^2 - s z + p)^2|_1 but for the constant one, which is exact.
+GNOMON_KERNEL Real hankel6_norm2(Real s, Real p)
+{
+    return (Real(1) + Real(2) * (gnomon_abs(s) * (Real(1) + gnomon_abs(p)))) + gnomon_abs(s * s + Real(2) * p);
+}
+
+/// |coefficients of (z^3 - s z^2 + p z + q)^2|_1 but for the constant one.
+GNOMON_KERNEL Real hankel6_norm3(Real s, Real p, Real q)
+{
+    Real odd = (gnomon_abs(s) + gnomon_abs(q - p * s)) + gnomon_abs(p * q);
+    Real even = gnomon_abs(s * s + Real(2) * p) + gnomon_abs(p * p - Real(2) * (q * s));
+    return (Real(1) + Real(2) * odd) + even;
+}
+
+/// The moments as they are, with each pivot raised to at least noise |coefficients of P_k^2|_1, what errors up to noise
+/// in each stored moment make of it (bias.h, adaptive). Covariances come without cancellation, and that is enough: what
+/// plain elimination rounds away stays below what noise of 2^-24 does, so double words would cost much and change
+/// little.
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_raised(GNOMON_T(moments6) b, GNOMON_SETTING noise)
 {
-    return hankel6_factor(b, covariances6_of(b), noise);
+    noise = gnomon_max(GNOMON_PIVOT_FLOOR, noise);
+    GNOMON_T(hankel6) h;
+    h.mean = b.b1;
+    h.variance = gnomon_max(noise + (noise + noise) * gnomon_abs(b.b1), subtract_product_rounded(b.b2, b.b1, b.b1));
+    h.inverse1 = Real(1) / h.variance;
+    Real c12 = subtract_product_rounded(b.b3, b.b1, b.b2);
+    Real c13 = subtract_product_rounded(b.b4, b.b1, b.b3);
+    Real l21 = c12 * h.inverse1;
+    Real l31 = c13 * h.inverse1;
+    Real p0 = l21 * b.b1 - b.b2; // P_2 = z^2 - l21 z + p0
+    Real d2 = gnomon_max(noise * hankel6_norm2(l21, p0), subtract_product_rounded(b.b4, b.b2, b.b2) - l21 * c12);
+    h.inverse2 = Real(1) / d2;
+    h.ratio = d2 * h.inverse1;
+    Real c23 = subtract_product_rounded(b.b5, b.b2, b.b3) - l21 * c13;
+    Real l32 = c23 * h.inverse2;
+    h.shift2 = l21 - Real(2) * b.b1;
+    h.shift3 = (l32 - l21) - b.b1;
+    Real q1 = l32 * l21 - l31; // P_3 = z^3 - l32 z^2 + q1 z + q0
+    Real q0 = (l31 * b.b1 - b.b3) - l32 * p0;
+    Real d3 = (subtract_product_rounded(b.b6, b.b3, b.b3) - l31 * c13) - l32 * c23;
+    h.inverse3 = Real(1) / gnomon_max(noise * hankel6_norm3(l32, q1, q0), d3);
+    return h;
 }
 
 /// The moments of the mixture (1 - alpha) Z + alpha Z*, where Z* is symmetric with even moments bias2, bias4, bias6
@@ -98,10 +120,7 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_biased(GNOMON_T(moments6) b, GNOMON_SETT
     c.c22 = biased_covariance(c.c22, b.b2, b.b2, e.b4, e.b2, e.b2);
     c.c23 = biased_covariance(c.c23, b.b2, b.b3, e.b5, e.b2, e.b3);
     c.c33 = biased_covariance(c.c33, b.b3, b.b3, e.b6, e.b3, e.b3);
-    b.b1 = b.b1 + e.b1;
-    b.b2 = b.b2 + e.b2;
-    b.b3 = b.b3 + e.b3;
-    return hankel6_factor(b, c, Real(0));
+    return hankel6_factor(b.b1 + e.b1, c);
 }
 
 /// Plain arithmetic: right for moments from 10 and 16 bit storage, whose own errors are larger, and for double.
