@@ -4,11 +4,13 @@
 //
 //     using real = gnomon::wide<xsimd::batch<float>>;
 //
-// The lanes of low come first. Bits are those of the pack.
+// The lanes of low come first. Bits are those of the pack, which loads and stores as xsimd's do.
 #ifndef GNOMON_SIMD_WIDE_HPP
 #define GNOMON_SIMD_WIDE_HPP
 
 #include "../portable.h"
+
+#include <cstddef>
 
 namespace gnomon {
 
@@ -26,6 +28,27 @@ template <class Pack> struct wide {
     using mask = wide_mask<mask_t<Pack>>;
 
     Pack low, high;
+
+    static constexpr std::size_t size = 2 * Pack::size;
+
+    static GNOMON_INLINE wide load_aligned(const value_type* from)
+    {
+        return {Pack::load_aligned(from), Pack::load_aligned(from + Pack::size)};
+    }
+    static GNOMON_INLINE wide load_unaligned(const value_type* from)
+    {
+        return {Pack::load_unaligned(from), Pack::load_unaligned(from + Pack::size)};
+    }
+    GNOMON_INLINE void store_aligned(value_type* to) const
+    {
+        low.store_aligned(to);
+        high.store_aligned(to + Pack::size);
+    }
+    GNOMON_INLINE void store_unaligned(value_type* to) const
+    {
+        low.store_unaligned(to);
+        high.store_unaligned(to + Pack::size);
+    }
 
     wide() = default;
     GNOMON_INLINE explicit wide(value_type every_lane) : low(every_lane), high(every_lane) {}
