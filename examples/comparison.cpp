@@ -81,7 +81,7 @@ struct outcome {
 
 using pack = xsimd::batch<float>;
 
-// Sixteen or so receivers at a time, as on a GPU. The bits are those of one at a time; what is left over is not timed.
+// A pack of receivers at a time, as on a GPU. The bits are those of one at a time; what is left over is not timed.
 template <method M>
 double pack_ns_per_receiver(const std::vector<typename M::fetched>& fetched, const std::vector<float>& depths)
 {
