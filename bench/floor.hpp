@@ -19,19 +19,21 @@ namespace gnomon::bench {
 /// Makes the compiler forget where x comes from, without an instruction: what follows is neither merged nor vectorised.
 template <class Real> GNOMON_INLINE void forget(Real& x)
 {
-    if constexpr (requires { x.data; }) asm volatile("" : "+" GNOMON_BENCH_REGISTER(x.data));
+    if constexpr (requires { x.low; }) forget(x.low), forget(x.high);
+    else if constexpr (requires { x.data; }) asm volatile("" : "+" GNOMON_BENCH_REGISTER(x.data));
     else asm volatile("" : "+" GNOMON_BENCH_REGISTER(x));
 }
 
 /// Computes operation(a, b) so many times: a is forgotten each time, else one would do.
 template <int count, class Real, class Operation> GNOMON_INLINE void repeat(Real a, Real b, Operation operation)
 {
-    if constexpr (count > 0) {
+    const auto once = [&](int) GNOMON_BENCH_INLINE {
         forget(a);
         Real result = operation(a, b);
         forget(result);
-        repeat<count - 1>(a, b, operation);
-    }
+    };
+    [&]<int... k>(std::integer_sequence<int, k...>) GNOMON_BENCH_INLINE { (once(k), ...); }
+    (std::make_integer_sequence<int, count>());
 }
 
 template <class Kernel, class Real> [[gnu::noinline]] void run_floor(std::size_t times)

@@ -7,6 +7,7 @@
 #include "floor.hpp"
 
 #include <benchmark/benchmark.h>
+#include <gnomon/simd/wide.hpp>
 #include <gnomon/simd/xsimd.hpp>
 
 #include <dlfcn.h>
@@ -18,6 +19,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gnomon::bench {
@@ -57,6 +59,25 @@ template <class Kernel, class Lane> fragments<Lane, Kernel::inputs> make_fragmen
     return f;
 }
 
+template <class Kernel> inline constexpr bool is_contracted = std::string_view(Kernel::arithmetic) == "contracted";
+
+template <class Real> inline constexpr std::size_t lanes_of = sizeof(Real) / sizeof(lane_t<Real>);
+
+template <class Real> GNOMON_INLINE Real load(const lane_t<Real>* from)
+{
+    if constexpr (std::is_floating_point_v<Real>) return *from;
+    else if constexpr (requires(Real x) { x.low; })
+        return {decltype(Real::low)::load_aligned(from), decltype(Real::low)::load_aligned(from + lanes_of<Real> / 2)};
+    else return Real::load_aligned(from);
+}
+
+template <class Real> GNOMON_INLINE void store(Real x, lane_t<Real>* to)
+{
+    if constexpr (std::is_floating_point_v<Real>) *to = x;
+    else if constexpr (requires { x.low; }) x.low.store_aligned(to), x.high.store_aligned(to + lanes_of<Real> / 2);
+    else x.store_aligned(to);
+}
+
 /// One fragment after the other, or one pack after the other.
 template <class Kernel, class Real>
 [[gnu::noinline]] void run_packs(fragments<lane_t<Real>, Kernel::inputs>& f, std::size_t begin, std::size_t end)
@@ -65,15 +86,10 @@ template <class Kernel, class Real>
     {
         const std::array in{f.in[k].data()...};
         lane_t<Real>* const out = f.out.data();
-        if constexpr (std::is_floating_point_v<Real>) {
-            for (std::size_t i = begin; i < end; ++i) {
-                Real result = Kernel::run(in[k][i]...);
-                forget(result);
-                out[i] = result;
-            }
-        } else {
-            for (std::size_t i = begin; i < end; i += Real::size)
-                Kernel::run(Real::load_aligned(in[k] + i)...).store_aligned(out + i);
+        for (std::size_t i = begin; i < end; i += lanes_of<Real>) {
+            Real result = Kernel::run(load<Real>(in[k] + i)...);
+            forget(result);
+            store(result, out + i);
         }
     }
     (std::make_index_sequence<Kernel::inputs>());
@@ -196,10 +212,9 @@ template <class Kernel, class Baseline, class Real> struct row {
         auto f = make_fragments<Kernel, lane>(count);
         auto g = make_fragments<Baseline, lane>(count);
         constexpr operations n = operations_of<Kernel>;
-        constexpr std::size_t lanes = sizeof(Real) / sizeof(lane);
         const auto times =
             time_in_turn({work_of(run, f),
-                          {[] { run_floor<Kernel, Real>(resident_fragments / lanes); }, resident_fragments},
+                          {[] { run_floor<Kernel, Real>(resident_fragments / lanes_of<Real>); }, resident_fragments},
                           work_of<lane, Baseline::inputs>(run_packs<Baseline, lane>, g)});
         for (auto _ : state) state.SetIterationTime(quantile(times[0], 0.5) * 1e-9);
         state.counters["least_ns"] = quantile(times[0], 0);
@@ -217,13 +232,14 @@ template <class Kernel, class Baseline, class Real> struct row {
     }
 };
 
-/// Registers family/kernel/way/memory/arithmetic.
+/// Registers family/kernel/way/memory/arithmetic. With contraction allowed there are scalar code and packs, in L1.
 template <class Kernel, class Baseline, class Real>
 void add_row(const std::string& family, const std::string& way, pass<lane_t<Real>, Kernel::inputs> run)
 {
     for (const bool streamed : {false, true}) {
         // More operands than this would take gigabytes.
-        if (streamed && (!std::is_same_v<lane_t<Real>, float> || Kernel::inputs > 10)) continue;
+        if (streamed && (!std::is_same_v<lane_t<Real>, float> || Kernel::inputs > 10 || is_contracted<Kernel>))
+            continue;
         const std::string name =
             family + '/' + Kernel::name + '/' + way + (streamed ? "/memory/" : "/L1/") + Kernel::arithmetic;
         benchmark::RegisterBenchmark(name.c_str(), row<Kernel, Baseline, Real>{run, streamed})
@@ -233,23 +249,30 @@ void add_row(const std::string& family, const std::string& way, pass<lane_t<Real
     }
 }
 
+/// Rows for a pack and for two of them as one (simd/wide.hpp).
+template <class Kernel, class Baseline, class Pack> void add_pack_rows(const std::string& family)
+{
+    const std::string lanes = std::to_string(Pack::size) + " lanes";
+    add_row<Kernel, Baseline, Pack>(family, lanes, run_packs<Kernel, Pack>);
+    if constexpr (!is_contracted<Kernel>)
+        add_row<Kernel, Baseline, wide<Pack>>(family, "2 x " + lanes, run_packs<Kernel, wide<Pack>>);
+}
+
 /// Registers a kernel in every way this machine has. Baseline is timed in scalar code of the same lane.
 template <class Kernel, class Baseline> void add_rows(const std::string& family)
 {
     add_row<Kernel, Baseline, float>(family, "scalar float", run_packs<Kernel, float>);
-    add_row<Kernel, Baseline, double>(family, "scalar double", run_packs<Kernel, double>);
-    add_row<Kernel, Baseline, float>(family, "plain loop", run_plain_loop<Kernel, float>);
+    if constexpr (!is_contracted<Kernel>) {
+        add_row<Kernel, Baseline, double>(family, "scalar double", run_packs<Kernel, double>);
+        add_row<Kernel, Baseline, float>(family, "plain loop", run_plain_loop<Kernel, float>);
+    }
 #if defined(__AVX2__)
-    using avx2 = xsimd::batch<float, xsimd::avx2>;
-    add_row<Kernel, Baseline, avx2>(family, "8 lanes", run_packs<Kernel, avx2>);
+    add_pack_rows<Kernel, Baseline, xsimd::batch<float, xsimd::avx2>>(family);
+#else
+    add_pack_rows<Kernel, Baseline, xsimd::batch<float>>(family);
 #endif
 #if defined(__AVX512BW__)
-    using avx512 = xsimd::batch<float, xsimd::avx512bw>;
-    add_row<Kernel, Baseline, avx512>(family, "16 lanes", run_packs<Kernel, avx512>);
-#endif
-#if !defined(__AVX2__)
-    using pack = xsimd::batch<float>;
-    add_row<Kernel, Baseline, pack>(family, std::to_string(pack::size) + " lanes", run_packs<Kernel, pack>);
+    add_pack_rows<Kernel, Baseline, xsimd::batch<float, xsimd::avx512bw>>(family);
 #endif
 }
 

@@ -39,8 +39,10 @@ def table(rows):
     counters = list(dict.fromkeys(key for row in rows for key in row if key not in STANDARD))
     cells = [["", "time", *counters]]
     for row in rows:
-        time = f"{row['cpu_time']:.4g} {row['time_unit']}" if "cpu_time" in row else row.get("error_message", "")
-        cells.append([row["name"], time, *(f"{row[counter]:.3g}" if counter in row else "" for counter in counters)])
+        name, manual, _ = row["name"].partition("/iterations:1/manual_time")
+        kind = "real_time" if manual else "cpu_time"
+        time = f"{row[kind]:.4g} {row['time_unit']}" if kind in row else row.get("error_message", "")
+        cells.append([name, time, *(f"{row[counter]:.3g}" if counter in row else "" for counter in counters)])
     widths = [max(map(len, column)) for column in zip(*cells)]
     return "\n".join("  ".join([line[0].ljust(widths[0])] + [cell.rjust(width) for cell, width in zip(line[1:], widths[1:])])
                      .rstrip() for line in cells)
