@@ -123,7 +123,7 @@ TEST_CASE("hamburger4, double, against 120 digits")
 TEST_CASE("hamburger4, float, against 120 digits")
 {
     const auto factor = [](auto b) { return hankel4_biased(b, 0.375f, 0.375f, 3e-7f); };
-    check<float, 4>("float, hankel4_biased at 3e-7", 1, as_they_are, factor, solved<4>({0.375, 0.375}, 3e-7f));
+    check<float, 4>("float, hankel4_biased at 3e-7", 1, as_they_are, factor, solved<4>({0.375, 0.375}, double(3e-7f)));
 }
 
 TEST_CASE("hamburger4, float, against double")
@@ -144,7 +144,8 @@ TEST_CASE("hamburger6, float, against 120 digits")
 {
     const float b2 = float(bias6_raw_b2), b4 = float(bias6_raw_b4), b6 = float(bias6_raw_b6);
     const auto factor = [=](auto b) { return hankel6_biased(b, b2, b4, b6, 5e-6f); };
-    check<float, 6>("float, hankel6_biased at 5e-6", 1, as_they_are, factor, solved<6>({b2, b4, b6}, 5e-6f));
+    check<float, 6>("float, hankel6_biased at 5e-6", 1, as_they_are, factor,
+                    solved<6>({double(b2), double(b4), double(b6)}, double(5e-6f)));
 }
 
 TEST_CASE("hamburger6, float, against double")

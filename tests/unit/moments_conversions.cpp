@@ -18,6 +18,8 @@ using namespace gnomon::test;
 
 namespace {
 
+using exact = long double;
+
 template <class T> constexpr double u = double(std::numeric_limits<T>::epsilon()) / 2;
 
 template <class T> std::array<T, 4> numbers(const moments4<T>& b) { return {b.b1, b.b2, b.b3, b.b4}; }
@@ -26,11 +28,11 @@ template <class T> moments4<T> moments(const std::array<T, 4>& b) { return {b[0]
 template <class T> moments6<T> moments(const std::array<T, 6>& b) { return {b[0], b[1], b[2], b[3], b[4], b[5]}; }
 
 /// z^1, ..., z^n in long double: exact enough for float and double.
-template <std::size_t n> std::array<long double, n> powers(long double z)
+template <std::size_t n> std::array<exact, n> powers(exact z)
 {
-    std::array<long double, n> b{};
-    long double p = 1;
-    for (long double& x : b) x = p *= z;
+    std::array<exact, n> b{};
+    exact p = 1;
+    for (exact& x : b) x = p *= z;
     return b;
 }
 
@@ -61,8 +63,8 @@ template <class T, std::size_t n, class Forward, class Back> void check_transfor
     const double roundings = 2 * double(n + 2) * u<T>;
     for (int k = -20000; k <= 20000; ++k) {
         std::array<T, n> b;
-        const auto exact = powers<n>(k / 20000.0L);
-        std::transform(exact.begin(), exact.end(), b.begin(), [](long double x) { return T(x); });
+        const auto want = powers<n>(k / 20000.0L);
+        std::transform(want.begin(), want.end(), b.begin(), [](exact x) { return T(x); });
         const auto c = numbers(forward(moments(b)));
         const auto returned = numbers(back(moments(c)));
         for (std::size_t i = 0; i < n; ++i) {
@@ -93,15 +95,14 @@ TEST_CASE_TEMPLATE("signed depth from other conventions", T, float, double)
     bit_source bits(1);
     for (std::int64_t i = 0; i < effort(100'000); ++i) {
         const T z = T(bits.uniform(0, 1));
-        REQUIRE(depth_from_unit(z) == T(2 * (long double)(z)-1));
-        REQUIRE(depth_from_reversed(z) == T(1 - 2 * (long double)(z)));
+        REQUIRE(depth_from_unit(z) == T(2 * exact(z) - 1));
+        REQUIRE(depth_from_reversed(z) == T(1 - 2 * exact(z)));
         // Two differences that add up to the range, their difference, the range and the quotient: 4 roundings of at
         // most 1.
         const T near_distance = T(bits.uniform(0.01, 1)), far_distance = T(bits.uniform(2, 5000));
         const T view = near_distance + T(bits.uniform(0, 1)) * (far_distance - near_distance);
-        const long double exact =
-            2 * ((long double)(view)-near_distance) / ((long double)(far_distance)-near_distance) - 1;
-        REQUIRE(std::abs(double(depth_from_distance(view, near_distance, far_distance) - exact)) <= 5 * u<T>);
+        const exact want = 2 * (exact(view) - exact(near_distance)) / (exact(far_distance) - exact(near_distance)) - 1;
+        REQUIRE(std::abs(double(exact(depth_from_distance(view, near_distance, far_distance)) - want)) <= 5 * u<T>);
     }
 }
 
@@ -112,11 +113,12 @@ TEST_CASE_TEMPLATE("moments of a depth, and of mixtures", T, float, double)
     bit_source bits(2);
     for (std::int64_t i = 0; i < effort(100'000); ++i) {
         const T z = T(bits.uniform(-1, 1));
-        const auto exact = powers<6>(z);
+        const auto want = powers<6>(exact(z));
         const auto four = numbers(moments4_of_depth(z));
         const auto six = numbers(moments6_of_depth(z));
         for (std::size_t j = 0; j < 6; ++j)
-            REQUIRE(std::abs(double(six[j] - exact[j])) <= roundings[j] * 1.001 * u<T> * std::abs(double(exact[j])));
+            REQUIRE(std::abs(double(exact(six[j]) - want[j])) <=
+                    roundings[j] * 1.001 * u<T> * std::abs(double(want[j])));
         REQUIRE(std::equal(four.begin(), four.end(), six.begin()));
 
         const T w = T(bits.uniform(0, 1)), other = T(bits.uniform(-1, 1));
@@ -124,9 +126,10 @@ TEST_CASE_TEMPLATE("moments of a depth, and of mixtures", T, float, double)
             numbers(moments4_add(moments4_scale(moments4_of_depth(z), w), moments4_of_depth(other), 1 - w));
         const auto mixed6 =
             numbers(moments6_add(moments6_scale(moments6_of_depth(z), w), moments6_of_depth(other), 1 - w));
-        const auto exact_other = powers<6>(other);
+        const auto want_other = powers<6>(exact(other));
         for (std::size_t j = 0; j < 6; ++j)
-            REQUIRE(std::abs(double(mixed6[j] - (w * exact[j] + (1 - (long double)(w)) * exact_other[j]))) <= 9 * u<T>);
+            REQUIRE(std::abs(double(exact(mixed6[j]) - (exact(w) * want[j] + (1 - exact(w)) * want_other[j]))) <=
+                    9 * u<T>);
         REQUIRE(std::equal(mixed4.begin(), mixed4.end(), mixed6.begin()));
     }
 }
@@ -137,13 +140,13 @@ TEST_CASE_TEMPLATE("moments of signed depth from moments of unit depth", T, floa
     bit_source bits(3);
     for (std::int64_t i = 0; i < effort(100'000); ++i) {
         const double z = bits.uniform(0, 1), y = bits.uniform(0, 1), w = bits.uniform(0, 1);
-        const auto first = powers<4>(z), second = powers<4>(y), signed_first = powers<4>(2 * (long double)(z)-1),
-                   signed_second = powers<4>(2 * (long double)(y)-1);
+        const auto first = powers<4>(exact(z)), second = powers<4>(exact(y)),
+                   signed_first = powers<4>(2 * exact(z) - 1), signed_second = powers<4>(2 * exact(y) - 1);
         std::array<T, 4> c;
-        for (std::size_t j = 0; j < 4; ++j) c[j] = T(w * first[j] + (1 - (long double)(w)) * second[j]);
+        for (std::size_t j = 0; j < 4; ++j) c[j] = T(exact(w) * first[j] + (1 - exact(w)) * second[j]);
         const auto b = numbers(moments4_from_unit(moments(c)));
         for (std::size_t j = 0; j < 4; ++j)
-            REQUIRE(std::abs(double(b[j] - (w * signed_first[j] + (1 - (long double)(w)) * signed_second[j]))) <=
+            REQUIRE(std::abs(double(exact(b[j]) - (exact(w) * signed_first[j] + (1 - exact(w)) * signed_second[j]))) <=
                     5 * 81 * u<T>);
     }
 }

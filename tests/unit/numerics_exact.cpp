@@ -113,7 +113,7 @@ TEST_CASE_TEMPLATE("two_sum is exact in any order, two_sum_ordered in the right 
 }
 
 // c close to a b is where a difference needs its error-free parts.
-TEST_CASE_TEMPLATE("subtract_product and difference_of_products under cancellation", T, float, double)
+TEST_CASE_TEMPLATE("differences with products under cancellation", T, float, double)
 {
     magnitudes<T> draw(6, -20, 20);
     for (std::int64_t i = 0; i < effort(10'000); ++i) {
@@ -123,6 +123,8 @@ TEST_CASE_TEMPLATE("subtract_product and difference_of_products under cancellati
         const exact difference = exact(c) - exact(a) * exact(b);
         const exact scale = abs(exact(c)) + abs(exact(a) * exact(b));
         REQUIRE(abs(sum(subtract_product(c, a, b)) - difference) <= 2 * unit<T> * unit<T> * scale);
+        const exact once = exact(subtract_product_rounded(c, a, b));
+        REQUIRE(abs(once - difference) <= (2 * unit<T> + 8 * unit<T> * unit<T>)*abs(difference));
 
         const T d = draw();
         const T quotient = draw.bits().chance(0.7) ? a * b / d : draw();

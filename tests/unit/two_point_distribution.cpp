@@ -16,14 +16,16 @@ using namespace gnomon::test;
 
 namespace {
 
-std::array<long double, 4> moments_of(const distribution& d)
+using exact = long double;
+
+std::array<exact, 4> moments_of(const distribution& d)
 {
-    std::array<long double, 4> b{};
-    long double total = 0;
-    for (const double w : d.weights) total += w;
+    std::array<exact, 4> b{};
+    exact total = 0;
+    for (const double w : d.weights) total += exact(w);
     for (std::size_t i = 0; i < d.depths.size(); ++i) {
-        long double p = d.weights[i] / total;
-        for (long double& x : b) x += p, p *= d.depths[i];
+        exact p = exact(d.weights[i]) / total;
+        for (exact& x : b) x += p, p *= exact(d.depths[i]);
     }
     return b;
 }
