@@ -38,11 +38,10 @@ GNOMON_KERNEL Real cubic_largest_root(Real a, Real b, Real c, Real d)
                            q * (GNOMON_LITERAL(cubic_cosine3) + q * GNOMON_LITERAL(cubic_cosine4))));
     Real t = mean + Real(2) * spread * start;
     t = cubic_halley(a, b, c, d, t);
-    t = cubic_halley(a, b, c, d, t);
     if (GNOMON_DIGITS > 24) {
         // Pivots of exact moments in double may vanish; then another root is up to 10^9 times this one, and the start
         // is off by as much. From there a step takes at least two thirds of the distance, until it takes all.
-        for (int i = 0; i < 10; ++i) t = cubic_halley(a, b, c, d, t);
+        for (int i = 0; i < 11; ++i) t = cubic_halley(a, b, c, d, t);
     }
     return t;
 }
