@@ -63,10 +63,12 @@ template <class Kernel> inline constexpr bool is_contracted = std::string_view(K
 
 template <class Real> inline constexpr std::size_t lanes_of = sizeof(Real) / sizeof(lane_t<Real>);
 
+template <class Real> inline constexpr bool is_wide = requires(Real x) { x.low; };
+
 template <class Real> GNOMON_INLINE Real load(const lane_t<Real>* from)
 {
     if constexpr (std::is_floating_point_v<Real>) return *from;
-    else if constexpr (requires(Real x) { x.low; })
+    else if constexpr (is_wide<Real>)
         return {decltype(Real::low)::load_aligned(from), decltype(Real::low)::load_aligned(from + lanes_of<Real> / 2)};
     else return Real::load_aligned(from);
 }
@@ -74,7 +76,7 @@ template <class Real> GNOMON_INLINE Real load(const lane_t<Real>* from)
 template <class Real> GNOMON_INLINE void store(Real x, lane_t<Real>* to)
 {
     if constexpr (std::is_floating_point_v<Real>) *to = x;
-    else if constexpr (requires { x.low; }) x.low.store_aligned(to), x.high.store_aligned(to + lanes_of<Real> / 2);
+    else if constexpr (is_wide<Real>) x.low.store_aligned(to), x.high.store_aligned(to + lanes_of<Real> / 2);
     else x.store_aligned(to);
 }
 
@@ -183,6 +185,11 @@ template <class Lane, std::size_t inputs> work work_of(pass<Lane, inputs> run, f
             static_cast<double>(step)};
 }
 
+template <class Kernel, class Real> work floor_work()
+{
+    return {[] { run_floor<Kernel, Real>(resident_fragments / lanes_of<Real>); }, resident_fragments};
+}
+
 /// How far float is from double on the same float operands, over samples that the timing has not seen.
 template <class Kernel> void report_errors(benchmark::State& state)
 {
@@ -212,10 +219,8 @@ template <class Kernel, class Baseline, class Real> struct row {
         auto f = make_fragments<Kernel, lane>(count);
         auto g = make_fragments<Baseline, lane>(count);
         constexpr operations n = operations_of<Kernel>;
-        const auto times =
-            time_in_turn({work_of(run, f),
-                          {[] { run_floor<Kernel, Real>(resident_fragments / lanes_of<Real>); }, resident_fragments},
-                          work_of<lane, Baseline::inputs>(run_packs<Baseline, lane>, g)});
+        const auto times = time_in_turn({work_of(run, f), floor_work<Kernel, Real>(),
+                                         work_of<lane, Baseline::inputs>(run_packs<Baseline, lane>, g)});
         for (auto _ : state) state.SetIterationTime(quantile(times[0], 0.5) * 1e-9);
         state.counters["least_ns"] = quantile(times[0], 0);
         state.counters["floor_ns"] = quantile(times[1], 0.5);
@@ -232,21 +237,31 @@ template <class Kernel, class Baseline, class Real> struct row {
     }
 };
 
-/// Registers family/kernel/way/memory/arithmetic. With contraction allowed there are scalar code and packs, in L1.
+/// The floor on its own.
+template <class Kernel, class Real> void time_floor(benchmark::State& state)
+{
+    const auto times = time_in_turn({floor_work<Kernel, Real>()});
+    for (auto _ : state) state.SetIterationTime(quantile(times[0], 0.5) * 1e-9);
+}
+
+/// Registers family/kernel/way/memory/arithmetic and, beside the rows in L1, family/kernel/way/floor/arithmetic. With
+/// contraction allowed there are scalar code and packs, in L1.
 template <class Kernel, class Baseline, class Real>
 void add_row(const std::string& family, const std::string& way, pass<lane_t<Real>, Kernel::inputs> run)
 {
-    for (const bool streamed : {false, true}) {
-        // More operands than this would take gigabytes.
-        if (streamed && (!std::is_same_v<lane_t<Real>, float> || Kernel::inputs > 10 || is_contracted<Kernel>))
-            continue;
-        const std::string name =
-            family + '/' + Kernel::name + '/' + way + (streamed ? "/memory/" : "/L1/") + Kernel::arithmetic;
-        benchmark::RegisterBenchmark(name.c_str(), row<Kernel, Baseline, Real>{run, streamed})
+    const auto add = [&](const std::string& where, auto function) {
+        const std::string name = family + '/' + Kernel::name + '/' + way + '/' + where + '/' + Kernel::arithmetic;
+        benchmark::RegisterBenchmark(name.c_str(), function)
             ->Iterations(1)
             ->UseManualTime()
             ->Unit(benchmark::kNanosecond);
-    }
+    };
+    add("L1", row<Kernel, Baseline, Real>{run, false});
+    if (is_contracted<Kernel>) return;
+    add("floor", time_floor<Kernel, Real>);
+    // More operands than this would take gigabytes; two packs wait for memory as one does.
+    if (std::is_same_v<lane_t<Real>, float> && Kernel::inputs <= 10 && !is_wide<Real>)
+        add("memory", row<Kernel, Baseline, Real>{run, true});
 }
 
 /// Rows for a pack and for two of them as one (simd/wide.hpp).
