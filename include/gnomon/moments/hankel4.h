@@ -110,8 +110,8 @@ GNOMON_CONSTANT(hankel4_root3, 1.7320508075688772);
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_raised_theta(GNOMON_T(moments4) b, GNOMON_SETTING noise)
 {
     noise = gnomon_max(GNOMON_PIVOT_FLOOR, noise);
-    // A quarter of |theta4^-T (-2 b1, 1, 0, 0)|_1 = 2 (1/3 + sqrt 3) |b1| + 9/8: what the variance is raised by shows as
-    // intensity on a lit surface, in proportion to V / D_2, and a quarter is enough.
+    // A quarter of |theta4^-T (-2 b1, 1, 0, 0)|_1 = 2 (1/3 + sqrt 3) |b1| + 9/8: what the variance is raised by shows
+    // as intensity on a lit surface, in proportion to V / D_2, and a quarter is enough.
     Real slope = Real(0.5) * (GNOMON_LITERAL(hankel4_third) + GNOMON_LITERAL(hankel4_root3));
     Real v = gnomon_max(noise * (Real(0.28125) + slope * gnomon_abs(b.b1)), b.b2 - b.b1 * b.b1);
     Real l = b.b3 - b.b1 * b.b2;

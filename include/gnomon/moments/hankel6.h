@@ -6,8 +6,8 @@
 // diagonal, and with u = z - b1, the monic orthogonal polynomials of the distribution, for which D_k = E[P_k^2], are
 //     P_1 = u,    P_2 = (u - (l21 - 2 b1)) P_1 - D_1,    P_3 = (u - (l32 - l21 - b1)) P_2 - (D_2 / D_1) P_1
 // (Peters et al. 2017, 5.4, Algorithm 1, step 2; the three-term recurrence: Gautschi 2004, 1.3). Every difference of
-// moments cancels, so all are kept as double words until a pivot is had, and a bias (bias.h) is added to the
-// covariances: in the moments it would be rounded away.
+// moments cancels, so all are taken from exact products; a bias (bias.h) is added to the covariances, as double words
+// that are kept until a pivot is had: in the moments it would be rounded away.
 #ifndef GNOMON_MOMENTS_HANKEL6_H
 #define GNOMON_MOMENTS_HANKEL6_H
 #include "../numerics/two_product.h"
