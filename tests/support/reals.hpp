@@ -76,10 +76,12 @@ template <class T, class F> void for_each_real(F f)
     };
     f.template operator()<T>();
     f.template operator()<plain<T>>();
-    pack.template operator()<2>();
     pack.template operator()<4>();
+#if !defined(__SANITIZE_ADDRESS__) // which would take minutes to compile and finds in one pack what it finds in all
+    pack.template operator()<2>();
     pack.template operator()<8>();
     pack.template operator()<16>();
+#endif
 }
 
 } // namespace gnomon::test
