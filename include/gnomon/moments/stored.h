@@ -11,8 +11,8 @@
 //   6 x float       none        adaptive, noise 2^-23                       24
 //
 // Noise levels are the largest that leave the result no more sensitive to storage than the constant bias does; for
-// transformed six moments an adaptive bias gains nothing. Weights, used where the bias is constant, are 1.2 to 1.7
-// times delta / r (bias.h) of one rounding: filter passes round again, but average too.
+// transformed six moments an adaptive bias gains nothing. Weights, used where the bias is constant, cover
+// one rounding, delta / r (bias.h), and a part of the further ones of filter passes, which round again but average too.
 #ifndef GNOMON_MOMENTS_STORED_H
 #define GNOMON_MOMENTS_STORED_H
 #include "bias.h"
