@@ -1,4 +1,4 @@
-// The README's first use: how much shadow falls on a receiver between two equally frequent occluder depths.
+// The smallest use: how much shadow falls on a receiver between two equally frequent occluder depths.
 #include <cstdio>
 
 #include <gnomon/gnomon.h>
