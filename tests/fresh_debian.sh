@@ -14,17 +14,18 @@ command -v debootstrap > /dev/null || fail "debootstrap is not installed"
 
 root=$(realpath -m "$1")
 shift
+[[ $root != / ]] || fail "a folder of its own expected, not /"
 (($# > 0)) || set -- demo
 repository=$(git -C "$(dirname "$(readlink -f "$0")")" rev-parse --show-toplevel)
 
 if [[ ! -e $root/usr/bin/git ]]; then
     debootstrap --variant=minbase --include=git,ca-certificates bookworm "$root" "${DEBIAN_MIRROR:-http://deb.debian.org/debian}"
 fi
-rm -rf "$root/root/gnomon"
-git clone --quiet --no-local "$repository" "$root/root/gnomon"
+rm -rf "$root/opt/gnomon"
+git clone --quiet --no-local "$repository" "$root/opt/gnomon"
 
 # In a mount namespace of its own, so that /proc goes when the command ends.
 exec unshare --mount --fork bash -c '
     mount -t proc proc "$0/proc"
-    exec chroot "$0" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 /root/gnomon/run "$@"
+    exec chroot "$0" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 /opt/gnomon/run "$@"
 ' "$root" "$@" < /dev/null

@@ -16,7 +16,8 @@
 //   gnomon_power_of_two              2^n for a whole number n within the normal range; any value where n is NaN
 //   GNOMON_DIGITS                    p, the bits of the significand: 24 or 53; only numerics/ asks
 //   GNOMON_SPLITTER                  2^ceil(p / 2) + 1 for a significand of p bits (Dekker 1971)
-//   GNOMON_PIVOT_FLOOR               the least pivot, far above the square of what rounding makes of P_k at a node, with a
+//   GNOMON_PIVOT_FLOOR               the least pivot, far above the square of what rounding makes of P_k at a node,
+//   with a
 //                                  7th power that is normal once scaled by 2^112: 2^-30, in double 2^-66
 #ifndef GNOMON_PORTABLE_H
 #define GNOMON_PORTABLE_H
