@@ -17,8 +17,7 @@
 //   GNOMON_DIGITS                    p, the bits of the significand: 24 or 53; only numerics/ asks
 //   GNOMON_SPLITTER                  2^ceil(p / 2) + 1 for a significand of p bits (Dekker 1971)
 //   GNOMON_PIVOT_FLOOR               the least pivot, far above the square of what rounding makes of P_k at a node,
-//   with a
-//                                  7th power that is normal once scaled by 2^112: 2^-30, in double 2^-66
+//                                    its 7th power normal once scaled by 2^112: 2^-30, in double 2^-66
 #ifndef GNOMON_PORTABLE_H
 #define GNOMON_PORTABLE_H
 
