@@ -8,7 +8,7 @@
 //   4 x float       none        adaptive, noise 2^-26                       16
 //   6 x 10 UNORM    theta6      interpolated, 4e-3                           8, as two 10-10-10-2 words
 //   6 x 16 UNORM    theta6      interpolated, 8e-5                          12
-//   6 x float       none        adaptive, noise 2^-23                       24
+//   6 x float       none        adaptive, noise 5 2^-25                     24
 //
 // Noise levels are the largest that leave the result no more sensitive to storage than the constant bias does; for
 // transformed six moments an adaptive bias gains nothing. Weights, used where the bias is constant, cover
@@ -31,7 +31,7 @@ GNOMON_CONSTANT(stored4_float_noise, 1.4901161193847656e-8); // 2^-26
 GNOMON_CONSTANT(stored6_unorm10_weight, 4e-3);
 GNOMON_CONSTANT(stored6_unorm16_weight, 8e-5);
 GNOMON_CONSTANT(stored6_float_weight, 5e-6);
-GNOMON_CONSTANT(stored6_float_noise, 1.1920928955078125e-7); // 2^-23
+GNOMON_CONSTANT(stored6_float_noise, 1.490116119384765625e-7); // 5 2^-25
 
 /// From the four channels of a 4 x 16 UNORM texel, each in [0, 1].
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_unorm16(GNOMON_T(moments4) channels)
