@@ -3,7 +3,7 @@
 // filtering; then hamburger4_lower.
 //
 //   format          transform   bias                                        bytes
-//   4 x 16 UNORM    theta4      adaptive, noise 2^-18, on top of 5e-6        8
+//   4 x 16 UNORM    theta4      adaptive, noise 2^-18 (half of half a code)  8
 //   4 x half        none        adaptive, noise 1.8e-4 (3/4 of 2^-12)        8
 //   4 x float       none        adaptive, noise 2^-26                       16
 //   6 x 10 UNORM    theta6      interpolated, 4e-3                           8, as two 10-10-10-2 words
@@ -23,7 +23,6 @@ GNOMON_NAMESPACE_BEGIN
 
 GNOMON_CONSTANT(stored4_unorm16_weight, 6e-5);
 GNOMON_CONSTANT(stored4_unorm16_noise, 3.814697265625e-6); // 2^-18, half of half a code
-GNOMON_CONSTANT(stored4_unorm16_first_weight, 5e-6);
 GNOMON_CONSTANT(stored4_half_weight, 3.6e-3);
 GNOMON_CONSTANT(stored4_half_noise, 1.8310546875e-4); // 3/4 of 2^-12
 GNOMON_CONSTANT(stored4_float_weight, 3e-7);
@@ -36,12 +35,7 @@ GNOMON_CONSTANT(stored6_float_noise, 1.490116119384765625e-7); // 5 2^-25
 /// From the four channels of a 4 x 16 UNORM texel, each in [0, 1].
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_unorm16(GNOMON_T(moments4) channels)
 {
-    // Rounding makes valid moments out of a lone depth's near z^2 = 1/2, with a shadow of 1.2e-3, which a twelfth of
-    // the constant bias takes below 1e-3.
-    GNOMON_T(moments4)
-    b = moments4_biased(theta4_inverse(channels), GNOMON_LITERAL(bias4_theta_b2), GNOMON_LITERAL(bias4_theta_b4),
-                        GNOMON_LITERAL(stored4_unorm16_first_weight));
-    return hankel4_raised_theta(b, GNOMON_LITERAL(stored4_unorm16_noise));
+    return hankel4_raised_theta(theta4_inverse(channels), GNOMON_LITERAL(stored4_unorm16_noise));
 }
 
 /// From moments stored as half floats.
