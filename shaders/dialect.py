@@ -1,0 +1,158 @@
+"""Kernel headers and preludes as the packager reads them: macros, includes, blocks of text, and what becomes of them."""
+import re
+from collections import Counter
+from dataclasses import dataclass, field
+
+from layout import laid_out
+
+FILE = re.compile(r"(?P<comment>(?://[^\n]*\n)+)#ifndef (?P<guard>\w+)\n#define (?P=guard)\n(?P<rest>.*)#endif\n", re.DOTALL)
+BODY = re.compile(r"(?P<includes>(?:#include [^\n]*\n|\n)*)GNOMON_NAMESPACE_BEGIN\n\n(?P<body>.*)\nGNOMON_NAMESPACE_END\n",
+                  re.DOTALL)
+MACRO = re.compile(r"#define (GNOMON_\w+|Real)(?:\(([^)]*)\))?(?: (.*))?")
+NUMBER = r"-?\d+(?:\.\d*)?(?:e[+-]?\d+)?"
+CONSTANT = re.compile(r"^GNOMON_CONSTANT\((\w+),.*\n", re.MULTILINE)
+DEFINED = re.compile(r"^GNOMON_(?:KERNEL\s+(?:GNOMON_T\(\w+\)|\w+)\s+|STRUCT |CONSTANT\()(\w+)", re.MULTILINE)
+DECIDED = re.compile(r"^( *)if \((?:(true|false)|(\d+) > (\d+))\) \{\n(.*?)^\1\}(?: else \{\n(.*?)^\1\})?\n",
+                     re.DOTALL | re.MULTILINE)
+
+
+class DialectError(Exception):
+    pass
+
+
+def match(pattern, path, text):
+    found = pattern.fullmatch(text)
+    if not found:
+        raise DialectError(f"{path}: not of the form comment, include guard, includes, namespace, body")
+    return found
+
+
+def blocks(text):
+    """The text cut at the blank lines between definitions."""
+    depth, block = 0, ""
+    for line in text.splitlines(keepends=True):
+        code = line.partition("//")[0]
+        depth += code.count("{") - code.count("}")
+        if line.strip() or depth:
+            block += line
+        elif block:
+            yield block
+            block = ""
+    if block:
+        yield block
+
+
+@dataclass
+class Header:
+    """A header of the kernel dialect, by its path below include/gnomon; gnomon.h has includes alone."""
+    name: str
+    comment: str
+    guard: str
+    includes: list[str]
+    blocks: list[str]
+
+    @staticmethod
+    def read(root, name):
+        path = root / name
+        file = match(FILE, path, path.read_text())
+        found = BODY.fullmatch(file["rest"])
+        includes = re.findall(r'^#include "(.*)"', found["includes"] if found else file["rest"], re.MULTILINE)
+        includes = [(path.parent / include).resolve().relative_to(root.resolve()).as_posix() for include in includes]
+        if not found and re.search(r"^(?!#include |$)", file["rest"], re.MULTILINE):
+            match(BODY, path, file["rest"])
+        return Header(name, file["comment"], file["guard"], [i for i in includes if i != "portable.h"],
+                      list(blocks(found["body"])) if found else [])
+
+
+def code_words(text):
+    """How often each word stands outside comments."""
+    return Counter(re.findall(r"\b[A-Za-z_]\w*", re.sub(r"//.*", "", text)))
+
+
+def fold(text):
+    """The text with each branch on a number that the language fixes replaced by the part that it takes."""
+    def taken(found):
+        _, word, left, right, first, second = found.groups()
+        holds = word == "true" if word else int(left) > int(right)
+        return re.sub(r"^    ", "", (first if holds else second) or "", flags=re.MULTILINE)
+
+    return DECIDED.sub(taken, text)
+
+
+@dataclass
+class Prelude:
+    """A language's spelling of the dialect, taken from its prelude: macros to expand, and what is no macro."""
+    comment: str
+    guard: str
+    frame: str = ""
+    blocks: list[str] = field(default_factory=list)
+    macros: dict = field(default_factory=dict)
+    unused: set = field(default_factory=set)
+
+    @staticmethod
+    def read(path):
+        file = match(FILE, path, path.read_text())
+        prelude = Prelude(file["comment"], file["guard"])
+        for block in blocks(file["rest"]):
+            code = re.sub(r"^//.*\n", "", block, flags=re.MULTILINE)
+            if code.startswith("#if") and "#define GNOMON_" in code:
+                prelude.frame += block # on this word the compiler decides: it stays a macro, for as long as the package
+                continue
+            for name, parameters, value in MACRO.findall(code):
+                prelude.macros[name] = parameters.split(", ") if parameters else None, re.sub(r"\bgnomon::", "", value)
+            if re.sub(r"^(#define .*|typedef float Real;)\n", "", code, flags=re.MULTILINE):
+                prelude.blocks.append(block)
+        return prelude
+
+    def forget_unused(self, headers):
+        """Drops from now on what only branches for another precision read: their constants, and functions of the prelude."""
+        text = "\n".join(self.expanded(block) for header in headers for block in header.blocks) + self.own_text()
+        before, after = code_words(text), code_words(fold(text))
+        constants = [name for header in headers for block in header.blocks for name in CONSTANT.findall(block)]
+        functions = re.findall(r"\b(gnomon_\w+)\(", self.own_text())
+        self.unused = {name for name in constants + functions if before[name] > after[name] == 1}
+
+    def own_text(self):
+        """What the prelude says itself, in the package's words."""
+        return "\n" + "\n".join(self.without_unused(self.expanded(block)) for block in self.blocks) + "\n"
+
+    def spelled(self, blocks):
+        """Kernels in the package's words."""
+        texts = [self.without_unused(fold(self.expanded(block))) for block in blocks]
+        texts = [laid_out(text) for text in texts if code_words(text)]
+        namespace = [self.expanded(f"GNOMON_NAMESPACE_{end}\n") for end in ("BEGIN", "END")]
+        return "\n" + "\n".join(text for text in [namespace[0], *texts, namespace[1]] if text.strip()) + "\n"
+
+    def without_unused(self, text):
+        names = "|".join(self.unused) or "$"
+        return re.sub(rf"^(?!//)\w.*\b(?:{names})(?: = |\().*\n", "", text, flags=re.MULTILINE)
+
+    def expanded(self, text):
+        parts = re.split(r"(//.*)", text)
+        expanded = "".join(part if part.startswith("//") else self.expanded_code(part) for part in parts)
+        return re.sub(r"^ (?=\S)", "", expanded, flags=re.MULTILINE) # what an empty GNOMON_KERNEL leaves
+
+    def expanded_code(self, code):
+        def value(found):
+            parameters, text = self.macros[found[1]]
+            if parameters is None:
+                return text + (found[2] or "")
+            arguments = dict(zip(parameters, found[2][1:-1].split(", ")))
+            return re.sub(r"\w+", lambda word: arguments.get(word[0], word[0]), text)
+
+        words = "|".join(word for word in self.macros if word != "Real")
+        while (expanded := re.sub(rf"\b({words})\b(\([^()]*\))?", value, code)) != code:
+            code = expanded
+        code = re.sub(rf"(\(float\)|\b(?:Real|float))\(({NUMBER})\)", self.literal, code)
+        return re.sub(r"\bReal\b", "float", code) if "Real" in self.macros else code
+
+    def literal(self, found):
+        """A number behind a cast to float as a number of that type, unless the cast is a template's."""
+        cast, number = found[1], found[2]
+        if cast.strip("()") == "Real" and "Real" not in self.macros:
+            return found[0]
+        return number + ("" if re.search("[.e]", number) else ".0") + self.suffix
+
+    @property
+    def suffix(self):
+        return "f" if "4097.0f" in self.macros["GNOMON_SPLITTER"][1] else ""

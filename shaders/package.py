@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+"""Writes the shader packages: the kernels of include/gnomon as files of one language each, that include nothing.
+
+usage: package.py INCLUDE VERSION OUTPUT    writes gnomon.ENDING and TECHNIQUE.ENDING into the folder OUTPUT
+
+INCLUDE is the folder that holds gnomon/, VERSION is like 0.1.0. docs/architecture.md says how packages come about.
+"""
+import itertools
+import os
+import re
+import sys
+from pathlib import Path
+
+from dialect import CONSTANT, DEFINED, DialectError, Header, Prelude
+
+# Ending of the package: prelude, and the language's name.
+LANGUAGES = {
+    "glsl": ("glsl.h", "GLSL"),
+    "hlsl": ("hlsl.h", "HLSL"),
+    "metal": ("msl.h", "the Metal shading language"),
+    "cl": ("opencl.h", "OpenCL C"),
+    "cuh": ("cpp.h", "CUDA and C++20"),
+}
+
+# Technique: the headers that it starts from, and for moments how many of them. What else it takes follows from the
+# headers' includes. A header below one of FOLDERS is a technique by itself.
+TECHNIQUES = {
+    "moments4": (["moments/quantization.h", "moments/stored.h", "moments/hamburger4.h"], "4"),
+    "moments6": (["moments/quantization.h", "moments/stored.h", "moments/hamburger6.h"], "6"),
+    "two_point": (["moments/two_point.h"], ""),
+    "hamburger_cholesky": (["moments/bias.h", "moments/hamburger_cholesky.h"], ""),
+}
+FOLDERS = ["filters", "soft", "scattering", "motion"]
+
+
+HEADING = """\
+// Gnomon {version}, {name}: shadow filtering in {language}, this file alone.
+// Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
+// Written by shaders/package.py from the kernels in include/gnomon: change them there.
+"""
+
+
+def closure(headers, names):
+    """The headers named and all that they include, each after what it includes."""
+    ordered = []
+
+    def visit(name):
+        if name not in ordered:
+            for include in headers[name].includes:
+                visit(include)
+            ordered.append(name)
+
+    for name in names:
+        visit(name)
+    return [headers[name] for name in ordered if headers[name].blocks]
+
+
+def count_of(block):
+    """4 or 6 where a block is about that many moments, by the names of what it defines."""
+    counts = {count for name in DEFINED.findall(block) for count in re.findall(r"^[a-z]+([46])(?:_|$)", name)}
+    return counts.pop() if len(counts) == 1 else ""
+
+
+def one_count_each(block):
+    """The block, or its lines by count where they are constants of four and of six moments, one after the other."""
+    lines = block.splitlines(keepends=True)
+    if not all(CONSTANT.match(line) for line in lines):
+        return [block]
+    return ["".join(group) for _, group in itertools.groupby(lines, count_of)]
+
+
+def section(title, guard, comment, text):
+    return f"// {title} {'-' * (116 - len(title))}\n{comment}#ifndef {guard}\n#define {guard}\n{text}#endif\n\n"
+
+
+class Packager:
+    def __init__(self, include, version):
+        self.root = include / "gnomon"
+        self.version = version
+        names = sorted(path.relative_to(self.root).as_posix() for path in self.root.rglob("*.h"))
+        names = [name for name in names if not name.startswith("portable")]
+        self.headers = {name: Header.read(self.root, name) for name in names}
+        roots = TECHNIQUES | {Path(name).stem: ([name], "") for name in names if Path(name).parts[0] in FOLDERS}
+        self.packages = {technique: (closure(self.headers, start), count) for technique, (start, count) in roots.items()}
+        counted = [headers for headers, count in self.packages.values() if count]
+        self.shared = [header for header in counted[0] if all(header in headers for headers in counted)]
+        everything = closure(self.headers, ["gnomon.h", *names])
+        for header in everything:
+            if not any(header in headers for headers, _ in self.packages.values()):
+                raise DialectError(f"{self.root / header.name}: in no technique of package.py")
+        self.packages["gnomon"] = (everything, "")
+
+    def files(self):
+        """(name, text) of every package."""
+        for ending, (prelude, language) in LANGUAGES.items():
+            prelude = Prelude.read(self.root / "portable" / prelude)
+            prelude.forget_unused(self.headers.values())
+            for package, (headers, count) in self.packages.items():
+                name = f"{package}.{ending}"
+                yield name, self.package(name, language, prelude, headers, count)
+
+    def package(self, name, language, prelude, headers, count):
+        guard = "GNOMON_" + re.sub(r"\W", "_", name).upper()
+        text = HEADING.format(version=self.version, name=name, language=language)
+        text += f"#ifndef {guard}\n#define {guard}\n\n{prelude.frame}"
+        text += section("the language", prelude.guard, prelude.comment, prelude.own_text())
+        for header in headers:
+            comment = header.comment
+            for about, title, part_guard, blocks in self.parts(header):
+                if not count or about in ("", count):
+                    text += section(title, part_guard, comment, prelude.spelled(blocks))
+                    comment = ""
+        return text + "".join(f"#undef {name}\n" for name in re.findall(r"^#define (\w+)", prelude.frame)[:1]) + "#endif\n"
+
+    def parts(self, header):
+        """(count, title, guard, blocks) of a header: one part, or one per count where a technique takes but its own."""
+        if header not in self.shared:
+            return [("", header.name, header.guard, header.blocks)]
+        taken = {"": [], "4": [], "6": []}
+        for block in header.blocks:
+            for part in one_count_each(block):
+                taken[count_of(part)].append(part)
+        title = {"": "", "4": ", four moments", "6": ", six moments"} if taken["4"] and taken["6"] else dict.fromkeys(taken, "")
+        return [(count, header.name + title[count], re.sub("H$", count or "H", header.guard), blocks)
+                for count, blocks in taken.items() if blocks]
+
+
+def write_aside(path, text):
+    aside = path.with_name(path.name + ".new")
+    aside.write_text(text)
+    os.replace(aside, path)
+
+
+def main():
+    if len(sys.argv) != 4:
+        print("package.py: INCLUDE, VERSION and OUTPUT expected", file=sys.stderr)
+        sys.exit(2)
+    include, version, output = Path(sys.argv[1]), sys.argv[2], Path(sys.argv[3])
+    try:
+        files = list(Packager(include, version).files())
+        output.mkdir(parents=True, exist_ok=True)
+        for name, text in files:
+            write_aside(output / name, text)
+    except (DialectError, OSError) as error:
+        print(f"package.py: {error}", file=sys.stderr)
+        sys.exit(2)
+
+
+if __name__ == "__main__":
+    main()
