@@ -11,6 +11,7 @@ import re
 import sys
 from pathlib import Path
 
+import wgsl
 from dialect import CONSTANT, DEFINED, DialectError, Header, Prelude
 
 # Ending of the package: prelude, and the language's name.
@@ -97,7 +98,10 @@ class Packager:
             prelude.forget_unused(self.headers.values())
             for package, (headers, count) in self.packages.items():
                 name = f"{package}.{ending}"
-                yield name, self.package(name, language, prelude, headers, count)
+                text = self.package(name, language, prelude, headers, count)
+                yield name, text
+                if ending == "glsl":
+                    yield f"{package}.wgsl", wgsl.translated(text)
 
     def package(self, name, language, prelude, headers, count):
         guard = "GNOMON_" + re.sub(r"\W", "_", name).upper()

@@ -6,31 +6,27 @@ too, and compares.
 import re
 import struct
 from fractions import Fraction
+from pathlib import Path
 
 from dialect import DialectError
-from layout import laid_out
+from layout import laid_out, wrapped
 
-LANGUAGE = """\
-// WGSL has neither preprocessor nor include guard: put this text, once, before the shader's own.
-// The same bits as on the CPU come wherever / and sqrt are rounded correctly and no multiplication is fused with an
-// addition. WGSL can ask for neither: where a compiler fuses, the exact products lose some of their low parts.
-"""
+LANGUAGE = Path(__file__).with_name("portable.wgsl")
 TYPES = {"float": "f32", "int": "i32"}
-PRELUDE = re.compile(r"(?<=^// the language )(-+\n)(?://.*\n)*", re.MULTILINE)
+PRELUDE = re.compile(r"(?<=^// the language )(-+\n).*?(?=^// \S+ -+\n)", re.MULTILINE | re.DOTALL)
 GUARDS = re.compile(r"^#ifndef \w+\n#define \w+\n|\n#endif\n", re.MULTILINE)
 CONSTANT = re.compile(r"^const float (\w+) = (\S+);(?: +// (.*))?", re.MULTILINE)
-STRUCT = re.compile(r"^struct (\w+) \{ (.*?) \};", re.MULTILINE | re.DOTALL)
-FUNCTION = re.compile(r"^(\w+) (\w+)\(([^()]*)\)( \{.*\}$|\n\{.*?^\})", re.MULTILINE | re.DOTALL)
-DECLARATION = re.compile(r"^( *)(?:precise )?(?!return\b)(\w+) (\w+)(;| =)", re.MULTILINE)
+STRUCT = re.compile(r"^struct (\w+)(\s+\{)(.*?)\};", re.MULTILINE | re.DOTALL)
+MEMBERS = re.compile(r"\b(\w+) (\w+(?:,\s+\w+)*);")
+FUNCTION = re.compile(r"^(\w+) (\w+)\(([^()]*)\)( \{[^\n]*\}$|\n\{.*?^\})", re.MULTILINE | re.DOTALL)
+DECLARATION = re.compile(r"^( *)(?!return\b)(\w+) (\w+)(;| =)", re.MULTILINE)
 STATEMENTS = [(re.compile(pattern, re.MULTILINE), replacement) for pattern, replacement in [
-    (r"\breturn ([^;]*?) \? (\w+) : (\w+);", r"return select(\3, \2, \1);"),
-    (r"\bintBitsToFloat\(", "bitcast<f32>("),
     (r"\bfloat\(", "f32("),
     (r"\bint\(", "i32("),
     (r"\bfor \(int (\w+) = (.*); \+\+\1\)", r"for (var \1 = \2; \1++)"),
     (r"^( *(?:for|if) \(.*\)) ([^{]*;)$", r"\1 { \2 }"),
 ]]
-NOT_WGSL = re.compile(r"^#.*|.*(?:\?|\+\+\w|\[|\b(?:bool|float|int|precise) \w|\b(?:do|while)\b|\belse [^{i]).*", re.MULTILINE)
+NOT_WGSL = re.compile(r"^#.*|.*(?:\?|\+\+\w|\[|\b(?:bool|float|int) \w|\b(?:do|while)\b|\belse [^{i]).*", re.MULTILINE)
 
 
 def type_of(word):
@@ -50,10 +46,9 @@ def constant(found):
 
 
 def structure(found):
-    name, text = found.groups()
-    members = [f"{member}: {type_of(kind)}" for kind, some in re.findall(r"(\w+) ([^;]+)", text)
-               for member in re.split(r",\s*", some)]
-    return f"struct {name} {{ {', '.join(members)} }};"
+    name, opening, text = found.groups()
+    members = MEMBERS.sub(lambda some: re.sub(r"\w+", lambda word: f"{word[0]}: {type_of(some[1])}", some[2]) + ",", text)
+    return "\n".join(wrapped(f"struct {name}{opening}{re.sub(', $', ' ', members)}}}"))
 
 
 def function(found):
@@ -78,10 +73,9 @@ def function(found):
 
 
 def translated(glsl):
-    text = PRELUDE.sub(rf"\1{LANGUAGE}", GUARDS.sub("", glsl))
+    text = GUARDS.sub("", PRELUDE.sub(lambda rule: f"{rule[1]}{LANGUAGE.read_text()}\n", glsl))
     text = text.replace(" in GLSL,", " in WGSL,", 1).replace(".glsl:", ".wgsl:", 1)
-    for pattern, change in ((CONSTANT, constant), (STRUCT, structure), (FUNCTION, function)):
-        text = pattern.sub(change, text)
+    text = STRUCT.sub(structure, laid_out(FUNCTION.sub(function, CONSTANT.sub(constant, text))))
     if left := NOT_WGSL.search(re.sub(r"//.*", "", text)):
         raise DialectError(f"wgsl.py: cannot say in WGSL: {left[0].strip()}")
-    return laid_out(text)
+    return text

@@ -1,0 +1,20 @@
+// WGSL has neither preprocessor nor include guard: put this text, once, before the shader's own.
+// The same bits as on the CPU come wherever / and sqrt are rounded correctly and no product is fused with a sum, neither
+// of which WGSL can ask for (docs/shaders.md). Exact products stay whole in any case.
+
+const gnomon_splitter: f32 = 4097.0;
+const gnomon_pivot_floor: f32 = 0x1p-30;
+
+fn gnomon_select(mask: bool, a: f32, b: f32) -> f32 { return select(b, a, mask); }
+fn gnomon_any(mask: bool) -> bool { return mask; }
+fn gnomon_min(a: f32, b: f32) -> f32 { return select(b, a, a < b); }
+fn gnomon_max(a: f32, b: f32) -> f32 { return select(b, a, a > b); }
+fn gnomon_abs(a: f32) -> f32 { return abs(a); }
+fn gnomon_sqrt(a: f32) -> f32 { return sqrt(a); }
+fn gnomon_product(a: f32, b: f32) -> f32
+{
+    // Nothing is fused across a choice. Both sides of this one have the same value.
+    let p = a * b;
+    return select(p + p, p, abs(p) <= 0x1.fffffep+127);
+}
+fn gnomon_power_of_two(n: f32) -> f32 { return bitcast<f32>((i32(n) + 127) << 23u); }
