@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "all_headers.hpp"
+#include "kernels.hpp"
 #include "pack.hpp"
 
 namespace {
@@ -62,8 +63,8 @@ template <class Real, class Result, class... Arguments> long allocations_of(Resu
 template <class Real> void check_every_kernel()
 {
     using namespace gnomon;
-#define KERNEL(name) CHECK_MESSAGE(allocations_of<Real>(&name<Real>) == 0, #name);
-#include "every_kernel.inc"
+#define CHECK_KERNEL(name, ...) CHECK_MESSAGE(allocations_of<Real>(&name<Real>) == 0, #name);
+    GNOMON_FOR_EACH_KERNEL(CHECK_KERNEL)
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // Compiled by calls.py, never run: a function around every kernel for every pack. Operands come from memory and results
 // go there, as in a caller's loop; by value, large structs would be copied by memcpy for the calling convention's sake.
-#include "all_headers.hpp"
+#include "kernels.hpp"
 #include "pack.hpp"
 
 template <auto kernel, class = decltype(kernel)> struct around;
@@ -12,10 +12,8 @@ template <auto kernel, class Result, class... Arguments> struct around<kernel, R
 template <class Real> const void* function(int i)
 {
     using namespace gnomon;
-#define KERNEL(name) reinterpret_cast<const void*>(&around<&name<Real>>::call),
-    static const void* const table[] = {
-#include "every_kernel.inc"
-    };
+#define AROUND(name, ...) reinterpret_cast<const void*>(&around<&name<Real>>::call),
+    static const void* const table[] = {GNOMON_FOR_EACH_KERNEL(AROUND)};
     return table[i];
 }
 

@@ -1,0 +1,272 @@
+// Runs every kernel by some routes over the same rows of numbers and compares bit for bit with the host.
+//
+// NaN equals NaN: which of its patterns an operation gives is no language's promise. +0 and -0 differ.
+#include "kernels.hpp"
+#include "route.hpp"
+
+#include "../support/effort.hpp"
+#include "../support/kernel_inputs.hpp"
+
+#include <fmt/format.h>
+#include <toolbox/file.hpp>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <bit>
+
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+using namespace gnomon;
+using namespace gnomon::parity;
+
+namespace {
+
+constexpr int skipped = 77; // ctest's SKIP_RETURN_CODE
+
+constexpr kernel kernels[] = {
+#define SHAPE(name, inputs, outputs, families, ...) {#name, inputs, outputs, families},
+    GNOMON_FOR_EACH_KERNEL(SHAPE)};
+
+/// What a processor does with denormals: nothing, or it takes them for zero where they go in or come out. A driver does
+/// as it likes (only a probe tells), and the host that it is compared with then does the same.
+struct denormals {
+    bool in_flushed = false, out_flushed = false;
+    auto operator<=>(const denormals&) const = default;
+};
+
+denormals probe(route& r)
+{
+    constexpr float least_normal = std::numeric_limits<float>::min();
+    constexpr kernel two_sum{"two_sum", 2, 2, ""};
+    std::array<float, 2 * test::block_rows> in{}, out{};
+    in[0] = least_normal / 2;
+    in[1] = least_normal * 1.5f;
+    in[test::block_rows + 1] = -least_normal;
+    r.run(two_sum, in, out);
+    return {out[0] == 0, out[1] == 0};
+}
+
+/// While it lives, the host treats denormals so.
+class denormals_as {
+  public:
+#if defined(__SSE__)
+    explicit denormals_as(denormals d) : before_(_mm_getcsr())
+    {
+        _mm_setcsr(before_ | (d.in_flushed ? 0x0040u : 0u) | (d.out_flushed ? 0x8000u : 0u));
+    }
+    ~denormals_as() { _mm_setcsr(before_); }
+    denormals_as(const denormals_as&) = delete;
+    denormals_as& operator=(const denormals_as&) = delete;
+
+  private:
+    unsigned before_;
+#else
+    explicit denormals_as(denormals d)
+    {
+        if (d != denormals{}) throw unavailable("flushes denormals, which this host cannot be told to do");
+    }
+#endif
+};
+
+struct candidate {
+    std::string name;
+    std::unique_ptr<route> where;
+    denormals flush;
+};
+
+/// What the host makes of one kernel's rows, computed when first asked for.
+class references {
+  public:
+    references() : split_(module_route(built("host_split.so"))), fused_(module_route(built("host_scalar.so"))) {}
+
+    void reset(const kernel& k, std::span<const float> in)
+    {
+        kernel_ = &k;
+        in_ = in;
+        results_.clear();
+    }
+    const std::vector<float>& of(products kind, denormals d)
+    {
+        const bool fused = kind == products::fused;
+        for (const result& r : results_)
+            if (r.fused == fused && r.flush == d) return r.out;
+        result& r = results_.emplace_back(
+            result{fused, d, std::vector<float>(in_.size() / kernel_->inputs * kernel_->outputs)});
+        const denormals_as mode(d);
+        (fused ? fused_ : split_)->run(*kernel_, in_, r.out);
+        return r.out;
+    }
+
+  private:
+    struct result {
+        bool fused;
+        denormals flush;
+        std::vector<float> out;
+    };
+    std::unique_ptr<route> split_, fused_;
+    const kernel* kernel_ = nullptr;
+    std::span<const float> in_;
+    std::vector<result> results_;
+};
+
+bool same(float a, float b)
+{
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) || (std::isnan(a) && std::isnan(b));
+}
+
+/// Row i of blocks of n numbers each.
+std::vector<float> row_of(std::span<const float> blocks, std::size_t n, std::size_t i)
+{
+    std::vector<float> row(n);
+    for (std::size_t j = 0; j < n; ++j)
+        row[j] = blocks[i / test::block_rows * test::block_rows * n + j * test::block_rows + i % test::block_rows];
+    return row;
+}
+
+/// Where products by fused multiply-add and by splitting are the same: products of these, and of their products, stay
+/// within the domain of two_product.
+bool tame(const std::vector<float>& row)
+{
+    return std::all_of(row.begin(), row.end(),
+                       [](float x) { return x == 0 || (std::abs(x) >= 0x1p-20f && std::abs(x) <= 0x1p20f); });
+}
+
+std::vector<std::string> hexadecimal(const std::vector<float>& row)
+{
+    std::vector<std::string> words;
+    for (const float x : row) words.push_back(fmt::format("{:a}", x));
+    return words;
+}
+
+/// One kernel by one route, as a row of the report.
+nlohmann::ordered_json compare(const kernel& k, const candidate& c, std::span<const float> in, references& hosts)
+{
+    const std::size_t rows = in.size() / k.inputs;
+    std::vector<float> got(rows * k.outputs);
+    c.where->run(k, in, got);
+    const std::vector<float>& want = hosts.of(c.where->computes(), c.flush);
+    const bool only_tame = c.where->computes() == products::fused_against_split;
+    std::size_t compared = 0, differing = 0;
+    nlohmann::ordered_json first;
+    for (std::size_t i = 0; i < rows; ++i) {
+        if (only_tame && !tame(row_of(in, k.inputs, i))) continue;
+        ++compared;
+        const std::size_t at = i / test::block_rows * test::block_rows * k.outputs + i % test::block_rows;
+        bool equal = true;
+        for (std::size_t j = 0; j < k.outputs; ++j)
+            equal = equal && same(want[at + j * test::block_rows], got[at + j * test::block_rows]);
+        if (equal) continue;
+        if (differing++ == 0)
+            first = {{"row", i},
+                     {"inputs", hexadecimal(row_of(in, k.inputs, i))},
+                     {"host", hexadecimal(row_of(want, k.outputs, i))},
+                     {"route", hexadecimal(row_of(got, k.outputs, i))}};
+    }
+    nlohmann::ordered_json row{{"kernel", k.name},
+                               {"route", c.name},
+                               {"device", c.where->device()},
+                               {"rows", compared},
+                               {"differing", differing}};
+    if (differing > 0) row["first"] = first;
+    return row;
+}
+
+/// The routes that this machine can run; says why it cannot run others.
+std::vector<candidate> prepare(const std::vector<std::string>& names)
+{
+    std::vector<candidate> ready;
+    for (const named_route& r : all_routes()) {
+        if (std::find(names.begin(), names.end(), r.name) == names.end()) continue;
+        try {
+            candidate c{r.name, r.make(), {}};
+            c.flush = probe(*c.where);
+            ready.push_back(std::move(c));
+        } catch (const unavailable& why) {
+            fmt::print("parity: {} skipped: {}\n", r.name, why.what());
+        }
+    }
+    return ready;
+}
+
+/// Totals and what differs, on stdout; true where nothing does.
+bool summarize(const nlohmann::ordered_json& report, const std::vector<candidate>& candidates)
+{
+    bool clean = true;
+    for (const candidate& c : candidates) {
+        std::size_t count = 0, rows = 0, differing = 0;
+        for (const auto& row : report) {
+            if (row["route"] != c.name) continue;
+            ++count;
+            rows += row["rows"].get<std::size_t>();
+            if (const auto n = row["differing"].get<std::size_t>(); n > 0) {
+                differing += n;
+                fmt::print("{} by {}: {} of {} rows differ, first {}\n", row["kernel"].get<std::string>(), c.name, n,
+                           row["rows"].get<std::size_t>(), row["first"].dump());
+            }
+        }
+        const auto complaints = c.where->complaints();
+        for (const std::string& complaint : complaints) fmt::print("{} complains: {}\n", c.name, complaint);
+        fmt::print("{}: {} kernels, {} rows, {} differ, {} complaints ({}{}{})\n", c.name, count, rows, differing,
+                   complaints.size(), c.where->device(), c.flush.in_flushed ? ", denormals in are zero" : "",
+                   c.flush.out_flushed ? ", denormals out are zero" : "");
+        clean = clean && count > 0 && differing == 0 && complaints.empty();
+    }
+    return clean;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+try {
+    std::vector<std::string> routes, known, names, all;
+    for (const named_route& r : all_routes()) known.push_back(r.name);
+    for (const kernel& k : kernels) all.emplace_back(k.name);
+    std::int64_t rows = test::effort(std::int64_t{1} << 20);
+    std::string out;
+    bool list = false;
+
+    CLI::App app("Compares routes with the host, kernel by kernel and bit by bit.", "parity");
+    app.add_flag("--list", list, "names every route");
+    app.add_option("--route", routes, "routes to run; all unless told")->check(CLI::IsMember(known));
+    app.add_option("--kernel", names, "kernels to run; all unless told")->check(CLI::IsMember(all));
+    app.add_option("--rows", rows, "rows for each kernel, rounded up to blocks of 64")->check(CLI::Range(1, 1 << 26));
+    app.add_option("--out", out, "JSON with a row for each kernel and route");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        fmt::print(stderr, "parity: {}\n", error.what());
+        return 2;
+    }
+    if (list) {
+        for (const std::string& name : known) fmt::print("{}\n", name);
+        return 0;
+    }
+    if (routes.empty()) routes = known;
+    if (names.empty()) names = all;
+
+    std::vector<candidate> candidates = prepare(routes);
+    references hosts;
+    auto report = nlohmann::ordered_json::array();
+    const std::size_t blocks = (std::size_t(rows) + test::block_rows - 1) / test::block_rows;
+    std::size_t done = 0;
+    for (const kernel& k : kernels) {
+        if (std::find(names.begin(), names.end(), k.name) == names.end() || candidates.empty()) continue;
+        fmt::print(stderr, "parity: {} ({} of {})\n", k.name, ++done, names.size());
+        std::vector<float> in(blocks * test::block_rows * k.inputs);
+        test::kernel_inputs<float>(k.name, k.families, k.inputs).draw(blocks, in.data());
+        hosts.reset(k, in);
+        for (const candidate& c : candidates) report.push_back(compare(k, c, in, hosts));
+    }
+    if (!out.empty()) toolbox::write_file(out, report.dump(1) + "\n");
+    if (!summarize(report, candidates)) return 1;
+    if (candidates.size() == routes.size()) return 0;
+    const char* ci = std::getenv("CI");
+    return ci != nullptr && std::string_view(ci) == "true" ? 1 : skipped;
+} catch (const std::exception& error) {
+    fmt::print(stderr, "parity: {}\n", error.what());
+    return 2;
+}

@@ -1,0 +1,81 @@
+// Parity: one kernel text, many ways to run it, the same bits. This is what a way to run it, a route, must do.
+//
+// To add a route: write a class below `route` whose constructor throws `unavailable` where the machine lacks something,
+// give it a line in routes.cpp, and a test in CMakeLists.txt. A shared object that exports module.hpp, and a command
+// that reads and writes files, need no class: module_route and command_route run them. A text around each kernel in
+// another language comes from shaders.py.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace gnomon::parity {
+
+/// A kernel by its shape: how many numbers go in and come out, in the blocks of ../support/kernel_call.hpp.
+struct kernel {
+    const char* name;
+    std::size_t inputs, outputs;
+    const char* families;
+};
+
+/// How two_product finds the error of a product (numerics/two_product.h): by Dekker's splitting, as shaders do, or by
+/// fused multiply-add. Both give the same bits but where products leave the comment's domain. So a route is compared
+/// with a host of its own kind; whether the two hosts agree within the domain is a route of its own.
+enum class products { split, fused, fused_against_split };
+
+class route {
+  public:
+    route() = default;
+    route(const route&) = delete;
+    route& operator=(const route&) = delete;
+    virtual ~route() = default;
+
+    /// Runs the kernel over whole blocks.
+    virtual void run(const kernel& k, std::span<const float> in, std::span<float> out) = 0;
+
+    /// Where it runs, for the report: a driver's own name, say.
+    [[nodiscard]] virtual std::string device() const = 0;
+
+    [[nodiscard]] virtual products computes() const { return products::split; }
+
+    /// What a validation layer has to say after the last kernel: anything is a failure.
+    [[nodiscard]] virtual std::vector<std::string> complaints() const { return {}; }
+};
+
+/// Why a route cannot run here: skipped on a desktop, a failure under CI=true.
+struct unavailable : std::runtime_error {
+    using runtime_error::runtime_error;
+};
+
+struct named_route {
+    std::string name;
+    std::function<std::unique_ptr<route>()> make;
+};
+
+/// Every route, by name.
+const std::vector<named_route>& all_routes();
+
+/// Where the build has put modules and shaders: beside the program.
+std::filesystem::path built(const std::string& name);
+
+/// Of a shared object that exports module.hpp.
+std::unique_ptr<route> module_route(const std::filesystem::path& file);
+std::unique_ptr<route> fused_against_split_route(const std::filesystem::path& file);
+
+/// Of a command that is called as COMMAND KERNEL INPUTS OUTPUTS IN OUT: how many numbers, and files of floats; exit
+/// code 77 says that it cannot run here, and its last line why.
+std::unique_ptr<route> command_route(std::string command, std::string device);
+
+/// Of modules FOLDER/KERNEL.spv on the Vulkan drivers that icd names (VK_ICD_FILENAMES), all drivers where it is empty.
+std::unique_ptr<route> vulkan_route(const std::filesystem::path& folder, const std::string& icd);
+
+/// Of FILE, OpenCL C with a function parity_KERNEL for each kernel, on the first device of the platform.
+std::unique_ptr<route> opencl_route(const std::filesystem::path& file, const std::string& platform);
+
+} // namespace gnomon::parity

@@ -1,0 +1,56 @@
+#include "route.hpp"
+
+#include <cstdlib>
+
+namespace gnomon::parity {
+
+std::filesystem::path built(const std::string& name)
+{
+    return std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
+}
+
+#if !defined(GNOMON_PARITY_VULKAN)
+std::unique_ptr<route> vulkan_route(const std::filesystem::path&, const std::string&)
+{
+    throw unavailable("built without Vulkan's headers or glslangValidator");
+}
+#endif
+#if !defined(GNOMON_PARITY_OPENCL)
+std::unique_ptr<route> opencl_route(const std::filesystem::path&, const std::string&)
+{
+    throw unavailable("built without OpenCL's headers");
+}
+#endif
+
+const std::vector<named_route>& all_routes()
+{
+    const auto host = [](const std::string& name) {
+        return named_route{name, [name] { return module_route(built("host_" + name + ".so")); }};
+    };
+    // Mesa's driver on the CPU, wherever Debian's architectures put it.
+    const auto lavapipe = [](const std::string& language) {
+        return named_route{language + "-lavapipe", [language] {
+                               for (const auto* machine : {"x86_64", "aarch64"}) {
+                                   const auto icd = std::string("/usr/share/vulkan/icd.d/lvp_icd.") + machine + ".json";
+                                   if (std::filesystem::exists(icd)) return vulkan_route(built(language), icd);
+                               }
+                               throw unavailable("no lavapipe (mesa-vulkan-drivers)");
+                           }};
+    };
+    static const std::vector<named_route> routes{
+        {"fused", [] { return fused_against_split_route(built("host_scalar.so")); }},
+        host("4lanes"),
+        host("8lanes"),
+        host("16lanes"),
+        host("wide"),
+        lavapipe("glsl"),
+        lavapipe("hlsl"),
+        {"glsl-vulkan", [] { return vulkan_route(built("glsl"), ""); }},
+        {"opencl-pocl", [] { return opencl_route(built("opencl/kernels.cl"), "Portable Computing Language"); }},
+        {"metal-shim", [] { return module_route(built("metal.so")); }},
+        {"cuda", [] { return module_route(built("cuda.so")); }},
+    };
+    return routes;
+}
+
+} // namespace gnomon::parity

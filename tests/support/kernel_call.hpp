@@ -1,0 +1,57 @@
+// A kernel as a function from numbers to numbers, over rows in blocks: the shape in which tests, benches and shaders
+// run every kernel alike.
+//
+// A block holds 64 rows, one column for each number, so that packs load lanes and a shader's workgroup is a block:
+// number j of row i stands at [(i / 64) (64 n) + 64 j + i % 64], n numbers in a row.
+#pragma once
+
+#include "reals.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <tuple>
+#include <type_traits>
+
+namespace gnomon::test {
+
+inline constexpr std::size_t block_rows = 64;
+
+template <class Real, class T> inline constexpr std::size_t numbers_in = sizeof(T) / sizeof(Real);
+
+/// A Real, or a struct of nothing else, from the columns that follow; moves on to the next.
+template <class Real, class T> T take(const lane_t<Real>*& column)
+{
+    static_assert(sizeof(T) % sizeof(Real) == 0 && std::is_trivially_copyable_v<T>);
+    std::array<Real, numbers_in<Real, T>> numbers;
+    for (Real& x : numbers) {
+        x = load<Real>(column);
+        column += block_rows;
+    }
+    T value;
+    std::memcpy(&value, &numbers, sizeof value);
+    return value;
+}
+
+template <class Real, auto kernel, class = decltype(kernel)> struct kernel_call;
+
+template <class Real, auto kernel, class Result, class... Arguments>
+struct kernel_call<Real, kernel, Result (*)(Arguments...)> {
+    static constexpr std::size_t inputs = (numbers_in<Real, Arguments> + ...), outputs = numbers_in<Real, Result>;
+
+    static void run(std::size_t blocks, const lane_t<Real>* in, lane_t<Real>* out)
+    {
+        static_assert(block_rows % lanes<Real>() == 0);
+        for (; blocks > 0; --blocks, in += block_rows * inputs, out += block_rows * outputs)
+            for (std::size_t i = 0; i < block_rows; i += lanes<Real>()) {
+                const lane_t<Real>* column = in + i;
+                const std::tuple<Arguments...> arguments{take<Real, Arguments>(column)...}; // braces: left to right
+                const Result result = std::apply([](const auto&... a) { return kernel(a...); }, arguments);
+                std::array<Real, outputs> numbers;
+                std::memcpy(&numbers, &result, sizeof result);
+                for (std::size_t j = 0; j < outputs; ++j) store(numbers[j], out + j * block_rows + i);
+            }
+    }
+};
+
+} // namespace gnomon::test

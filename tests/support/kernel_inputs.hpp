@@ -1,0 +1,260 @@
+// Rows of inputs for any kernel, by the families that kernels.txt names: the same in every run.
+//
+// Rows in which a family's numbers belong together come from one situation: a depth distribution (distributions.hpp), a
+// receiver where it hurts, a texel of the distribution. Blocks of 64 rows take turns:
+//     two of four   drawn from the families, in the kernels' domain
+//     one           the same with one number replaced: by a special one, by any bits, or by itself and a little noise
+//     one           every number special, or all of any bits
+#pragma once
+
+#include "distributions.hpp"
+#include "hostile.hpp"
+#include "kernel_call.hpp"
+
+#include <gnomon/filters/convolution.h>
+#include <gnomon/moments/stored.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::test {
+
+/// What one row sees: six moments of a distribution, its receiver and one of its depths.
+struct situation {
+    std::array<double, 6> b;
+    double receiver, texel;
+};
+
+inline std::vector<situation> draw_situations(std::size_t count, std::uint64_t seed)
+{
+    distribution_source source(seed);
+    std::vector<situation> result(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const distribution d = source.draw(family(i % family_count));
+        situation& s = result[i];
+        for (std::size_t k = 0; k < d.depths.size(); ++k) {
+            double power = d.weights[k];
+            for (double& b : s.b) b += power *= d.depths[k];
+        }
+        s.receiver = source.receiver(d);
+        s.texel = d.depths[i / family_count % d.depths.size()];
+    }
+    return result;
+}
+
+/// Writes structs and scalars, one number after the other.
+template <class T> class row_writer {
+  public:
+    explicit row_writer(T* at) : at_(at) {}
+    void operator()(double x) { *at_++ = T(x); }
+    template <class Struct>
+    requires std::is_class_v<Struct>
+    void operator()(const Struct& s)
+    {
+        std::memcpy(at_, &s, sizeof s);
+        at_ += sizeof s / sizeof(T);
+    }
+
+  private:
+    T* at_;
+};
+
+template <class T> moments4<T> moments4_in(const situation& s) { return {T(s.b[0]), T(s.b[1]), T(s.b[2]), T(s.b[3])}; }
+template <class T> moments6<T> moments6_in(const situation& s)
+{
+    return {T(s.b[0]), T(s.b[1]), T(s.b[2]), T(s.b[3]), T(s.b[4]), T(s.b[5])};
+}
+
+template <class T> double any_number(bit_source& bits)
+{
+    if (bits.chance(0.1)) return double(bits.below(9)) - 4;
+    return std::ldexp(bits.uniform(-1, 1), int(bits.below(61)) - 30);
+}
+
+/// Leading coefficient 1 and three real roots, near one another now and then.
+inline std::array<double, 3> monic_cubic(bit_source& bits)
+{
+    const double r = bits.uniform(-2, 2), s = bits.chance(0.3) ? r * (1 + bits.uniform(0, 1e-3)) : bits.uniform(-2, 2);
+    const double t = bits.uniform(-2, 2);
+    return {-(r + s + t), r * s + s * t + t * r, -r * s * t};
+}
+
+template <class T> hankel4<T> any_hankel4(const situation& s, bit_source& bits)
+{
+    const moments4<T> b = moments4_in<T>(s);
+    switch (bits.below(4)) {
+        case 0:
+            return hankel4_fast(b);
+        case 1:
+            return hankel4_from_half(b);
+        case 2:
+            return hankel4_biased(b, T(bias4_raw_b2), T(bias4_raw_b4), T(stored4_float_weight));
+        default:
+            return hankel4_from_float(b);
+    }
+}
+
+template <class T> hankel6<T> any_hankel6(const situation& s, bit_source& bits)
+{
+    const moments6<T> b = moments6_in<T>(s);
+    switch (bits.below(3)) {
+        case 0:
+            return hankel6_fast(b);
+        case 1:
+            return hankel6_biased(b, T(bias6_raw_b2), T(bias6_raw_b4), T(bias6_raw_b6), T(stored6_float_weight));
+        default:
+            return hankel6_from_float(b);
+    }
+}
+
+template <class T> struct input_family {
+    std::string_view name;
+    std::size_t numbers;
+    void (*draw)(row_writer<T> put, const situation& s, bit_source& bits);
+    bool may_be_hostile = true;
+};
+
+template <class T>
+inline constexpr input_family<T> input_families[] = {
+    // Single numbers.
+    {"number", 1, [](auto put, const situation&, bit_source& bits) { put(any_number<T>(bits)); }},
+    {"sign", 1, [](auto put, const situation&, bit_source& bits) { put(bits.chance(0.5) ? 1 : -1); }},
+    {"unit", 1, [](auto put, const situation&, bit_source& bits) { put(bits.chance(0.1) ? 1 : bits.uniform(0, 1)); }},
+    {"noise", 1, [](auto put, const situation&, bit_source& bits) { put(std::exp2(bits.uniform(-26, -8))); }},
+    {"angle", 1, [](auto put, const situation&, bit_source& bits) { put(bits.uniform(-100, 100)); }},
+    {"exponent", 1, [](auto put, const situation&, bit_source& bits) { put(bits.uniform(0.5, 44)); }},
+    {"warped", 1, [](auto put, const situation& s, bit_source& bits) { put(std::exp(s.texel * bits.uniform(1, 40))); }},
+    {"term", 1, [](auto put, const situation&, bit_source& bits) { put(double(1 + bits.below(16))); }},
+    // Powers of two are asked for as whole numbers in range only: languages differ in what they make of others.
+    {"step", 1, [](auto put, const situation&, bit_source& bits) { put(std::ldexp(1, int(bits.below(7)))); }, false},
+    // Depths and moments.
+    {"depth", 1, [](auto put, const situation& s, bit_source&) { put(s.receiver); }},
+    {"texel", 1, [](auto put, const situation& s, bit_source&) { put(s.texel); }},
+    {"moments2", 2, [](auto put, const situation& s, bit_source&) { put(s.b[0]), put(s.b[1]); }},
+    {"moments3", 3, [](auto put, const situation& s, bit_source&) { put(s.b[0]), put(s.b[1]), put(s.b[2]); }},
+    {"moments4", 4, [](auto put, const situation& s, bit_source&) { put(moments4_in<T>(s)); }},
+    {"moments6", 6, [](auto put, const situation& s, bit_source&) { put(moments6_in<T>(s)); }},
+    {"channels4", 4, [](auto put, const situation& s, bit_source&) { put(theta4(moments4_in<T>(s))); }},
+    {"channels6", 6, [](auto put, const situation& s, bit_source&) { put(theta6(moments6_in<T>(s))); }},
+    {"covariances6", 12, [](auto put, const situation& s, bit_source&) { put(covariances6_of(moments6_in<T>(s))); }},
+    {"hankel4", 4, [](auto put, const situation& s, bit_source& bits) { put(any_hankel4<T>(s, bits)); }},
+    {"hankel6", 8, [](auto put, const situation& s, bit_source& bits) { put(any_hankel6<T>(s, bits)); }},
+    {"bounds", 3,
+     [](auto put, const situation&, bit_source& bits) {
+         const double lower = bits.uniform(0, 1), weight = bits.uniform(0, 1 - lower);
+         put(lower), put(lower + weight), put(weight);
+     }},
+    // Both warps at two depths, mixed.
+    {"warped4", 4,
+     [](auto put, const situation& s, bit_source& bits) {
+         const double c = bits.uniform(1, 40), d = 5.54, w = bits.uniform(0, 1);
+         const auto mean = [&](double e) { return w * std::exp(e * s.texel) + (1 - w) * std::exp(e * s.b[0]); };
+         put(mean(c)), put(mean(2 * c)), put(-mean(-d)), put(mean(-2 * d));
+     }},
+    // Arithmetic.
+    {"double_word", 2,
+     [](auto put, const situation&, bit_source& bits) {
+         const T high = T(any_number<T>(bits));
+         put(double(high)), put(double(high) * bits.uniform(-0.5, 0.5) * double(std::numeric_limits<T>::epsilon()));
+     }},
+    {"monic_cubic", 3,
+     [](auto put, const situation&, bit_source& bits) {
+         for (const double c : monic_cubic(bits)) put(c);
+     }},
+    {"cubic", 4,
+     [](auto put, const situation&, bit_source& bits) {
+         const double a = bits.uniform(1, 100);
+         put(a);
+         for (const double c : monic_cubic(bits)) put(a * c);
+     }},
+    // The Fourier series: settings, and a phase.
+    {"series", 4,
+     [](auto put, const situation&, bit_source& bits) {
+         put(convolution_settings<T>{T(1 + bits.below(16)), T(bits.uniform(0, 3)), T(bits.uniform(0, 0.1)),
+                                     T(bits.uniform(0.5, 1))});
+     }},
+    {"phase", 4,
+     [](auto put, const situation& s, bit_source& bits) {
+         put(convolution_phase_at(T(s.receiver), T(bits.uniform(0.5, 1))));
+     }},
+};
+
+/// The rows of one kernel.
+template <class T> class kernel_inputs {
+  public:
+    /// families: words of kernels.txt, numbers: what they must come to.
+    kernel_inputs(std::string_view kernel, std::string_view families, std::size_t numbers)
+        : bits_(std::hash<std::string_view>{}(kernel)), special_(bits_()), numbers_(numbers)
+    {
+        std::istringstream words{std::string(families)};
+        for (std::string word; words >> word;) {
+            const auto* found = std::find_if(std::begin(input_families<T>), std::end(input_families<T>),
+                                             [&](const auto& family) { return family.name == word; });
+            if (found == std::end(input_families<T>))
+                throw std::invalid_argument("kernels.txt: " + std::string(kernel) + ": no family " + word);
+            families_.push_back(found);
+            keep_.insert(keep_.end(), found->numbers, !found->may_be_hostile);
+        }
+        if (keep_.size() != numbers)
+            throw std::invalid_argument("kernels.txt: " + std::string(kernel) + " takes " + std::to_string(numbers) +
+                                        " numbers, its families give " + std::to_string(keep_.size()));
+    }
+
+    /// The next blocks, in the layout of kernel_call.hpp.
+    void draw(std::size_t blocks, T* to)
+    {
+        std::vector<T> row(numbers_);
+        for (std::size_t end = block_ + blocks; block_ < end; ++block_, to += block_rows * numbers_)
+            for (std::size_t i = 0; i < block_rows; ++i) {
+                draw_row(row, block_ % 4);
+                for (std::size_t j = 0; j < numbers_; ++j) to[j * block_rows + i] = row[j];
+            }
+    }
+
+  private:
+    void draw_row(std::vector<T>& row, std::size_t turn)
+    {
+        static const std::vector<situation> situations = draw_situations(std::size_t{1} << 16, 7);
+        const situation& s = situations[bits_.below(situations.size())];
+        row_writer<T> put(row.data());
+        T* at = row.data();
+        for (const auto* family : families_) {
+            family->draw(row_writer<T>(at), s, bits_);
+            at += family->numbers;
+        }
+        if (turn == 2) {
+            const std::size_t j = bits_.below(numbers_);
+            if (!keep_[j]) row[j] = another(row[j]);
+        } else if (turn == 3) {
+            const bool special = bits_.chance(0.5);
+            for (std::size_t j = 0; j < numbers_; ++j)
+                if (!keep_[j]) row[j] = special ? special_.special() : special_.pattern();
+        }
+    }
+
+    T another(T x)
+    {
+        switch (bits_.below(3)) {
+            case 0:
+                return special_.special();
+            case 1:
+                return special_.pattern();
+            default:
+                return T(double(x) * (1 + std::ldexp(bits_.uniform(-1, 1), -int(bits_.below(30)))));
+        }
+    }
+
+    bit_source bits_;
+    hostile_source<T> special_;
+    std::size_t numbers_, block_ = 0;
+    std::vector<const input_family<T>*> families_;
+    std::vector<bool> keep_;
+};
+
+} // namespace gnomon::test

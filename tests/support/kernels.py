@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""What the headers define and what kernels.txt says about it: the one table that tests and benches share.
+
+usage: kernels.py OUTPUT TABLE HEADER...    writes a C++ header that includes all headers and defines
+    GNOMON_FOR_EACH_KERNEL(KERNEL) as KERNEL(name, inputs, outputs, "FAMILY...", unit) for every kernel: how many numbers go
+    in and come out, from which families they come, and whether the results are in [0, 1] whatever they are
+"""
+import re
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+TYPE = r"(?:GNOMON_T\(\w+\)|\w+)"
+
+
+class Kernel(NamedTuple):
+    name: str
+    header: str # as it is included
+    result: str # a struct's name or Real
+    parameters: list # of the same
+
+
+class Line(NamedTuple):
+    number: int
+    families: list
+    unit: bool
+
+
+class Headers:
+    """The structs, member by member as (type, name), and the kernels of some headers, in their order."""
+
+    def __init__(self, headers):
+        self.structs, self.kernels = {}, []
+        for header in sorted(headers):
+            text = re.sub(r"//.*", "", Path(header).read_text())
+            name = re.search(r"gnomon/.*", Path(header).as_posix())[0]
+            for struct, body in re.findall(r"^GNOMON_STRUCT\s+(\w+)\s*\{([^}]*)\}", text, re.MULTILINE):
+                self.structs[struct] = [(type_name(member_type), member.strip())
+                                        for member_type, members in re.findall(rf"({TYPE})\s+([\w\s,]+);", body)
+                                        for member in members.split(",")]
+            found = re.findall(rf"^GNOMON_KERNEL\s+({TYPE})\s+(\w+)\(((?:[^()]|\(\w+\))*)\)", text, re.MULTILINE)
+            if len(found) != len(re.findall(r"^GNOMON_KERNEL\b", text, re.MULTILINE)):
+                raise ValueError(f"{header}: a kernel's head that is not understood")
+            for result, kernel, parameters in found:
+                types = [type_name(parameter.split()[0]) for parameter in parameters.split(",")]
+                self.kernels.append(Kernel(kernel, name, type_name(result), types))
+
+    def numbers(self, type_):
+        """The numbers of a type as member accesses, such as .phase.cosine; of a Real, the value itself."""
+        if type_ == "Real":
+            return [""]
+        return [f".{member}{rest}" for member_type, member in self.structs[type_] for rest in self.numbers(member_type)]
+
+    def inputs(self, kernel):
+        return sum(len(self.numbers(parameter)) for parameter in kernel.parameters)
+
+
+def type_name(text):
+    name = re.sub(r"GNOMON_T\((\w+)\)", r"\1", text)
+    return "Real" if name == "GNOMON_SETTING" else name
+
+
+def table(path):
+    lines = {}
+    for number, text in enumerate(Path(path).read_text().splitlines(), 1):
+        if not text or text.startswith("#"):
+            continue
+        match = re.fullmatch(r"(\w+):((?: \w+)+)( -> unit)?", text)
+        if not match or match[1] in lines:
+            raise ValueError(f"{path}:{number}: KERNEL: FAMILY... [-> unit] expected, once per kernel")
+        lines[match[1]] = Line(number, match[2].split(), bool(match[3]))
+    return lines
+
+
+def read(path, headers):
+    """The headers' contents and the table's lines, which name the same kernels."""
+    found, lines = Headers(headers), table(path)
+    names = {kernel.name for kernel in found.kernels}
+    for kernel in found.kernels:
+        if kernel.name not in lines:
+            raise ValueError(f"{path}: no line for {kernel.name} ({kernel.header})")
+    for name, line in lines.items():
+        if name not in names:
+            raise ValueError(f"{path}:{line.number}: no header defines {name}")
+    return found, lines
+
+
+def main():
+    output, path, *headers = sys.argv[1:]
+    try:
+        found, lines = read(path, headers)
+    except (OSError, ValueError) as error:
+        print(f"kernels.py: {error}", file=sys.stderr)
+        sys.exit(2)
+    includes = dict.fromkeys(f"#include <{kernel.header}>\n" for kernel in found.kernels)
+    rows = [f'KERNEL({kernel.name}, {found.inputs(kernel)}, {len(found.numbers(kernel.result))}, '
+            f'"{" ".join(lines[kernel.name].families)}", {str(lines[kernel.name].unit).lower()})' for kernel in found.kernels]
+    Path(output).write_text("#pragma once\n" + "".join(includes) + "#define GNOMON_FOR_EACH_KERNEL(KERNEL) \\\n    " +
+                            " \\\n    ".join(rows) + "\n")
+
+
+if __name__ == "__main__":
+    main()
