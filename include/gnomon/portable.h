@@ -18,6 +18,9 @@
 //   GNOMON_SPLITTER                  2^ceil(p / 2) + 1 for a significand of p bits (Dekker 1971)
 //   GNOMON_PIVOT_FLOOR               the least pivot, far above the square of what rounding makes of P_k at a node,
 //                                    its 7th power normal once scaled by 2^112: 2^-30, in double 2^-66
+//
+// Zeros have signs, and a pack may lose one: -x of +0 is +0 for xsimd's AVX-512. Where that zero could reach a result, a
+// kernel has 0 - x, which is +0 everywhere.
 #ifndef GNOMON_PORTABLE_H
 #define GNOMON_PORTABLE_H
 
@@ -29,7 +32,9 @@
 #include "portable/hlsl.h"
 #elif defined(__cplusplus)
 #include "portable/cpp.h"
-#elif defined(GL_core_profile) || defined(GL_es_profile) || defined(VULKAN)
+#elif defined(VULKAN) && __VERSION__ == 500 // glslang, reading HLSL
+#include "portable/hlsl.h"
+#elif defined(GL_core_profile) || defined(GL_compatibility_profile) || defined(GL_ES) || defined(VULKAN)
 #include "portable/glsl.h"
 #else
 #error "gnomon: unknown language; an HLSL compiler that defines no macro of its own needs GNOMON_HLSL"

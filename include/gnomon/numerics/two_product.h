@@ -1,4 +1,4 @@
-// Error-free transformations: a sum or product of two numbers as the rounded result and its exact error.
+// Error-free transformations: a difference or product of two numbers as the rounded result and its exact error.
 // A double word (high + low, unevaluated) carries such a pair on: Dekker 1971; Knuth, TAOCP 2, 4.2.2; Ogita, Rump &
 // Oishi 2005.
 #ifndef GNOMON_NUMERICS_TWO_PRODUCT_H
@@ -10,16 +10,16 @@ GNOMON_NAMESPACE_BEGIN
 GNOMON_STRUCT double_word { Real high, low; };
 
 /// a b - p for p = a b rounded, without a fused multiply-add: both factors are split into halves whose products are
-/// exact.
+/// exact. Summed in this order an error of zero is +0, as the fused one is.
 GNOMON_KERNEL Real dekker_product_error(Real a, Real b, Real p)
 {
-    Real sa = GNOMON_SPLITTER * a;
-    Real sb = GNOMON_SPLITTER * b;
+    Real sa = gnomon_product(GNOMON_SPLITTER, a); // contracted with what follows, it would leave no halves
+    Real sb = gnomon_product(GNOMON_SPLITTER, b);
     Real ah = sa - (sa - a);
     Real bh = sb - (sb - b);
     Real al = a - ah;
     Real bl = b - bh;
-    return al * bl - (((p - ah * bh) - al * bh) - ah * bl);
+    return (((ah * bh - p) + al * bh) + ah * bl) + al * bl;
 }
 
 /// a b exactly. Domain: |a|, |b| <= 2^100 and |a b| = 0 or >= 2^-100 in float (2^900, 2^-900 in double); there the
@@ -36,22 +36,22 @@ GNOMON_KERNEL GNOMON_T(double_word) two_product(Real a, Real b)
     return r;
 }
 
-/// a + b exactly, whatever their order (Knuth).
-GNOMON_KERNEL GNOMON_T(double_word) two_sum(Real a, Real b)
+/// a - b exactly, whatever their order (Knuth).
+GNOMON_KERNEL GNOMON_T(double_word) two_difference(Real a, Real b)
 {
     GNOMON_T(double_word) r;
-    r.high = a + b;
+    r.high = a - b;
     Real bv = r.high - a;
-    r.low = (a - (r.high - bv)) + (b - bv);
+    r.low = (a - (r.high - bv)) - (b + bv);
     return r;
 }
 
-/// a + b exactly where |a| >= |b| or a = 0 (Dekker); elsewhere low carries an error of a rounding of a.
-GNOMON_KERNEL GNOMON_T(double_word) two_sum_ordered(Real a, Real b)
+/// a - b exactly where |a| >= |b| or a = 0 (Dekker); elsewhere low carries an error of a rounding of a.
+GNOMON_KERNEL GNOMON_T(double_word) two_difference_ordered(Real a, Real b)
 {
     GNOMON_T(double_word) r;
-    r.high = a + b;
-    r.low = b - (r.high - a);
+    r.high = a - b;
+    r.low = (a - r.high) - b;
     return r;
 }
 
@@ -59,7 +59,7 @@ GNOMON_KERNEL GNOMON_T(double_word) two_sum_ordered(Real a, Real b)
 GNOMON_KERNEL GNOMON_T(double_word) subtract_product(Real c, Real a, Real b)
 {
     GNOMON_T(double_word) p = two_product(a, b);
-    GNOMON_T(double_word) r = two_sum(c, -p.high);
+    GNOMON_T(double_word) r = two_difference(c, p.high);
     r.low = r.low - p.low;
     return r;
 }
@@ -68,7 +68,7 @@ GNOMON_KERNEL GNOMON_T(double_word) subtract_product(Real c, Real a, Real b)
 GNOMON_KERNEL GNOMON_T(double_word) subtract_product_ordered(Real c, Real a, Real b)
 {
     GNOMON_T(double_word) p = two_product(a, b);
-    GNOMON_T(double_word) r = two_sum_ordered(c, -p.high);
+    GNOMON_T(double_word) r = two_difference_ordered(c, p.high);
     r.low = r.low - p.low;
     return r;
 }
@@ -96,7 +96,7 @@ GNOMON_KERNEL GNOMON_T(double_word) double_word_minor(GNOMON_T(double_word) a, G
 {
     GNOMON_T(double_word) p = two_product(a.high, b.high);
     GNOMON_T(double_word) q = two_product(c.high, d.high);
-    GNOMON_T(double_word) r = two_sum(p.high, -q.high);
+    GNOMON_T(double_word) r = two_difference(p.high, q.high);
     Real cross = (a.high * b.low + a.low * b.high) - (c.high * d.low + c.low * d.high);
     r.low = r.low + ((p.low - q.low) + (cross + (a.low * b.low - c.low * d.low)));
     return r;

@@ -1,8 +1,13 @@
-// The GLSL prelude: version 450, or ESSL 320, for shaders with float as Real.
-// For the same bits as on the CPU compile without contraction (docs/architecture.md); precise keeps the exact products
-// whole in any case.
+// GLSL from version 400 and ESSL from version 310, with float as Real.
+// For the same bits as on the CPU compile without contraction (docs/shaders.md); exact products stay whole in any case.
 #ifndef GNOMON_PORTABLE_GLSL_H
 #define GNOMON_PORTABLE_GLSL_H
+
+#if defined(GL_ES) && __VERSION__ < 310
+#error "gnomon: #version 310 es or later needed"
+#elif !defined(GL_ES) && __VERSION__ < 400
+#error "gnomon: #version 400 or later needed"
+#endif
 
 #define Real float
 #define GNOMON_NAMESPACE_BEGIN
@@ -16,8 +21,17 @@
 #define GNOMON_LITERAL(name) name
 #define GNOMON_FUSED false
 #define GNOMON_DIGITS 24
-#define GNOMON_SPLITTER Real(4097.0)
-#define GNOMON_PIVOT_FLOOR Real(9.31322574615478515625e-10)
+#define GNOMON_SPLITTER gnomon_splitter
+#define GNOMON_PIVOT_FLOOR gnomon_pivot_floor
+
+#if defined(GL_ES)
+// What the kernels need. For less behind them, say so behind this line.
+precision highp float;
+precision highp int;
+#endif
+
+const Real gnomon_splitter = Real(4097);
+const Real gnomon_pivot_floor = Real(9.31322574615478515625e-10); // 2^-30
 
 Real gnomon_select(bool mask, Real a, Real b) { return mask ? a : b; }
 bool gnomon_any(bool mask) { return mask; }
@@ -25,11 +39,17 @@ Real gnomon_min(Real a, Real b) { return a < b ? a : b; }
 Real gnomon_max(Real a, Real b) { return b < a ? a : b; }
 Real gnomon_abs(Real a) { return abs(a); }
 Real gnomon_sqrt(Real a) { return sqrt(a); }
-Real gnomon_fma(Real a, Real b, Real c) { return fma(a, b, c); }
+Real gnomon_fma(Real a, Real b, Real c) { return a * b + c; } // never called: GNOMON_FUSED is false
 Real gnomon_product(Real a, Real b)
 {
+#if defined(GL_ES) && __VERSION__ < 320
+    // There is no precise; but nothing is fused across a choice. Both sides of this one have the same value.
+    Real p = a * b;
+    return abs(p) <= Real(3.4028234663852886e38) ? p : p + p;
+#else
     precise Real p = a * b;
     return p;
+#endif
 }
 Real gnomon_power_of_two(Real n) { return intBitsToFloat((int(n) + 127) << 23); }
 

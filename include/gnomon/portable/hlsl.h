@@ -1,6 +1,5 @@
-// The HLSL prelude, for float as Real. No templates, so that old front ends take it too.
-// For the same bits as on the CPU compile with strict IEEE arithmetic (/Gis); precise keeps the exact products whole in
-// any case.
+// HLSL with float as Real; no templates, so that old front ends take it too.
+// For the same bits as on the CPU compile with strict IEEE arithmetic (/Gis); exact products stay whole in any case.
 #ifndef GNOMON_PORTABLE_HLSL_H
 #define GNOMON_PORTABLE_HLSL_H
 
@@ -16,8 +15,11 @@
 #define GNOMON_LITERAL(name) name
 #define GNOMON_FUSED false
 #define GNOMON_DIGITS 24
-#define GNOMON_SPLITTER Real(4097.0)
-#define GNOMON_PIVOT_FLOOR Real(9.31322574615478515625e-10)
+#define GNOMON_SPLITTER gnomon_splitter
+#define GNOMON_PIVOT_FLOOR gnomon_pivot_floor
+
+static const Real gnomon_splitter = Real(4097);
+static const Real gnomon_pivot_floor = Real(9.31322574615478515625e-10); // 2^-30
 
 Real gnomon_select(bool mask, Real a, Real b) { return mask ? a : b; }
 bool gnomon_any(bool mask) { return mask; }
@@ -25,7 +27,7 @@ Real gnomon_min(Real a, Real b) { return a < b ? a : b; }
 Real gnomon_max(Real a, Real b) { return b < a ? a : b; }
 Real gnomon_abs(Real a) { return abs(a); }
 Real gnomon_sqrt(Real a) { return sqrt(a); }
-Real gnomon_fma(Real a, Real b, Real c) { return mad(a, b, c); }
+Real gnomon_fma(Real a, Real b, Real c) { return a * b + c; } // never called: GNOMON_FUSED is false
 Real gnomon_product(Real a, Real b)
 {
     precise Real p = a * b;

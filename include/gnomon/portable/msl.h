@@ -1,4 +1,4 @@
-// The Metal prelude: C++14 with address spaces. Kernels stay templates; Real is float.
+// Metal: C++14 with address spaces. Kernels stay templates; Real is float.
 // For the same bits as on the CPU compile with -fno-fast-math and -ffp-contract=off.
 #ifndef GNOMON_PORTABLE_MSL_H
 #define GNOMON_PORTABLE_MSL_H
@@ -16,10 +16,13 @@
 #define GNOMON_LITERAL(name) Real(name)
 #define GNOMON_FUSED true
 #define GNOMON_DIGITS 24
-#define GNOMON_SPLITTER Real(4097.0f)
-#define GNOMON_PIVOT_FLOOR Real(9.31322574615478515625e-10f)
+#define GNOMON_SPLITTER Real(gnomon_splitter)
+#define GNOMON_PIVOT_FLOOR Real(gnomon_pivot_floor)
 
 namespace gnomon {
+
+constant constexpr float gnomon_splitter = 4097.0f;
+constant constexpr float gnomon_pivot_floor = 9.31322574615478515625e-10f; // 2^-30
 
 template <class T> struct same {
     using type = T;

@@ -1,8 +1,16 @@
-// The OpenCL C prelude, 1.2 and later, for float as Real.
+// OpenCL C from version 1.2, full profile, with float as Real.
 // For the same bits as on the CPU put #pragma OPENCL FP_CONTRACT OFF before the kernels and build without relaxed
 // mathematics.
 #ifndef GNOMON_PORTABLE_OPENCL_H
 #define GNOMON_PORTABLE_OPENCL_H
+
+#if defined(__OPENCL_C_VERSION__) && __OPENCL_C_VERSION__ < 120
+#error "gnomon: -cl-std=CL1.2 or later needed"
+#elif defined(__EMBEDDED_PROFILE__)
+#error "gnomon: the full profile needed: the embedded one rounds as it likes"
+#elif defined(__FAST_RELAXED_MATH__) && !defined(GNOMON_ALLOW_FAST_MATH)
+#error "gnomon: -cl-fast-relaxed-math voids the treatment of NaN and the exact products; build without it"
+#endif
 
 // OpenCL C has no Real(x): a macro of the type's name supplies it, and leaves the type alone where no parenthesis
 // follows.
@@ -19,8 +27,11 @@ typedef float Real;
 #define GNOMON_LITERAL(name) name
 #define GNOMON_FUSED true
 #define GNOMON_DIGITS 24
-#define GNOMON_SPLITTER 4097.0f
-#define GNOMON_PIVOT_FLOOR 9.31322574615478515625e-10f
+#define GNOMON_SPLITTER gnomon_splitter
+#define GNOMON_PIVOT_FLOOR gnomon_pivot_floor
+
+__constant float gnomon_splitter = 4097.0f;
+__constant float gnomon_pivot_floor = 9.31322574615478515625e-10f; // 2^-30
 
 static inline Real gnomon_select(bool mask, Real a, Real b) { return mask ? a : b; }
 static inline bool gnomon_any(bool mask) { return mask; }
