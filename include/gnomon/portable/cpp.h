@@ -1,6 +1,10 @@
-// The C++20 prelude (also CUDA): kernels are templates over Real, which is float, double or any pack of them.
+// C++20, also CUDA: kernels are templates over Real, which is float, double or any pack of them.
 #ifndef GNOMON_PORTABLE_CPP_H
 #define GNOMON_PORTABLE_CPP_H
+
+#if !defined(__cpp_concepts)
+#error "gnomon: C++20 needed (-std=c++20)"
+#endif
 
 #include <cmath>
 #include <concepts>
