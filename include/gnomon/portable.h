@@ -12,6 +12,7 @@
 //   gnomon_min, gnomon_max           a < b ? a : b and a > b ? a : b, in this order: the second where one is NaN
 //   gnomon_abs, gnomon_sqrt          exact and correctly rounded
 //   gnomon_product                   the rounded product, never contracted into a later sum
+//   gnomon_difference                a - b rounded, never cancelled against a later sum, as (a - b) - a = -b
 //   GNOMON_FUSED, gnomon_fma         whether gnomon_fma(a, b, c) rounds a b + c once; only two_product asks
 //   gnomon_power_of_two              2^n for a whole number n within the normal range; any value where n is NaN
 //   GNOMON_DIGITS                    p, the bits of the significand: 24 or 53; only numerics/ asks

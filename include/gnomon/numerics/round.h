@@ -7,11 +7,11 @@ GNOMON_NAMESPACE_BEGIN
 /// The whole number nearest to x, ties to even. Domain: |x| <= 2^22 in float, 2^51 in double; a NaN stays a NaN.
 GNOMON_KERNEL Real nearest_integer(Real x)
 {
-    Real rounder = Real(12582912);
+    Real rounder = Real(-12582912);
     if (GNOMON_DIGITS > 24) {
-        rounder = Real(6755399441055744.0);
+        rounder = Real(-6755399441055744.0);
     }
-    return (x + rounder) - rounder;
+    return gnomon_difference(x, rounder) + rounder;
 }
 
 GNOMON_NAMESPACE_END

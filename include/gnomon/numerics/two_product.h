@@ -15,8 +15,8 @@ GNOMON_KERNEL Real dekker_product_error(Real a, Real b, Real p)
 {
     Real sa = gnomon_product(GNOMON_SPLITTER, a); // contracted with what follows, it would leave no halves
     Real sb = gnomon_product(GNOMON_SPLITTER, b);
-    Real ah = sa - (sa - a);
-    Real bh = sb - (sb - b);
+    Real ah = sa - gnomon_difference(sa, a);
+    Real bh = sb - gnomon_difference(sb, b);
     Real al = a - ah;
     Real bl = b - bh;
     return (((ah * bh - p) + al * bh) + ah * bl) + al * bl;
@@ -40,8 +40,8 @@ GNOMON_KERNEL GNOMON_T(double_word) two_product(Real a, Real b)
 GNOMON_KERNEL GNOMON_T(double_word) two_difference(Real a, Real b)
 {
     GNOMON_T(double_word) r;
-    r.high = a - b;
-    Real bv = r.high - a;
+    r.high = gnomon_difference(a, b);
+    Real bv = gnomon_difference(r.high, a);
     r.low = (a - (r.high - bv)) - (b + bv);
     return r;
 }
@@ -50,7 +50,7 @@ GNOMON_KERNEL GNOMON_T(double_word) two_difference(Real a, Real b)
 GNOMON_KERNEL GNOMON_T(double_word) two_difference_ordered(Real a, Real b)
 {
     GNOMON_T(double_word) r;
-    r.high = a - b;
+    r.high = gnomon_difference(a, b);
     r.low = (a - r.high) - b;
     return r;
 }

@@ -151,6 +151,8 @@ template <class T> GNOMON_INLINE constexpr T gnomon_fma(T a, T b, T c)
     else return a * b + c;
 }
 
+template <class T> GNOMON_INLINE constexpr T gnomon_difference(T a, T b) { return a - b; }
+
 template <class T> GNOMON_INLINE constexpr T gnomon_power_of_two(T n)
 {
     if constexpr (std::is_same_v<T, float>) {

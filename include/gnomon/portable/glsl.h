@@ -51,6 +51,16 @@ Real gnomon_product(Real a, Real b)
     return p;
 #endif
 }
+Real gnomon_difference(Real a, Real b)
+{
+#if defined(GL_ES) && __VERSION__ < 320
+    Real d = a - b;
+    return abs(d) <= Real(3.4028234663852886e38) ? d : d + d;
+#else
+    precise Real d = a - b;
+    return d;
+#endif
+}
 Real gnomon_power_of_two(Real n) { return intBitsToFloat((int(n) + 127) << 23); }
 
 #endif

@@ -33,6 +33,11 @@ Real gnomon_product(Real a, Real b)
     precise Real p = a * b;
     return p;
 }
+Real gnomon_difference(Real a, Real b)
+{
+    precise Real d = a - b;
+    return d;
+}
 Real gnomon_power_of_two(Real n) { return asfloat((int(n) + 127) << 23); }
 
 #endif

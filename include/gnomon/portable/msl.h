@@ -37,6 +37,7 @@ template <class T> inline T gnomon_abs(T a) { return metal::fabs(a); }
 template <class T> inline T gnomon_sqrt(T a) { return metal::precise::sqrt(a); }
 template <class T> inline T gnomon_fma(T a, T b, T c) { return metal::fma(a, b, c); }
 template <class T> inline T gnomon_product(T a, T b) { return metal::fma(a, b, T(-0.0f)); }
+template <class T> inline T gnomon_difference(T a, T b) { return a - b; }
 template <class T> inline T gnomon_power_of_two(T n) { return as_type<T>((int(n) + 127) << 23); }
 
 } // namespace gnomon

@@ -41,6 +41,7 @@ static inline Real gnomon_abs(Real a) { return fabs(a); }
 static inline Real gnomon_sqrt(Real a) { return sqrt(a); }
 static inline Real gnomon_fma(Real a, Real b, Real c) { return fma(a, b, c); }
 static inline Real gnomon_product(Real a, Real b) { return fma(a, b, -0.0f); }
+static inline Real gnomon_difference(Real a, Real b) { return a - b; }
 static inline Real gnomon_power_of_two(Real n) { return as_float((convert_int_rtz(n) + 127) << 23); }
 
 #endif
