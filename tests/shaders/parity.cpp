@@ -40,12 +40,12 @@ struct denormals {
 denormals probe(route& r)
 {
     constexpr float least_normal = std::numeric_limits<float>::min();
-    constexpr kernel two_sum{"two_sum", 2, 2, ""};
+    constexpr kernel two_difference{"two_difference", 2, 2, ""};
     std::array<float, 2 * test::block_rows> in{}, out{};
     in[0] = least_normal / 2;
     in[1] = least_normal * 1.5f;
-    in[test::block_rows + 1] = -least_normal;
-    r.run(two_sum, in, out);
+    in[test::block_rows + 1] = least_normal;
+    r.run(two_difference, in, out);
     return {out[0] == 0, out[1] == 0};
 }
 
