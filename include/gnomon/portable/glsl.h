@@ -40,27 +40,23 @@ Real gnomon_max(Real a, Real b) { return b < a ? a : b; }
 Real gnomon_abs(Real a) { return abs(a); }
 Real gnomon_sqrt(Real a) { return sqrt(a); }
 Real gnomon_fma(Real a, Real b, Real c) { return a * b + c; } // never called: GNOMON_FUSED is false
+#if defined(GL_ES) && __VERSION__ < 320
+// There is no precise; but nothing is fused across a choice. Both sides of this one have the same value.
+Real gnomon_kept(Real x) { return gnomon_select(abs(x) <= Real(3.4028234663852886e38), x, x + x); }
+Real gnomon_product(Real a, Real b) { return gnomon_kept(a * b); }
+Real gnomon_difference(Real a, Real b) { return gnomon_kept(a - b); }
+#else
 Real gnomon_product(Real a, Real b)
 {
-#if defined(GL_ES) && __VERSION__ < 320
-    // There is no precise; but nothing is fused across a choice. Both sides of this one have the same value.
-    Real p = a * b;
-    return abs(p) <= Real(3.4028234663852886e38) ? p : p + p;
-#else
     precise Real p = a * b;
     return p;
-#endif
 }
 Real gnomon_difference(Real a, Real b)
 {
-#if defined(GL_ES) && __VERSION__ < 320
-    Real d = a - b;
-    return abs(d) <= Real(3.4028234663852886e38) ? d : d + d;
-#else
     precise Real d = a - b;
     return d;
-#endif
 }
+#endif
 Real gnomon_power_of_two(Real n) { return intBitsToFloat((int(n) + 127) << 23); }
 
 #endif
