@@ -155,4 +155,5 @@ class Prelude:
 
     @property
     def suffix(self):
-        return "f" if "4097.0f" in self.macros["GNOMON_SPLITTER"][1] else ""
+        """What the prelude writes behind its own numbers."""
+        return "f" if re.search(r"\d\.\d+f;", "".join(self.blocks)) else ""

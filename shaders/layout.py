@@ -20,6 +20,9 @@ def wrapped(line):
         return [template[1], *wrapped(template[2])]
     if function := FUNCTION.fullmatch(line):
         return [*wrapped(function[1]), "{", *wrapped("    " + function[2]), "}"]
+    if "//" in line: # a comment behind code that leaves it no room goes before
+        code, comment = line.split("//")
+        return [" " * (len(line) - len(line.lstrip())) + "//" + comment, *wrapped(code.rstrip())]
     lines, opened, rest = [], [], line
     begins = re.match(r".*?(?: = |\breturn )", line)
     while len(rest) > WIDTH:

@@ -8,44 +8,69 @@ LANGUAGE is a key of ROUTES. INCLUDE is the folder that holds gnomon/.
 import subprocess
 import sys
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
 
-GLSLANG = ["glslangValidator", "-V", "--target-env", "vulkan1.1", "-o", "/dev/null"]
-COMPUTE = '#extension GL_GOOGLE_include_directive : require\n#include "{}"\nlayout(local_size_x = 1) in;\nvoid main() {{}}\n'
+INCLUDES = "#extension GL_GOOGLE_include_directive : require\n"
+GLSLANG = ["glslangValidator", "-V", "--target-env", "vulkan1.1"]
 
-# The unit's text and ending, and the compiler's command line before -I and the unit.
+
+@dataclass(frozen=True)
+class Route:
+    """How a language's units begin and what their main looks like, and the compiler's command line before -I, -o and unit."""
+    package: str # the ending of the shader packages
+    ending: str
+    begin: str
+    main: str
+    compiler: list[str]
+
+    def compiled(self, text, output, include=None):
+        """The compiler's run on a unit of this text."""
+        unit = output.with_suffix(self.ending)
+        unit.write_text(text)
+        options = [f"-I{include}"] if include else []
+        return subprocess.run([*self.compiler, *options, "-o", str(output), str(unit)], capture_output=True, text=True)
+
+
+def complaints(run):
+    """What a compiler had against a unit, less the echo of its name."""
+    lines = [line for line in (run.stdout + run.stderr).splitlines() if "error" in line.lower()]
+    return lines or ["refused without a word"]
+
+
+C_MAIN = "void calls(void);\nvoid calls(void) {{{}}}\n"
+LLVM = ["-O1", "-ffp-contract=off", "-S", "-emit-llvm", "-Wall", "-Wextra", "-Werror", "-Wno-unused"]
 ROUTES = {
-    "glsl": ("#version 450\n" + COMPUTE, ".comp", GLSLANG),
-    "essl": ("#version 320 es\nprecision highp float;\n" + COMPUTE, ".comp", GLSLANG),
-    "hlsl": ('#include "{}"\n[numthreads(1, 1, 1)] void main() {{}}\n', ".hlsl",
-             GLSLANG + ["-D", "-DGNOMON_HLSL", "-e", "main", "-S", "comp"]),
-    "opencl": ('#include "{}"\n', ".cl",
-               ["clang", "-x", "cl", "-cl-std=CL1.2", "-Xclang", "-finclude-default-header", "-target", "spir64", "-Werror",
-                "-fsyntax-only"]),
+    "glsl": Route("glsl", ".comp", "#version 450\n" + INCLUDES,
+                  "layout(local_size_x = 1) in;\nvoid main() {{{}}}\n", GLSLANG),
+    "glsl400": Route("glsl", ".frag", "#version 400\n" + INCLUDES, "void main() {{{}}}\n", ["glslangValidator", "-G"]),
+    "essl310": Route("glsl", ".frag", "#version 310 es\n" + INCLUDES, "void main() {{{}}}\n", GLSLANG),
+    "essl320": Route("glsl", ".frag", "#version 320 es\n" + INCLUDES, "void main() {{{}}}\n", GLSLANG),
+    "hlsl": Route("hlsl", ".hlsl", "", "[numthreads(1, 1, 1)] void main() {{{}}}\n", GLSLANG + ["-D", "-Od", "-e", "main", "-S", "comp"]),
+    "opencl": Route("cl", ".cl", "", C_MAIN,
+                    ["clang", "-x", "cl", "-cl-std=CL1.2", "-Xclang", "-finclude-default-header", "-target", "spir64", *LLVM]),
     # Apple's compiler is not to be had here: clang, with the few names of metal_stdlib that the prelude uses.
-    "metal": ('#include "{}"\n', ".metal",
-              ["clang++", "-x", "c++", "-std=c++14", "-D__METAL_VERSION__=300", "-Wall", "-Wextra", "-Werror", "-fsyntax-only",
-               f"-I{Path(__file__).parent / 'metal'}"]),
+    "metal": Route("metal", ".metal", "", C_MAIN,
+                   ["clang++", "-x", "c++", "-std=c++14", "-D__METAL_VERSION__=300", f"-I{Path(__file__).parent / 'metal'}", *LLVM]),
+    "c++": Route("cuh", ".cpp", "", C_MAIN, ["clang++", "-std=c++20", *LLVM]),
 }
 
 
 def main():
-    language, include = sys.argv[1], Path(sys.argv[2])
-    text, ending, compiler = ROUTES[language]
+    route, include = ROUTES[sys.argv[1]], Path(sys.argv[2])
     headers = sorted(h for h in include.rglob("*.h") if h.parent.name != "portable")
     failed = 0
     with tempfile.TemporaryDirectory() as folder:
-        unit = Path(folder) / ("unit" + ending)
         for header in headers:
             name = header.relative_to(include).as_posix()
-            unit.write_text(text.format(name))
-            run = subprocess.run(compiler + [f"-I{include}", str(unit)], capture_output=True, text=True)
+            text = f'{route.begin}#include "{name}"\n{route.main.format("")}'
+            run = route.compiled(text, Path(folder) / "unit.out", include)
             if run.returncode:
                 failed += 1
-                complaint = [line for line in (run.stdout + run.stderr).splitlines() if "error" in line.lower()]
-                print(f"{name}: {complaint[0] if complaint else 'refused without a word'}")
-    print(f"{language}: {len(headers)} headers, {failed} refused")
+                print(f"{name}: {complaints(run)[0]}")
+    print(f"{sys.argv[1]}: {len(headers)} headers, {failed} refused")
     sys.exit(failed > 0 or not headers)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+"""The shader packages of one language: each by itself, all in one unit, and the same code as the headers have.
+
+usage: packages.py LANGUAGE INCLUDE PACKAGES    prints one line for each fault; exit code 1 if there is any
+
+LANGUAGE is a key of languages.ROUTES, INCLUDE the folder that holds gnomon/, PACKAGES the one that shaders/package.py
+wrote. Every unit makes the compiler go through every kernel in it. What is compared, function by function, is SPIR-V or
+LLVM's code, after the passes that undo what the packager may do: take a branch whose condition the language decides.
+"""
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+from fractions import Fraction
+from pathlib import Path
+
+from languages import ROUTES, complaints
+
+sys.path.append(str(Path(__file__).parent.parent / "support"))
+from kernels import Headers
+
+SPIRV_PASSES = ["--eliminate-dead-branches", "--merge-blocks", "--eliminate-local-single-block",
+                "--eliminate-local-single-store", "--ssa-rewrite", "--eliminate-dead-code-aggressive"]
+
+
+class Refused(Exception):
+    pass
+
+
+def touch(language, kernels):
+    """(definitions, statements) that make a compiler go through these kernels."""
+    if language == "opencl": # functions with neither static nor inline are compiled in any case
+        return "", ""
+    if language in ("c++", "metal"):
+        instances = [f"template {typed(kernel.result, real)} {kernel.name}<{real}>"
+                     f"({', '.join(typed(parameter, real) for parameter in kernel.parameters)});\n"
+                     for kernel in kernels for real in (["float", "double"] if language == "c++" else ["float"])]
+        return f"namespace gnomon {{\n{''.join(instances)}}}\n", ""
+    calls = []
+    for kernel in kernels:
+        names = [f"a{i}" for i in range(len(kernel.parameters))]
+        declared = "".join(f"{'float' if type_ == 'Real' else type_} {name}; " for type_, name in zip(kernel.parameters, names))
+        calls.append(f"{{ {declared}{kernel.name}({', '.join(names)}); }}\n")
+    return "", "".join(calls)
+
+
+def typed(type_, real):
+    return real if type_ == "Real" else f"{type_}<{real}>"
+
+
+def code(language, text, kernels, folder, include=None):
+    """The code that a unit becomes, by function."""
+    route = ROUTES[language]
+    definitions, statements = touch(language, kernels)
+    plain = "#define static\n#define inline\n" if language == "opencl" else ""
+    output = folder / "unit.out"
+    run = route.compiled(route.begin + plain + text + definitions + route.main.format(statements), output, include)
+    if run.returncode:
+        raise Refused(complaints(run)[0])
+    return spirv_functions(output) if route.compiler[0] == "glslangValidator" else llvm_functions(output.read_text())
+
+
+def llvm_functions(text):
+    text = re.sub(r"(?:, )?!\w+(?: !\d+)?| #\d+|;.*|(?<=\w)\.\d+(?=\")", "", text) # numbers given per unit
+    return {head[1]: body for body, head in
+            ((body, re.search(r"@(\w+)\(", body)) for body in re.findall(r"^define .*?^}", text, re.MULTILINE | re.DOTALL))}
+
+
+def spirv_functions(path):
+    """Functions by name; in each, types and constants are spelled out, and ids counted from 0."""
+    optimised = path.with_suffix(".opt")
+    subprocess.run(["spirv-opt", *SPIRV_PASSES, str(path), "-o", str(optimised)], check=True)
+    run = subprocess.run(["spirv-dis", "--raw-id", "--no-color", "--no-indent", "--no-header", str(optimised)],
+                         check=True, capture_output=True, text=True)
+    head, *functions = re.split(r"\n(?=%\d+ = OpFunction )", run.stdout)
+    names = dict(re.findall(r'^OpName (%\d+) "(@?\w+)', head, re.MULTILINE))
+    spelled = {}
+    for name, text in re.findall(r"^(%\d+) = (Op(?:Type|Constant|Variable|Undef).*)", head, re.MULTILINE):
+        spelled[name] = f"({re.sub(r'%[0-9]+', lambda word: spelled[word[0]], text)} {names.get(name, '')})"
+    decorated = {}
+    for name, text in re.findall(r"^OpDecorate (%\d+) (.*)", head, re.MULTILINE):
+        decorated[name] = decorated.get(name, "") + f" {text}"
+
+    def function(text):
+        local = {}
+
+        def word(found):
+            name = found[0]
+            if name in callees or name in spelled:
+                return callees.get(name) or spelled[name]
+            return local.setdefault(name, f"%{len(local)}{decorated.get(name, '')}")
+
+        return re.sub(r"%\d+", word, text).strip()
+
+    callees = {text.split(" ", 1)[0]: names[text.split(" ", 1)[0]] for text in functions}
+    return {callees[text.split(" ", 1)[0]]: function(text) for text in functions}
+
+
+def rounds_once(decimal):
+    """Whether a number becomes the same float at once and by way of double, as in C++: not where a tie arises on the way."""
+    double = float(decimal)
+    low_bits = struct.unpack("Q", struct.pack("d", double))[0] & 0x1fffffff
+    return low_bits != 0x10000000 or Fraction(decimal) == Fraction(double)
+
+
+def main():
+    language, include, packages = sys.argv[1], *map(Path, sys.argv[2:])
+    kernels = Headers(path for path in (include / "gnomon").rglob("*.h") if path.parent.name != "portable").kernels
+    texts = {path.stem: path.read_text() for path in sorted(packages.glob(f"*.{ROUTES[language].package}"))}
+    faults, functions = [], {}
+    with tempfile.TemporaryDirectory() as folder:
+        folder = Path(folder)
+
+        def compiled(what, text, wanted, include=None):
+            try:
+                functions[what] = code(language, text, wanted, folder, include)
+            except Refused as refused:
+                faults.append(f"{what}: {refused}")
+
+        headers = "".join(f'#include "{header}"\n' for header in sorted({kernel.header for kernel in kernels}))
+        compiled("headers", headers, kernels, include)
+        compiled("all packages", "\n".join([*texts.values()] * 2), kernels)
+        for name, text in texts.items():
+            heads = re.findall(r"^(?:\w[^(\n]*\b|    )(\w+)\(", text, re.MULTILINE)
+            compiled(name, text, [kernel for kernel in kernels if kernel.name in heads])
+            faults += [f"{name}: {number} is rounded to another float by way of double"
+                       for number in set(re.findall(r"\d+\.\d*(?:e[+-]?\d+)?|\d+e[+-]?\d+", re.sub("//.*", "", text)))
+                       if not rounds_once(number)]
+            for macro in set(re.findall(r"^ *# *define +(?!GNOMON_)(\w+)", text, re.MULTILINE)):
+                faults.append(f"{name}: defines {macro}")
+    for what, found in functions.items():
+        faults += [f"{what}: {name} is other code than in the headers" for name, text in found.items()
+                   if "main" not in name and functions["headers"].get(name) != text]
+    missing = set(functions.get("headers", {})) - set(functions.get("gnomon", {}))
+    faults += [f"gnomon: {name} is missing" for name in missing if "gnomon_fma" not in name]
+    print("\n".join(faults))
+    print(f"{language}: {len(texts)} packages, {len(kernels)} kernels, {len(faults)} faults")
+    sys.exit(bool(faults) or not texts)
+
+
+main()
