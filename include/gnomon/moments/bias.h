@@ -11,9 +11,11 @@
 //   kept apart    hankel4_biased: the same mixture without rounding it away; 100 times less error in float.
 //                 Intensities exceed the exact lower bound by alpha at most.
 //   adaptive      hankel4_raised: each pivot D_k = E[P_k^2] is raised only where it is below what noise of the stored
-//                 moments can make of it, noise |coefficients of P_k^2|_1. A third to a half less leaking at the same
-//                 sensitivity to noise; the price is that no proof bounds how far an intensity exceeds the exact lower
-//                 bound (seen: 0.03 at worst, over distributions made to provoke it).
+//                 moments can make of it. Errors up to e move it by up to e |coefficients of P_k^2|_1, which lies
+//                 between e |P_k(i)|^2 and 2^k times that, since the roots of P_k are real; |P_k(i)|^2 costs two
+//                 products. A third to a half less leaking at the same sensitivity to noise; the price is that no proof
+//                 bounds how far an intensity exceeds the exact lower bound (seen: 0.03 at worst, over distributions
+//                 made to provoke it).
 #ifndef GNOMON_MOMENTS_BIAS_H
 #define GNOMON_MOMENTS_BIAS_H
 #include "moments.h"

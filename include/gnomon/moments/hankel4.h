@@ -65,9 +65,9 @@ GNOMON_KERNEL GNOMON_T(hankel4)
     hankel4_biased(GNOMON_T(moments4) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4, GNOMON_SETTING alpha)
 {
     GNOMON_T(moments4) e;
-    e.b1 = -alpha * b.b1;
+    e.b1 = Real(0) - alpha * b.b1;
     e.b2 = alpha * (bias2 - b.b2);
-    e.b3 = -alpha * b.b3;
+    e.b3 = Real(0) - alpha * b.b3;
     e.b4 = alpha * (bias4 - b.b4);
     GNOMON_T(covariances4) c = covariances4_of(b);
     GNOMON_T(double_word) v = biased_covariance(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
@@ -76,52 +76,33 @@ GNOMON_KERNEL GNOMON_T(hankel4)
     return hankel4_guarded(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
 }
 
-/// The coefficients c1, ..., c4 of D_1 P_2^2 as a polynomial in z, on the boundary of valid moments, which is where
-/// they are asked for: there L^2 = V M, and D_1 P_2 = V z^2 - L z + (b1 L - b2 V) needs no division.
-GNOMON_KERNEL GNOMON_T(moments4) hankel4_noise_coefficients(GNOMON_T(moments4) b, Real v, Real l, Real m)
+/// Raises D_2 to at least noise |P_2(i)|^2, from V, already raised, L and M. On the boundary of valid moments, which is
+/// where that is asked for, L^2 = V M, and D_1 |P_2(i)|^2 is had without a division; it is V at least.
+GNOMON_KERNEL GNOMON_T(hankel4) hankel4_raised_last(GNOMON_T(moments4) b, Real v, Real l, Real m, GNOMON_SETTING noise)
 {
-    GNOMON_T(moments4) c;
-    c.b1 = Real(-2) * (b.b1 * m - b.b2 * l);
-    c.b2 = m + Real(2) * (b.b1 * l - b.b2 * v);
-    c.b3 = Real(-2) * l;
-    c.b4 = v;
-    return c;
+    Real t = b.b2 + Real(1);
+    Real norm = (b.b1 * b.b1 + Real(1)) * m + t * (t * v - (b.b1 + b.b1) * l);
+    return hankel4_of(b.b1, v, l, gnomon_max(noise * gnomon_max(v, norm), v * m - l * l));
 }
 
-/// The moments as they are, with each pivot D_k raised to at least noise |coefficients of P_k^2|_1, what errors up to
-/// noise in each stored moment make of it (bias.h, adaptive). Where V, L and M come without cancellation, the roundings
-/// of V M - L^2 stay below what noise of 2^-26 makes of it in float: double words would cost much and change little.
+/// The moments as they are, with each pivot D_k raised to at least noise |P_k(i)|^2, about what errors up to noise in
+/// each stored moment make of it (bias.h, adaptive). Where V, L and M come without cancellation, the roundings of
+/// V M - L^2 stay below what noise of 2^-26 makes of it in float: double words would cost much and change little.
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_raised(GNOMON_T(moments4) b, GNOMON_SETTING noise)
 {
     noise = gnomon_max(GNOMON_PIVOT_FLOOR, noise);
-    Real v = gnomon_max(noise + (noise + noise) * gnomon_abs(b.b1), subtract_product_rounded(b.b2, b.b1, b.b1));
+    Real v = gnomon_max(noise * (b.b1 * b.b1 + Real(1)), subtract_product_rounded(b.b2, b.b1, b.b1));
     Real l = subtract_product_rounded(b.b3, b.b1, b.b2);
     Real m = subtract_product_rounded(b.b4, b.b2, b.b2);
-    GNOMON_T(moments4) c = hankel4_noise_coefficients(b, v, l, m);
-    Real norm = (gnomon_abs(c.b1) + gnomon_abs(c.b2)) + (gnomon_abs(c.b3) + c.b4);
-    return hankel4_of(b.b1, v, l, gnomon_max(noise * norm, v * m - l * l));
+    return hankel4_raised_last(b, v, l, m, noise);
 }
 
-GNOMON_CONSTANT(hankel4_third, 0.33333333333333333);
-GNOMON_CONSTANT(hankel4_root3, 1.7320508075688772);
-
-/// As hankel4_raised, in plain arithmetic, for errors up to noise in each channel behind theta4 (quantization.h):
-/// coefficients pass through its inverse, transposed.
-GNOMON_KERNEL GNOMON_T(hankel4) hankel4_raised_theta(GNOMON_T(moments4) b, GNOMON_SETTING noise)
+/// The same in plain arithmetic: right for noise from 2^-20.
+GNOMON_KERNEL GNOMON_T(hankel4) hankel4_raised_fast(GNOMON_T(moments4) b, GNOMON_SETTING noise)
 {
     noise = gnomon_max(GNOMON_PIVOT_FLOOR, noise);
-    // A quarter of |theta4^-T (-2 b1, 1, 0, 0)|_1 = 2 (1/3 + sqrt 3) |b1| + 9/8: what the variance is raised by shows
-    // as intensity on a lit surface, in proportion to V / D_2, and a quarter is enough.
-    Real slope = Real(0.5) * (GNOMON_LITERAL(hankel4_third) + GNOMON_LITERAL(hankel4_root3));
-    Real v = gnomon_max(noise * (Real(0.28125) + slope * gnomon_abs(b.b1)), b.b2 - b.b1 * b.b1);
-    Real l = b.b3 - b.b1 * b.b2;
-    Real m = b.b4 - b.b2 * b.b2;
-    GNOMON_T(moments4) c = hankel4_noise_coefficients(b, v, l, m);
-    Real odd = Real(0.75) * c.b3;
-    Real norm = (gnomon_abs(GNOMON_LITERAL(hankel4_third) * c.b1 + odd) +
-                 GNOMON_LITERAL(hankel4_root3) * gnomon_abs(c.b1 + odd)) +
-                (Real(0.125) * gnomon_abs(c.b2 - c.b4) + gnomon_abs(c.b2 + c.b4));
-    return hankel4_of(b.b1, v, l, gnomon_max(noise * norm, v * m - l * l));
+    Real v = gnomon_max(noise * (b.b1 * b.b1 + Real(1)), b.b2 - b.b1 * b.b1);
+    return hankel4_raised_last(b, v, b.b3 - b.b1 * b.b2, b.b4 - b.b2 * b.b2, noise);
 }
 
 GNOMON_NAMESPACE_END

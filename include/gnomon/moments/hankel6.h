@@ -57,22 +57,12 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_factor(Real mean, GNOMON_T(covariances6)
     return h;
 }
 
-/// |coefficients of (z^2 - s z + p)^2|_1 but for the constant one, which is exact.
-GNOMON_KERNEL Real hankel6_norm2(Real s, Real p)
-{
-    return (Real(1) + Real(2) * (gnomon_abs(s) * (Real(1) + gnomon_abs(p)))) + gnomon_abs(s * s + Real(2) * p);
-}
+/// |P_k(i)|^2 from its two parts; at least 1, since the roots of P_k are real. A NaN, the second argument of
+/// gnomon_max, stays one.
+GNOMON_KERNEL Real hankel6_norm(Real x, Real y) { return gnomon_max(Real(1), x * x + y * y); }
 
-/// |coefficients of (z^3 - s z^2 + p z + q)^2|_1 but for the constant one.
-GNOMON_KERNEL Real hankel6_norm3(Real s, Real p, Real q)
-{
-    Real odd = (gnomon_abs(s) + gnomon_abs(q - p * s)) + gnomon_abs(p * q);
-    Real even = gnomon_abs(s * s + Real(2) * p) + gnomon_abs(p * p - Real(2) * (q * s));
-    return (Real(1) + Real(2) * odd) + even;
-}
-
-/// The moments as they are, with each pivot raised to at least noise |coefficients of P_k^2|_1, what errors up to noise
-/// in each stored moment make of it (bias.h, adaptive). Covariances come without cancellation, and that is enough: what
+/// The moments as they are, with each pivot D_k raised to at least noise |P_k(i)|^2, about what errors up to noise in
+/// each stored moment make of it (bias.h, adaptive). Covariances come without cancellation, and that is enough: what
 /// plain elimination rounds away stays below what noise of 2^-24 does, so double words would cost much and change
 /// little.
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_raised(GNOMON_T(moments6) b, GNOMON_SETTING noise)
@@ -80,14 +70,15 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_raised(GNOMON_T(moments6) b, GNOMON_SETT
     noise = gnomon_max(GNOMON_PIVOT_FLOOR, noise);
     GNOMON_T(hankel6) h;
     h.mean = b.b1;
-    h.variance = gnomon_max(noise + (noise + noise) * gnomon_abs(b.b1), subtract_product_rounded(b.b2, b.b1, b.b1));
+    h.variance = gnomon_max(noise * (b.b1 * b.b1 + Real(1)), subtract_product_rounded(b.b2, b.b1, b.b1));
     h.inverse1 = Real(1) / h.variance;
     Real c12 = subtract_product_rounded(b.b3, b.b1, b.b2);
     Real c13 = subtract_product_rounded(b.b4, b.b1, b.b3);
     Real l21 = c12 * h.inverse1;
     Real l31 = c13 * h.inverse1;
     Real p0 = l21 * b.b1 - b.b2; // P_2 = z^2 - l21 z + p0
-    Real d2 = gnomon_max(noise * hankel6_norm2(l21, p0), subtract_product_rounded(b.b4, b.b2, b.b2) - l21 * c12);
+    Real norm2 = hankel6_norm(l21, p0 - Real(1));
+    Real d2 = gnomon_max(noise * norm2, subtract_product_rounded(b.b4, b.b2, b.b2) - l21 * c12);
     h.inverse2 = Real(1) / d2;
     h.ratio = d2 * h.inverse1;
     Real c23 = subtract_product_rounded(b.b5, b.b2, b.b3) - l21 * c13;
@@ -97,7 +88,7 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_raised(GNOMON_T(moments6) b, GNOMON_SETT
     Real q1 = l32 * l21 - l31; // P_3 = z^3 - l32 z^2 + q1 z + q0
     Real q0 = (l31 * b.b1 - b.b3) - l32 * p0;
     Real d3 = (subtract_product_rounded(b.b6, b.b3, b.b3) - l31 * c13) - l32 * c23;
-    h.inverse3 = Real(1) / gnomon_max(noise * hankel6_norm3(l32, q1, q0), d3);
+    h.inverse3 = Real(1) / gnomon_max(noise * hankel6_norm(l32 + q0, q1 - Real(1)), d3);
     return h;
 }
 
@@ -107,11 +98,11 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_biased(GNOMON_T(moments6) b, GNOMON_SETT
                                                GNOMON_SETTING bias6, GNOMON_SETTING alpha)
 {
     GNOMON_T(moments6) e;
-    e.b1 = -alpha * b.b1;
+    e.b1 = Real(0) - alpha * b.b1;
     e.b2 = alpha * (bias2 - b.b2);
-    e.b3 = -alpha * b.b3;
+    e.b3 = Real(0) - alpha * b.b3;
     e.b4 = alpha * (bias4 - b.b4);
-    e.b5 = -alpha * b.b5;
+    e.b5 = Real(0) - alpha * b.b5;
     e.b6 = alpha * (bias6 - b.b6);
     GNOMON_T(covariances6) c = covariances6_of(b);
     c.c11 = biased_covariance(c.c11, b.b1, b.b1, e.b2, e.b1, e.b1);

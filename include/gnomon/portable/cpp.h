@@ -6,6 +6,7 @@
 #error "gnomon: C++20 needed (-std=c++20)"
 #endif
 
+#include <bit>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
@@ -100,10 +101,22 @@ template <class T> constexpr bool fma_is_fused()
 }
 template <class T> inline constexpr bool is_fused = fma_is_fused<T>();
 
+template <class T, class Bits> GNOMON_INLINE constexpr T select_by_bits(bool mask, T a, T b)
+{
+    const Bits ones = Bits(0) - Bits(mask);
+    return std::bit_cast<T>(Bits((std::bit_cast<Bits>(a) & ones) | (std::bit_cast<Bits>(b) & ~ones)));
+}
+
+// GCC makes a branch of a conditional operator, so that it can skip what only one side needs: half the time of a kernel
+// went on mispredictions. Bits it leaves alone, and vectorises.
 template <class M, class T> GNOMON_INLINE constexpr T gnomon_select(M mask, T a, T b)
 {
-    if constexpr (std::is_same_v<M, bool>) return mask ? a : b;
-    else return select(mask, a, b);
+    if constexpr (!std::is_same_v<M, bool>) return select(mask, a, b);
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
+    else if constexpr (std::is_same_v<T, float>) return select_by_bits<T, std::uint32_t>(mask, a, b);
+    else if constexpr (std::is_same_v<T, double>) return select_by_bits<T, std::uint64_t>(mask, a, b);
+#endif
+    else return mask ? a : b;
 }
 
 template <class M> GNOMON_INLINE constexpr bool gnomon_any(M mask)
@@ -115,12 +128,14 @@ template <class M> GNOMON_INLINE constexpr bool gnomon_any(M mask)
 template <class T> GNOMON_INLINE constexpr T gnomon_min(T a, T b)
 {
     if constexpr (requires { pack_operations<T>::min(a, b); }) return pack_operations<T>::min(a, b);
+    else if constexpr (std::is_floating_point_v<T>) return a < b ? a : b; // one instruction
     else return gnomon_select(a < b, a, b);
 }
 
 template <class T> GNOMON_INLINE constexpr T gnomon_max(T a, T b)
 {
     if constexpr (requires { pack_operations<T>::max(a, b); }) return pack_operations<T>::max(a, b);
+    else if constexpr (std::is_floating_point_v<T>) return b < a ? a : b;
     else return gnomon_select(b < a, a, b);
 }
 
