@@ -33,10 +33,12 @@
 #include "portable/hlsl.h"
 #elif defined(__cplusplus)
 #include "portable/cpp.h"
-#elif defined(VULKAN) && __VERSION__ == 500 // glslang, reading HLSL
-#include "portable/hlsl.h"
 #elif defined(GL_core_profile) || defined(GL_compatibility_profile) || defined(GL_ES) || defined(VULKAN)
+#if __VERSION__ == 500 // glslang, reading HLSL
+#include "portable/hlsl.h"
+#else
 #include "portable/glsl.h"
+#endif
 #else
 #error "gnomon: unknown language; an HLSL compiler that defines no macro of its own needs GNOMON_HLSL"
 #endif

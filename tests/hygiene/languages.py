@@ -5,6 +5,7 @@ usage: languages.py LANGUAGE INCLUDE    prints one line for each header that a c
 
 LANGUAGE is a key of ROUTES. INCLUDE is the folder that holds gnomon/.
 """
+import re
 import subprocess
 import sys
 import tempfile
@@ -34,7 +35,7 @@ class Route:
 
 def complaints(run):
     """What a compiler had against a unit, less the echo of its name."""
-    lines = [line for line in (run.stdout + run.stderr).splitlines() if "error" in line.lower()]
+    lines = [line for line in (run.stdout + run.stderr).splitlines() if re.search(r"\berror\b", line, re.IGNORECASE)]
     return lines or ["refused without a word"]
 
 

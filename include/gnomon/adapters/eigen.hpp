@@ -8,6 +8,7 @@
 #define GNOMON_ADAPTERS_EIGEN_HPP
 
 #include "../portable.h"
+#include "../portable/cpp_only.h"
 
 #include <Eigen/Core>
 #include <cstring>

@@ -7,6 +7,7 @@
 #define GNOMON_ADAPTERS_GLM_HPP
 
 #include "../portable.h"
+#include "../portable/cpp_only.h"
 
 #include <cstring>
 #include <glm/glm.hpp>

@@ -3,6 +3,8 @@
 #ifndef GNOMON_NUMERICS_HALF_HPP
 #define GNOMON_NUMERICS_HALF_HPP
 
+#include "../portable/cpp_only.h"
+
 #include <bit>
 #include <concepts>
 #include <cstdint>

@@ -3,6 +3,8 @@
 #ifndef GNOMON_NUMERICS_UNORM_HPP
 #define GNOMON_NUMERICS_UNORM_HPP
 
+#include "../portable/cpp_only.h"
+
 #include <concepts>
 #include <cstdint>
 #include <type_traits>

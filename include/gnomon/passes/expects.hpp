@@ -4,6 +4,8 @@
 #ifndef GNOMON_PASSES_EXPECTS_HPP
 #define GNOMON_PASSES_EXPECTS_HPP
 
+#include "../portable/cpp_only.h"
+
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>

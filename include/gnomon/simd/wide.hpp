@@ -9,6 +9,7 @@
 #define GNOMON_SIMD_WIDE_HPP
 
 #include "../portable.h"
+#include "../portable/cpp_only.h"
 
 #include <cstddef>
 

@@ -4,6 +4,7 @@
 #define GNOMON_SIMD_XSIMD_HPP
 
 #include "../portable.h"
+#include "../portable/cpp_only.h"
 
 #include <xsimd/xsimd.hpp>
 

@@ -1,0 +1,9 @@
+// First in every .hpp, directly or by another one: these files are C++ only, and say so to a shader compiler.
+#ifndef GNOMON_PORTABLE_CPP_ONLY_H
+#define GNOMON_PORTABLE_CPP_ONLY_H
+
+#if !defined(__cplusplus) || defined(__METAL_VERSION__) || defined(__OPENCL_CPP_VERSION__)
+#error "gnomon: a .hpp is C++ only; shaders include the .h files or a package"
+#endif
+
+#endif

@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""A unit that no compiler can get right is answered in the library's words, and these come first.
+
+usage: mistakes.py INCLUDE PACKAGES    prints one line for each mistake that is answered otherwise; exit code 1 if there is any
+
+INCLUDE is the folder that holds gnomon/, PACKAGES the one that shaders/package.py wrote.
+"""
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from languages import INCLUDES, ROUTES, complaints
+
+EVERYTHING = '#include "gnomon/gnomon.h"\n'
+CPP_ONLY = "gnomon: a .hpp is C++ only"
+LANGUAGE = "gnomon: unknown language"
+C = ["gcc", "-x", "c", "-fsyntax-only"]
+CPP = ["g++", "-x", "c++", "-fsyntax-only"]
+OPENCL = ROUTES["opencl"].compiler
+PREPROCESS = ["glslangValidator", "-E", "-S", "frag"]
+
+
+def compiler_says(command, ending, text, include, folder):
+    unit = folder / f"unit{ending}"
+    unit.write_text(text)
+    run = subprocess.run([*command, f"-I{include}", str(unit)], capture_output=True, text=True, cwd=folder)
+    return complaints(run)[0] if run.returncode else "nothing"
+
+
+def mistakes(include, packages):
+    """(what, compiler, ending, text, answer)"""
+    for path in sorted(include.rglob("*.hpp")):
+        name = path.relative_to(include).as_posix()
+        for language in ("glsl", "hlsl", "opencl", "metal"):
+            route = ROUTES[language]
+            yield f"{name} in {language}", route.compiler, route.ending, f'{route.begin}#include "{name}"\n', CPP_ONLY
+
+    yield "C", C, ".c", EVERYTHING, LANGUAGE
+    yield "C++17", [*CPP, "-std=c++17"], ".cpp", EVERYTHING, "gnomon: C++20 needed"
+    yield "C++ -ffast-math", [*CPP, "-std=c++20", "-ffast-math"], ".cpp", EVERYTHING, "gnomon: -ffast-math voids"
+    yield "OpenCL C 1.1", [*OPENCL, "-cl-std=CL1.1"], ".cl", EVERYTHING, "gnomon: -cl-std=CL1.2 or later"
+    yield "OpenCL, relaxed", [*OPENCL, "-cl-fast-relaxed-math"], ".cl", EVERYTHING, "gnomon: -cl-fast-relaxed-math voids"
+    yield "OpenCL, embedded", [*OPENCL, "-D__EMBEDDED_PROFILE__"], ".cl", EVERYTHING, "gnomon: the full profile needed"
+    for version, answer in {"330": "gnomon: #version 400", "300 es": "gnomon: #version 310 es"}.items():
+        begin = f"#version {version}\n"
+        yield f"#version {version}", PREPROCESS, ".frag", begin + INCLUDES + EVERYTHING, answer
+        for package in sorted(packages.glob("*.glsl")):
+            yield f"{package.name}, #version {version}", PREPROCESS, ".frag", begin + package.read_text(), answer
+    yield ("GLSL without the extension for #include", ROUTES["glsl"].compiler, ".comp", "#version 450\n" + EVERYTHING,
+           "required extension not requested: GL_GOOGLE_include_directive")
+    yield "HLSL by a compiler that defines no macro", ["cpp", "-undef"], ".hlsl", EVERYTHING, LANGUAGE
+
+
+def main():
+    include, packages = map(Path, sys.argv[1:])
+    count = wrong = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for what, command, ending, text, answer in mistakes(include.resolve(), packages):
+            said = compiler_says(command, ending, text, include.resolve(), Path(folder))
+            count += 1
+            if answer not in said:
+                wrong += 1
+                print(f"{what}: '{answer}' expected, not '{said}'")
+    print(f"{count} mistakes, {wrong} with a wrong answer")
+    sys.exit(wrong > 0)
+
+
+main()
