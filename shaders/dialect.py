@@ -84,7 +84,7 @@ class Prelude:
     """A language's spelling of the dialect, taken from its prelude: macros to expand, and what is no macro."""
     comment: str
     guard: str
-    frame: str = ""
+    frame: list[str] = field(default_factory=list)
     blocks: list[str] = field(default_factory=list)
     macros: dict = field(default_factory=dict)
     unused: set = field(default_factory=set)
@@ -96,7 +96,7 @@ class Prelude:
         for block in blocks(file["rest"]):
             code = re.sub(r"^//.*\n", "", block, flags=re.MULTILINE)
             if code.startswith("#if") and "#define GNOMON_" in code:
-                prelude.frame += block # on this word the compiler decides: it stays a macro, for as long as the package
+                prelude.frame.append(block) # on this word the compiler decides: it stays a macro, for as long as the package
                 continue
             for name, parameters, value in MACRO.findall(code):
                 prelude.macros[name] = parameters.split(", ") if parameters else None, re.sub(r"\bgnomon::", "", value)

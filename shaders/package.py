@@ -14,13 +14,13 @@ from pathlib import Path
 import wgsl
 from dialect import CONSTANT, DEFINED, DialectError, Header, Prelude
 
-# Ending of the package: prelude, and the language's name.
+# Ending of the packages: prelude, the language's name, and how the preprocessor tells another language.
 LANGUAGES = {
-    "glsl": ("glsl.h", "GLSL"),
-    "hlsl": ("hlsl.h", "HLSL"),
-    "metal": ("msl.h", "the Metal shading language"),
-    "cl": ("opencl.h", "OpenCL C"),
-    "cuh": ("cpp.h", "CUDA and C++20"),
+    "glsl": ("glsl.h", "GLSL", "defined(__cplusplus) || defined(__HLSL_VERSION) || defined(__OPENCL_C_VERSION__)"),
+    "hlsl": ("hlsl.h", "HLSL", "defined(GL_ES) || defined(__METAL_VERSION__) || defined(__OPENCL_C_VERSION__)"),
+    "metal": ("msl.h", "Metal", "!defined(__METAL_VERSION__)"),
+    "cl": ("opencl.h", "OpenCL C", "!defined(__OPENCL_C_VERSION__) && !defined(__OPENCL_CPP_VERSION__)"),
+    "cuh": ("cpp.h", "CUDA and C++20", "!defined(__cplusplus) || defined(__METAL_VERSION__)"),
 }
 
 # Technique: the headers that it starts from, and for moments how many of them. What else it takes follows from the
@@ -33,11 +33,21 @@ TECHNIQUES = {
 }
 FOLDERS = ["filters", "soft", "scattering", "motion"]
 
-
 HEADING = """\
 // Gnomon {version}, {name}: shadow filtering in {language}, this file alone.
 // Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
 // Written by shaders/package.py from the kernels in include/gnomon: change them there.
+"""
+
+CHECKS = """\
+#if {other}
+#error "gnomon: {name} is {language}; another language's compiler reads it"
+#elif defined(GNOMON_PORTABLE_H)
+#error "gnomon: {name} and the headers of include/gnomon exclude one another"
+#elif defined(GNOMON_PACKAGE) && GNOMON_PACKAGE != {number}
+#error "gnomon: {name} is not of the same version as a package before it"
+#endif
+#define GNOMON_PACKAGE {number} // major, minor and patch, two digits each
 """
 
 
@@ -78,6 +88,7 @@ class Packager:
     def __init__(self, include, version):
         self.root = include / "gnomon"
         self.version = version
+        self.number = int("".join(f"{int(part):02}" for part in version.split(".")))
         names = sorted(path.relative_to(self.root).as_posix() for path in self.root.rglob("*.h"))
         names = [name for name in names if not name.startswith("portable")]
         self.headers = {name: Header.read(self.root, name) for name in names}
@@ -93,28 +104,30 @@ class Packager:
 
     def files(self):
         """(name, text) of every package."""
-        for ending, (prelude, language) in LANGUAGES.items():
+        for ending, (prelude, language, other) in LANGUAGES.items():
             prelude = Prelude.read(self.root / "portable" / prelude)
             prelude.forget_unused(self.headers.values())
             for package, (headers, count) in self.packages.items():
                 name = f"{package}.{ending}"
-                text = self.package(name, language, prelude, headers, count)
+                checks = CHECKS.format(name=name, language=language, other=other, number=self.number)
+                text = self.package(name, language, checks, prelude, headers, count)
                 yield name, text
                 if ending == "glsl":
                     yield f"{package}.wgsl", wgsl.translated(text)
 
-    def package(self, name, language, prelude, headers, count):
+    def package(self, name, language, checks, prelude, headers, count):
         guard = "GNOMON_" + re.sub(r"\W", "_", name).upper()
         text = HEADING.format(version=self.version, name=name, language=language)
-        text += f"#ifndef {guard}\n#define {guard}\n\n{prelude.frame}"
-        text += section("the language", prelude.guard, prelude.comment, prelude.own_text())
+        text += f"#ifndef {guard}\n#define {guard}\n\n" + "".join(f"{block}\n" for block in prelude.frame)
+        text += section("the language", prelude.guard, prelude.comment + checks, prelude.own_text())
         for header in headers:
             comment = header.comment
             for about, title, part_guard, blocks in self.parts(header):
                 if not count or about in ("", count):
                     text += section(title, part_guard, comment, prelude.spelled(blocks))
                     comment = ""
-        return text + "".join(f"#undef {name}\n" for name in re.findall(r"^#define (\w+)", prelude.frame)[:1]) + "#endif\n"
+        undone = dict.fromkeys(re.findall(r"#define (\w+)", "".join(prelude.frame)))
+        return text + "".join(f"#undef {macro}\n" for macro in undone) + "#endif\n"
 
     def parts(self, header):
         """(count, title, guard, blocks) of a header: one part, or one per count where a technique takes but its own."""
@@ -129,10 +142,16 @@ class Packager:
                 for count, blocks in taken.items() if blocks]
 
 
-def write_aside(path, text):
-    aside = path.with_name(path.name + ".new")
-    aside.write_text(text)
-    os.replace(aside, path)
+def write(files, output):
+    """Each file aside, then under its name; packages of an earlier run that are none any more go."""
+    output.mkdir(parents=True, exist_ok=True)
+    for name, text in files:
+        aside = output / f"{name}.new"
+        aside.write_text(text)
+        os.replace(aside, output / name)
+    for path in output.glob("*.*"):
+        if path.name not in dict(files) and "Written by shaders/package.py" in path.read_text():
+            path.unlink()
 
 
 def main():
@@ -141,11 +160,8 @@ def main():
         sys.exit(2)
     include, version, output = Path(sys.argv[1]), sys.argv[2], Path(sys.argv[3])
     try:
-        files = list(Packager(include, version).files())
-        output.mkdir(parents=True, exist_ok=True)
-        for name, text in files:
-            write_aside(output / name, text)
-    except (DialectError, OSError) as error:
+        write(list(Packager(include, version).files()), output)
+    except (DialectError, OSError, ValueError) as error:
         print(f"package.py: {error}", file=sys.stderr)
         sys.exit(2)
 

@@ -25,7 +25,9 @@
 #ifndef GNOMON_PORTABLE_H
 #define GNOMON_PORTABLE_H
 
-#if defined(__METAL_VERSION__)
+#if defined(GNOMON_PACKAGE)
+#error "gnomon: a shader package is included already; packages and headers exclude one another"
+#elif defined(__METAL_VERSION__)
 #include "portable/msl.h"
 #elif defined(__OPENCL_C_VERSION__) || defined(__OPENCL_CPP_VERSION__)
 #include "portable/opencl.h"

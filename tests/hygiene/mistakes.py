@@ -5,6 +5,7 @@ usage: mistakes.py INCLUDE PACKAGES    prints one line for each mistake that is 
 
 INCLUDE is the folder that holds gnomon/, PACKAGES the one that shaders/package.py wrote.
 """
+import re
 import subprocess
 import sys
 import tempfile
@@ -49,6 +50,17 @@ def mistakes(include, packages):
             yield f"{package.name}, #version {version}", PREPROCESS, ".frag", begin + package.read_text(), answer
     yield ("GLSL without the extension for #include", ROUTES["glsl"].compiler, ".comp", "#version 450\n" + EVERYTHING,
            "required extension not requested: GL_GOOGLE_include_directive")
+    moments4 = (packages / "moments4.glsl").read_text()
+    variance = (packages / "variance.glsl").read_text()
+    glsl = ROUTES["glsl"]
+    older = re.sub(r"GNOMON_PACKAGE (!= )?\d+", r"GNOMON_PACKAGE \g<1>1", variance)
+    yield "packages of two versions", glsl.compiler, ".comp", glsl.begin + moments4 + older, "gnomon: variance.glsl is not of the same"
+    yield "a header behind a package", glsl.compiler, ".comp", glsl.begin + variance + EVERYTHING, "gnomon: a shader package is included"
+    yield "a package behind a header", glsl.compiler, ".comp", glsl.begin + EVERYTHING + variance, "gnomon: variance.glsl and the headers"
+    for ending, other in {"glsl": "opencl", "hlsl": "essl310", "metal": "c++", "cl": "c++", "cuh": "metal"}.items():
+        route = ROUTES[other]
+        yield (f"variance.{ending} in {other}", route.compiler, route.ending,
+               route.begin + (packages / f"variance.{ending}").read_text(), f"gnomon: variance.{ending} is ")
     yield "HLSL by a compiler that defines no macro", ["cpp", "-undef"], ".hlsl", EVERYTHING, LANGUAGE
 
 
