@@ -7,7 +7,7 @@
 // paper's, which have the largest Euclidean distance. Odd entries are zero by symmetry.
 //
 // Three ways to apply it:
-//   interpolated  moments4_biased and then hankel4_fast, as the paper does: for UNORM formats.
+//   interpolated  moments4_biased and then hankel4_fast, as the paper does: for six moments in UNORM formats.
 //   kept apart    hankel4_biased: the same mixture without rounding it away; 100 times less error in float.
 //                 Intensities exceed the exact lower bound by alpha at most.
 //   adaptive      hankel4_raised: each pivot D_k = E[P_k^2] is raised only where it is below what noise of the stored
