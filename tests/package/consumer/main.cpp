@@ -1,7 +1,11 @@
 // The smallest use: how much shadow falls on a receiver between two equally frequent occluder depths.
 #include <cstdio>
 
+#if __has_include("gnomon.cuh")
+#include "gnomon.cuh" // the include path is that of the shader packages
+#else
 #include <gnomon/gnomon.h>
+#endif
 
 int main()
 {
