@@ -1,0 +1,9 @@
+// The few names of CUDA that the example in docs/shaders.md uses, for a C++ compiler.
+#pragma once
+struct float4 {
+    float x, y, z, w;
+};
+struct dim3 {
+    int x;
+};
+inline constexpr dim3 blockIdx{0}, blockDim{1}, threadIdx{0};

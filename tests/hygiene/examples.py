@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""Compiles the examples of README.md and docs/shaders.md, so that what a newcomer copies works.
+
+usage: examples.py ROOT PACKAGES    prints what a compiler has against an example; exit code 1 if there is any
+
+ROOT holds README.md, PACKAGES the shader packages. An example is the indented text of a section.
+"""
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from languages import GLSLANG, ROUTES, complaints
+
+CXX = ["-std=c++20", "-Wall", "-Wextra", "-Werror"]
+# Where there is no CUDA, a C++ compiler, for which two words and the built-in names mean something plain.
+CUDA = ["nvcc", "-std=c++20", "-Werror", "all-warnings"] if shutil.which("nvcc") else [
+    "g++", *CXX, "-x", "c++", "-D__global__=", "-include", str(Path(__file__).parent / "cuda_stand_in.hpp")]
+# Document: section: the example's ending and compiler.
+EXAMPLES = {
+    "README.md": {
+        "Use it in C++": (".cpp", ["g++", *CXX, "-c"]),
+        "Use it in GLSL": (".frag", GLSLANG),
+    },
+    "docs/shaders.md": {
+        "Vulkan": (".frag", GLSLANG),
+        "OpenGL and OpenGL ES": (".frag", [*GLSLANG, "--auto-map-bindings", "--auto-map-locations"]),
+        "Direct3D": (".hlsl", [*GLSLANG, "-D", "-S", "frag", "-e", "main"]),
+        "Metal": (".metal", ROUTES["metal"].compiler),
+        "CUDA": (".cu", [*CUDA, "-c"]),
+        "OpenCL": (".cl", ROUTES["opencl"].compiler),
+    },
+}
+
+
+def pasted(text, packages):
+    """The text as an engine without #include hands it on."""
+    return re.sub(r'^#include "(.*)"\n', lambda include: (packages / include[1]).read_text(), text, flags=re.MULTILINE)
+
+
+def main():
+    root, packages = Path(sys.argv[1]), Path(sys.argv[2])
+    count = failed = 0
+    for document, sections in EXAMPLES.items():
+        text = (root / document).read_text()
+        for section, (ending, compiler) in sections.items():
+            example = "\n".join(re.findall(r"^    (.*)$|^$", text.split(f"## {section}\n")[1].split("\n## ")[0], re.MULTILINE)).lstrip()
+            if "OpenGL" in section:
+                example = pasted(example, packages)
+            with tempfile.TemporaryDirectory() as folder:
+                unit = Path(folder) / f"example{ending}"
+                unit.write_text(example)
+                run = subprocess.run([*compiler, f"-I{root / 'include'}", f"-I{packages}", "-o", f"{folder}/out", str(unit)],
+                                     capture_output=True, text=True)
+            count += 1
+            if run.returncode:
+                failed += 1
+                print(f"{document}, {section}: {complaints(run)[0]}")
+    page = (root / "docs/shaders.md").read_text()
+    unnamed = {path.stem for path in packages.glob("*.glsl")} - set(re.findall(r"`(\w+)`", page))
+    for name in sorted(unnamed):
+        print(f"docs/shaders.md: does not name the package {name}")
+    print(f"{count} examples, {failed} refused")
+    sys.exit(bool(failed or unnamed))
+
+
+main()
