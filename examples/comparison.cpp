@@ -35,9 +35,6 @@ namespace {
 
 const auto taps = gaussian_weights();
 
-// Texels from the middle of the filter that the depth bias spares from shadowing themselves.
-constexpr double bias_radius = 5.5;
-
 constexpr float error_scale = 0.5f; // visibility at which error colours saturate
 
 // Of this thread, whatever else the machine does.
@@ -129,22 +126,6 @@ template <method M> outcome outcome_of(const depth_map& depths, const receivers&
     return result;
 }
 
-// The mean of each block of factor x factor pixels.
-template <class T> image<T> reduced(const image<T>& source, int factor)
-{
-    if (factor == 1) return source;
-    image<T> result(source.width / factor, source.height / factor);
-    tbb::parallel_for(0, result.height, [&](int y) {
-        for (int x = 0; x < result.width; ++x) {
-            T sum(0);
-            for (int j = 0; j < factor; ++j)
-                for (int i = 0; i < factor; ++i) sum += source(x * factor + i, y * factor + j);
-            result(x, y) = sum / static_cast<float>(factor * factor);
-        }
-    });
-    return result;
-}
-
 class comparison {
   public:
     comparison(std::string name, const stage& scenery, const settings& how)
@@ -155,7 +136,7 @@ class comparison {
         tracer rays(stage_.world);
         depths_ = rasterize_depth<4>(stage_.world, stage_.light, how.map_resolution, how.map_resolution);
         seen_ = rasterize_surfaces(stage_.world, stage_.eye, columns, rows);
-        where_ = receivers_of(seen_, stage_.light, how.map_resolution, bias_radius);
+        where_ = receivers_of(seen_, stage_.light, how.map_resolution);
         const image<float> traced = traced_visibility(rays, stage_.light, seen_);
         for (const std::size_t pixel : where_.pixels) traced_.push_back(traced.pixels[pixel]);
         traced_image_ = image_of(traced_);

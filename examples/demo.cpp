@@ -20,6 +20,7 @@ struct driver {
 };
 
 constexpr std::array drivers{driver{"hard_shadows", gnomon::demo::hard_shadows},
+                             driver{"vulkan_shadows", gnomon::demo::vulkan_shadows},
                              driver{"bounds", gnomon::demo::bounds}};
 
 } // namespace
@@ -43,6 +44,7 @@ try {
     app.add_option("NAME", names, "drivers to run")->check(CLI::IsMember(known));
     app.add_flag("--full", full, "four camera samples per pixel");
     app.add_flag("--tiny", tiny, "a quarter of the size, for tests")->excludes("--full");
+    app.add_flag("--hlsl", how.hlsl, "vulkan_shadows: shaders from HLSL instead of GLSL");
     app.add_option("--model", model, "OBJ, PLY, glTF or similar, put on a ground plane and shaded by every method");
     app.add_option("--out", out, "folder for the gallery and report.json")->capture_default_str();
     try {

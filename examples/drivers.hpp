@@ -11,6 +11,7 @@ struct settings {
     int width = 1280, height = 720;
     int supersampling = 1; // camera samples per pixel and axis
     int map_resolution = 1024;
+    bool hlsl = false; // shaders from their HLSL text instead of the GLSL one
     std::filesystem::path out = "out";
 };
 
@@ -22,6 +23,9 @@ void hard_shadows(const settings& how);
 
 // A model from a file on a ground plane, by every method.
 void model(const settings& how, const std::filesystem::path& file);
+
+// The scene of hard_shadows by shaders on a Vulkan device, compared with the same methods on the CPU.
+void vulkan_shadows(const settings& how);
 
 // Bounds and representations of one depth distribution from 2, 4 and 6 moments, after the paper's Figure 2.
 void bounds(const settings& how);

@@ -10,24 +10,24 @@ namespace gnomon::demo {
 
 namespace {
 
-// Slopes end here, at 80 degrees: beyond, the bias would swallow whole casters for the sake of hardly lit surfaces.
-const double steepest = std::tan(80 * std::acos(-1.0) / 180);
-
 // Depth per texel across the receiver's plane, in the direction in which it rises most.
 double slope(const toolbox::surface& s, const toolbox::camera& light, int resolution)
 {
     const glm::dvec3 position(s.position);
     const double cosine = glm::dot(glm::dvec3(s.normal), toolbox::direction_towards(light, position));
     const double distance = light.perspective() ? toolbox::view_distance(light, position) : 1;
-    const double texel = 2 * std::max(light.half_extent.x, light.half_extent.y) * distance / resolution;
-    return std::min(std::sqrt(1 - cosine * cosine) / cosine, steepest) * texel * 2 /
-           (light.far_distance - light.near_distance);
+    return std::min(std::sqrt(1 - cosine * cosine) / cosine, steepest_slope) * distance * unit_slope(light, resolution);
 }
 
 } // namespace
 
-receivers receivers_of(const toolbox::image<toolbox::surface>& seen, const toolbox::camera& light, int resolution,
-                       double bias_radius)
+double unit_slope(const toolbox::camera& light, int resolution)
+{
+    const double texel = 2 * std::max(light.half_extent.x, light.half_extent.y) / resolution;
+    return texel * 2 / (light.far_distance - light.near_distance);
+}
+
+receivers receivers_of(const toolbox::image<toolbox::surface>& seen, const toolbox::camera& light, int resolution)
 {
     receivers result;
     for (std::size_t i = 0; i < seen.pixels.size(); ++i) {

@@ -1,6 +1,7 @@
 // What is shaded: the surfaces that a camera sees and a light can reach, as a shadow map sees them.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -23,9 +24,17 @@ struct receivers {
     std::size_t size() const { return pixels.size(); }
 };
 
+// Texels from the middle of the filter that the depth bias spares from shadowing themselves.
+inline constexpr double bias_radius = 5.5;
+
+// Slopes end here, at 80 degrees: beyond, the bias would swallow whole casters for the sake of hardly lit surfaces.
+inline const double steepest_slope = std::tan(80 * std::acos(-1.0) / 180);
+
+// Depth per texel across a plane at 45 degrees to the light; in perspective at distance one.
+double unit_slope(const toolbox::camera& light, int resolution);
+
 // Depths are moved towards the light by the most that a plane through the receiver rises within bias_radius texels of
 // the level looked at: the customary slope-scaled bias, the same for every method (Peters et al. 2017, D.2).
-receivers receivers_of(const toolbox::image<toolbox::surface>& seen, const toolbox::camera& light, int resolution,
-                       double bias_radius);
+receivers receivers_of(const toolbox::image<toolbox::surface>& seen, const toolbox::camera& light, int resolution);
 
 } // namespace gnomon::demo

@@ -34,6 +34,20 @@ template <class T> struct image {
 // Linear RGB; 1 is white.
 using picture = image<glm::vec3>;
 
+// The mean of each block of factor x factor pixels.
+template <class T> image<T> reduced(const image<T>& source, int factor)
+{
+    image<T> result(source.width / factor, source.height / factor);
+    for (int y = 0; y < result.height; ++y)
+        for (int x = 0; x < result.width; ++x) {
+            T sum(0);
+            for (int j = 0; j < factor; ++j)
+                for (int i = 0; i < factor; ++i) sum += source(x * factor + i, y * factor + j);
+            result(x, y) = sum / static_cast<float>(factor * factor);
+        }
+    return result;
+}
+
 // Pixels x <= column < x + width, y <= row < y + height.
 struct rectangle {
     int x = 0, y = 0, width = 0, height = 0;

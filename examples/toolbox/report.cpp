@@ -17,27 +17,30 @@ using json = nlohmann::ordered_json;
 
 json to_json(const report_row& row)
 {
-    return {{"scene", row.scene},
-            {"method", row.method},
-            {"format", row.format},
-            {"reference", row.reference},
-            {"receivers", row.receivers},
-            {"bytes_per_texel", row.bytes_per_texel},
-            {"rmse", row.errors.rmse},
-            {"mean_abs", row.errors.mean_abs},
-            {"leak", row.errors.leak},
-            {"acne", row.errors.acne},
-            {"max_abs", row.errors.max_abs},
-            {"ns_per_receiver", row.ns_per_receiver},
-            {"build_ms", row.build_ms},
-            {"real", row.real},
-            {"lanes", row.lanes},
-            {"threads", row.threads}};
+    json result{{"scene", row.scene},
+                {"method", row.method},
+                {"format", row.format},
+                {"reference", row.reference},
+                {"receivers", row.receivers},
+                {"bytes_per_texel", row.bytes_per_texel},
+                {"rmse", row.errors.rmse},
+                {"mean_abs", row.errors.mean_abs},
+                {"leak", row.errors.leak},
+                {"acne", row.errors.acne},
+                {"max_abs", row.errors.max_abs},
+                {"ns_per_receiver", row.ns_per_receiver},
+                {"build_ms", row.build_ms},
+                {"real", row.real},
+                {"lanes", row.lanes},
+                {"threads", row.threads}};
+    if (!row.device.empty()) result["device"] = row.device;
+    for (const auto& [name, milliseconds] : row.passes) result[name + "_ms"] = milliseconds;
+    return result;
 }
 
 bool same_key(const json& a, const json& b)
 {
-    constexpr const char* key[] = {"scene", "method", "format", "reference", "real", "lanes", "threads"};
+    constexpr const char* key[] = {"scene", "method", "format", "reference", "real", "lanes", "threads", "device"};
     return std::ranges::all_of(key, [&](const char* name) { return a.value(name, json()) == b.value(name, json()); });
 }
 

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace gnomon::toolbox {
 
@@ -17,18 +19,21 @@ error_statistics compare(std::span<const float> estimate, std::span<const float>
 
 struct report_row {
     std::string scene, method, format;
-    std::string reference; // "filtered", "traced" or "closed-form"
+    std::string reference; // "filtered", "traced" or "closed-form"; of a device "cpu": the same method there
     long long receivers = 0;
     double bytes_per_texel = 0;
     error_statistics errors;
     double ns_per_receiver = 0, build_ms = 0;
     std::string real = "float";
     int lanes = 1, threads = 1;
+    std::string device{};                                 // what it ran on where that is no thread of the CPU
+    std::vector<std::pair<std::string, double>> passes{}; // milliseconds of the device, each in a field NAME_ms
 };
 
 // Puts rows into the file, an array of flat objects. A row replaces the one with the same scene, method, format,
-// reference, real, lanes and threads; other rows stay as they are. The file is written aside and renamed. Throws
-// std::runtime_error "FILE: cause", and leaves the file alone, where it holds something else or a number is not finite.
+// reference, real, lanes, threads and device; other rows stay as they are. The file is written aside and renamed.
+// Throws std::runtime_error "FILE: cause", and leaves the file alone, where it holds something else or a number is not
+// finite.
 void merge_report(const std::filesystem::path& file, std::span<const report_row> rows);
 
 } // namespace gnomon::toolbox

@@ -15,17 +15,16 @@ bool faces_light(const camera& light, const surface& seen)
 
 picture shade(const scene& world, const camera& light, const image<surface>& seen, const image<float>& visibility)
 {
-    const glm::vec3 sun(1.0f, 0.94f, 0.84f), sky(0.30f, 0.35f, 0.44f), earth(0.24f, 0.22f, 0.19f);
-    picture result(seen.width, seen.height, glm::vec3(0.55f, 0.65f, 0.76f));
+    picture result(seen.width, seen.height, daylight.background);
     tbb::parallel_for(0, seen.height, [&](int y) {
         for (int x = 0; x < seen.width; ++x) {
             const surface& s = seen(x, y);
             if (!s.valid()) continue;
             const glm::vec3 to_light(direction_towards(light, s.position));
             const float cosine = faces_light(light, s) ? std::max(glm::dot(to_light, s.shading_normal), 0.f) : 0.f;
-            const glm::vec3 ambient = glm::mix(earth, sky, 0.5f + 0.5f * s.shading_normal.y);
+            const glm::vec3 ambient = glm::mix(daylight.earth, daylight.sky, 0.5f + 0.5f * s.shading_normal.y);
             const glm::vec3& albedo = world.meshes[static_cast<std::size_t>(s.mesh)].albedo;
-            result(x, y) = albedo * (ambient + visibility(x, y) * cosine * sun);
+            result(x, y) = albedo * (ambient + visibility(x, y) * cosine * daylight.sun);
         }
     });
     return result;

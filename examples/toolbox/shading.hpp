@@ -8,6 +8,13 @@
 
 namespace gnomon::toolbox {
 
+// Radiance of the sun at normal incidence, of the sky above and the earth below, and of what lies behind all surfaces.
+struct illumination {
+    glm::vec3 sun{1.0f, 0.94f, 0.84f}, sky{0.30f, 0.35f, 0.44f}, earth{0.24f, 0.22f, 0.19f};
+    glm::vec3 background{0.55f, 0.65f, 0.76f};
+};
+inline constexpr illumination daylight;
+
 // Whether light can reach the side of the surface that the camera sees; where it cannot, no shadow map is needed.
 bool faces_light(const camera& light, const surface& seen);
 

@@ -90,8 +90,9 @@ vk::raii::ImageView make_view(const device& owner, vk::Image of, vk::Format form
 
 vk::DescriptorType type_of(const resource& r)
 {
-    constexpr std::array types{vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eSampledImage,
-                               vk::DescriptorType::eStorageImage, vk::DescriptorType::eSampler};
+    constexpr std::array types{vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eUniformBuffer,
+                               vk::DescriptorType::eSampledImage, vk::DescriptorType::eStorageImage,
+                               vk::DescriptorType::eSampler};
     return types[r.index()];
 }
 
@@ -238,6 +239,7 @@ inputs::inputs(const device& owner, const std::vector<resource>& resources, std:
         vk::DescriptorImageInfo image_info({}, {}, vk::ImageLayout::eGeneral);
         vk::WriteDescriptorSet write(*set_, i, 0, 1, type_of(resources[i]), &image_info, &buffer_info);
         if (const auto* b = std::get_if<0>(&resources[i])) buffer_info.buffer = b->get().handle();
+        if (const auto* u = std::get_if<uniform>(&resources[i])) buffer_info.buffer = u->source.handle();
         if (const auto* s = std::get_if<sampled>(&resources[i])) image_info.imageView = s->source.view();
         if (const auto* s = std::get_if<stored>(&resources[i])) image_info.imageView = s->target.level0();
         if (const auto* s = std::get_if<vk::Sampler>(&resources[i])) image_info.sampler = *s;

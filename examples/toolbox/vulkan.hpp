@@ -104,14 +104,17 @@ void copy(const vk::raii::CommandBuffer& commands, const image& source, const bu
 // Fills the other mip levels, each from the one before, with means of 2 x 2 texels.
 void build_mips(const vk::raii::CommandBuffer& commands, const image& target);
 
-// A sampled image has all of its levels, a stored one the first.
+// A sampled image has all of its levels, a stored one the first; a mere buffer is a storage buffer.
 struct sampled {
     const image& source;
 };
 struct stored {
     const image& target;
 };
-using resource = std::variant<std::reference_wrapper<const buffer>, sampled, stored, vk::Sampler>;
+struct uniform {
+    const buffer& source;
+};
+using resource = std::variant<std::reference_wrapper<const buffer>, uniform, sampled, stored, vk::Sampler>;
 
 using push_constants = std::span<const std::byte>;
 

@@ -1,0 +1,197 @@
+#include "renderer.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+#include <gnomon/passes/mips.hpp>
+#include <limits>
+
+#include "receivers.hpp"
+#include "spirv.hpp"
+#include "toolbox/shading.hpp"
+
+namespace gnomon::demo {
+
+using namespace toolbox;
+
+namespace {
+
+using glm::vec4;
+#include "shaders/view.h"
+
+using usage = vk::ImageUsageFlagBits;
+
+constexpr int repetitions = 3;
+constexpr std::uint32_t group = 8; // texels along a side of a compute shader's workgroup
+
+template <class T> std::span<const std::byte> bytes_of(const T& value) { return std::as_bytes(std::span(&value, 1)); }
+
+// scale dot(p - eye.position, axis) + offset as a product with (p, 1).
+glm::vec4 row(const camera& eye, const glm::dvec3& axis, double scale, double offset)
+{
+    return glm::dvec4(scale * axis, offset - scale * glm::dot(eye.position, axis));
+}
+
+// Vulkan's clip space: y points down, depth goes from 0 to 1.
+std::array<glm::vec4, 4> clip_rows(const camera& eye)
+{
+    const double near = eye.near_distance, scale = 1 / (eye.far_distance - near);
+    const double depth = eye.perspective() ? eye.far_distance * scale : scale;
+    return {row(eye, eye.right, 1 / eye.half_extent.x, 0), row(eye, eye.up, -1 / eye.half_extent.y, 0),
+            row(eye, eye.forward, depth, -near * depth),
+            eye.perspective() ? row(eye, eye.forward, 1, 0) : glm::vec4(0, 0, 0, 1)};
+}
+
+view view_of(const stage& scenery, int map_resolution)
+{
+    const camera& light = scenery.light;
+    const double depth = 2 / (light.far_distance - light.near_distance);
+    return {.light_rows = {row(light, light.right, 0.5 / light.half_extent.x, 0.5),
+                           row(light, light.up, -0.5 / light.half_extent.y, 0.5),
+                           row(light, light.forward, depth, -depth * light.near_distance - 1)},
+            .eye = glm::dvec4(scenery.eye.position, 1),
+            .to_light = glm::dvec4(-light.forward, 0),
+            .sun = {daylight.sun, 0},
+            .sky = {daylight.sky, 0},
+            .earth = {daylight.earth, 0},
+            .bias = {bias_radius * unit_slope(light, map_resolution), steepest_slope, map_resolution, 0}};
+}
+
+// Position, normal and albedo of each corner.
+std::vector<glm::vec3> corners_of(const scene& world)
+{
+    std::vector<glm::vec3> result;
+    for (const mesh& part : world.meshes)
+        for (const glm::uvec3& triangle : part.triangles) {
+            const std::array corners{part.positions[triangle.x], part.positions[triangle.y],
+                                     part.positions[triangle.z]};
+            const glm::vec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+            for (const glm::vec3& corner : corners) result.insert(result.end(), {corner, normal, part.albedo});
+        }
+    return result;
+}
+
+template <class T>
+vulkan::buffer filled(const vulkan::device& gpu, std::span<const T> values, vk::BufferUsageFlagBits use)
+{
+    vulkan::buffer result(gpu, values.size_bytes(), use);
+    std::ranges::copy(values, result.mapped<T>().begin());
+    return result;
+}
+
+vk::Extent2D square(int size) { return {std::uint32_t(size), std::uint32_t(size)}; }
+
+} // namespace
+
+shadow_renderer::shadow_renderer(const vulkan::device& gpu, const stage& scenery, vk::Extent2D extent,
+                                 int map_resolution, std::span<const float> taps, shading_language language)
+    : gpu_(gpu),
+      language_(language),
+      eye_rows_(clip_rows(scenery.eye)),
+      light_rows_(clip_rows(scenery.light)),
+      vertices_(filled<glm::vec3>(gpu, corners_of(scenery.world), vk::BufferUsageFlagBits::eVertexBuffer)),
+      frame_(filled<view>(gpu, std::array{view_of(scenery, map_resolution)}, vk::BufferUsageFlagBits::eUniformBuffer)),
+      taps_(filled<float>(gpu, taps, vk::BufferUsageFlagBits::eStorageBuffer)),
+      depths_(gpu, vk::Format::eD32Sfloat, square(map_resolution), usage::eDepthStencilAttachment | usage::eSampled, 1,
+              vk::SampleCountFlagBits::e4),
+      camera_depth_(gpu, vk::Format::eD32Sfloat, extent, usage::eDepthStencilAttachment),
+      camera_picture_(gpu, vk::Format::eR32G32B32A32Sfloat, extent, usage::eColorAttachment | usage::eTransferSrc),
+      trilinear_(gpu.handle(),
+                 vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eLinear,
+                                       vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge,
+                                       vk::SamplerAddressMode::eClampToEdge)
+                     .setMaxLod(VK_LOD_CLAMP_NONE))
+{}
+
+device_frame shadow_renderer::render(const device_method& method) const
+{
+    const shader_texts& texts = language_ == shading_language::glsl ? glsl : hlsl;
+    std::vector<std::uint32_t> constants{method.id, std::uint32_t(method.images.size())};
+    for (const float setting : method.settings) constants.push_back(std::bit_cast<std::uint32_t>(setting));
+    const vulkan::shader scene{texts.scene}, resolve{texts.resolve, constants}, blur{texts.blur},
+        lighting{texts.lighting, constants};
+
+    const vk::Extent2D extent = depths_.extent();
+    const auto levels = std::uint32_t(mip_levels(extent.width, extent.height));
+    std::vector<vulkan::image> maps, scratch;
+    for (const vk::Format format : method.images) {
+        const auto use = usage::eStorage | usage::eSampled;
+        maps.emplace_back(gpu_, format, extent, use | usage::eTransferSrc | usage::eTransferDst, levels);
+        scratch.emplace_back(gpu_, format, extent, use);
+    }
+
+    // Vulkan takes no empty place: a method of one image has it in both.
+    const vulkan::image &first = maps.front(), &second = maps.back();
+    const vulkan::raster_target to_map{.depth = depths_, .samples = vk::SampleCountFlagBits::e4};
+    const vulkan::raster_pass shadow_map(gpu_, {scene, {}}, to_map, 3, {}, sizeof(light_rows_));
+    const vulkan::compute_pass resolving(gpu_, resolve,
+                                         {vulkan::sampled{depths_}, vulkan::stored{first}, vulkan::stored{second}});
+    struct blur_push {
+        int dx, dy, radius, last;
+    };
+    std::vector<vulkan::compute_pass> along_x, along_y;
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        along_x.emplace_back(gpu_, blur,
+                             std::vector<vulkan::resource>{vulkan::sampled{maps[i]}, vulkan::stored{scratch[i]}, taps_},
+                             sizeof(blur_push));
+        along_y.emplace_back(gpu_, blur,
+                             std::vector<vulkan::resource>{vulkan::sampled{scratch[i]}, vulkan::stored{maps[i]}, taps_},
+                             sizeof(blur_push));
+    }
+    const vulkan::raster_target to_camera{
+        .depth = camera_depth_,
+        .colour = &camera_picture_,
+        .background = {daylight.background.r, daylight.background.g, daylight.background.b, 1}};
+    const vulkan::raster_pass lit(
+        gpu_, {scene, lighting}, to_camera, 3,
+        {vulkan::uniform{frame_}, vulkan::sampled{first}, vulkan::sampled{second}, *trilinear_}, sizeof(eye_rows_));
+
+    const vk::Extent3D groups{(extent.width + group - 1) / group, (extent.height + group - 1) / group, 1};
+    const int radius = int(taps_.mapped<float>().size() / 2), last = int(extent.width) - 1;
+    const std::array<std::pair<const char*, std::function<void(const vk::raii::CommandBuffer&)>>, 5> passes{{
+        {"shadow_map", [&](auto& commands) { shadow_map.record(commands, vertices_, bytes_of(light_rows_)); }},
+        {"resolve", [&](auto& commands) { resolving.record(commands, groups); }},
+        {"blur",
+         [&](auto& commands) {
+             for (const auto& pass : along_x) pass.record(commands, groups, bytes_of(blur_push{1, 0, radius, last}));
+             for (const auto& pass : along_y) pass.record(commands, groups, bytes_of(blur_push{0, 1, radius, last}));
+         }},
+        {"mips",
+         [&](auto& commands) {
+             for (const vulkan::image& map : maps) build_mips(commands, map);
+         }},
+        {"lighting", [&](auto& commands) { lit.record(commands, vertices_, bytes_of(eye_rows_)); }},
+    }};
+
+    device_frame result;
+    for (const auto& [name, pass] : passes) result.passes.push_back({name, std::numeric_limits<double>::infinity()});
+    const vulkan::timeline times(gpu_, passes.size() + 1);
+    for (int i = 0; i <= repetitions; ++i) {
+        gpu_.run([&](const vk::raii::CommandBuffer& commands) {
+            times.reset(commands);
+            times.mark(commands, 0);
+            for (std::uint32_t k = 0; k < passes.size(); ++k) {
+                passes[k].second(commands);
+                times.mark(commands, k + 1);
+            }
+        });
+        const std::vector<double> milliseconds = times.milliseconds();
+        for (std::size_t k = 0; i > 0 && k < passes.size(); ++k) // the first run compiles
+            result.passes[k].milliseconds = std::min(result.passes[k].milliseconds, milliseconds[k]);
+    }
+
+    const auto [width, height] = camera_picture_.extent();
+    const vulkan::buffer pixels(gpu_, width * height * sizeof(glm::vec4), vk::BufferUsageFlagBits::eTransferDst);
+    gpu_.run([&](const vk::raii::CommandBuffer& commands) { copy(commands, camera_picture_, pixels); });
+    result.colour = picture(int(width), int(height));
+    result.visibility = image<float>(int(width), int(height));
+    for (std::size_t i = 0; i < result.colour.pixels.size(); ++i) {
+        const glm::vec4 pixel = pixels.mapped<glm::vec4>()[i];
+        result.colour.pixels[i] = pixel;
+        result.visibility.pixels[i] = pixel.a;
+    }
+    return result;
+}
+
+} // namespace gnomon::demo

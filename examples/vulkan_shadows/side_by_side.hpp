@@ -1,0 +1,65 @@
+// Methods on the CPU and on a Vulkan device: the same stage, the same receivers, the same weights.
+//
+// The kernels give the same bits on both. What differs is what Vulkan leaves to a device: in which direction a stored
+// half float is rounded, with how many bits a sampler weighs texels, in which order floats are interpolated, and which
+// sample or pixel on an edge a triangle gets. All but the last move the moments by less than the formats' own rounding,
+// which their biases and minimum variances are made for: it shows as 1% of intensity (filters/formats.hpp). Hence the
+// tolerance; beyond it only receivers at an edge, of a surface or of a shadow, may lie.
+#pragma once
+
+#include <tbb/parallel_for.h>
+
+#include <cstddef>
+#include <gnomon/passes/blur.hpp>
+#include <vector>
+
+#include "drivers.hpp"
+#include "on_device.hpp"
+#include "toolbox/report.hpp"
+
+namespace gnomon::demo {
+
+inline constexpr float device_tolerance = 0.01f;
+
+// Of the device's visibilities against the CPU's.
+struct difference_statistics {
+    toolbox::error_statistics errors;
+    double median, p99, p999;     // of the absolute difference
+    double beyond, beyond_inside; // shares of receivers beyond the tolerance: of all, and away from edges
+};
+
+struct side_by_side {
+    toolbox::image<float> host; // visibility
+    device_frame device;
+    difference_statistics difference;
+};
+
+class device_comparison {
+  public:
+    device_comparison(const toolbox::vulkan::device& gpu, const toolbox::stage& scenery, const settings& how);
+
+    template <method M> side_by_side render() const
+    {
+        const typename M::map map{depths_, taps_};
+        side_by_side result{{seen_.width, seen_.height, 1}, renderer_.render(on_device<M>), {}};
+        tbb::parallel_for(std::size_t(0), where_.size(), [&](std::size_t i) {
+            result.host.pixels[where_.pixels[i]] = 1 - M::intensity(M::fetch(map, where_.places[i]), where_.depths[i]);
+        });
+        result.difference = difference(result.device.visibility, result.host);
+        return result;
+    }
+
+    const toolbox::image<toolbox::surface>& seen() const { return seen_; }
+    const receivers& where() const { return where_; }
+
+  private:
+    difference_statistics difference(const toolbox::image<float>& device, const toolbox::image<float>& host) const;
+
+    std::array<float, 9> taps_ = gaussian_weights();
+    depth_map depths_;
+    toolbox::image<toolbox::surface> seen_;
+    receivers where_;
+    shadow_renderer renderer_;
+};
+
+} // namespace gnomon::demo
