@@ -5,9 +5,10 @@ from dataclasses import dataclass, field
 
 from layout import laid_out
 
-FILE = re.compile(r"(?P<comment>(?://[^\n]*\n)+)#ifndef (?P<guard>\w+)\n#define (?P=guard)\n(?P<rest>.*)#endif\n", re.DOTALL)
-BODY = re.compile(r"(?P<includes>(?:#include [^\n]*\n|\n)*)GNOMON_NAMESPACE_BEGIN\n\n(?P<body>.*)\nGNOMON_NAMESPACE_END\n",
-                  re.DOTALL)
+HEAD = r"(?P<comment>(?://[^\n]*\n)+)#ifndef (?P<guard>\w+)\n#define (?P=guard)\n"
+HEADER = re.compile(HEAD + r"(?P<includes>(?:#include [^\n]*\n|\n)*)"
+                    r"(?:GNOMON_NAMESPACE_BEGIN\n\n(?P<body>.*)\nGNOMON_NAMESPACE_END\n)?#endif\n", re.DOTALL)
+PRELUDE = re.compile(HEAD + r"(?P<rest>.*)#endif\n", re.DOTALL)
 MACRO = re.compile(r"#define (GNOMON_\w+|Real)(?:\(([^)]*)\))?(?: (.*))?")
 NUMBER = r"-?\d+(?:\.\d*)?(?:e[+-]?\d+)?"
 CONSTANT = re.compile(r"^GNOMON_CONSTANT\((\w+),.*\n", re.MULTILINE)
@@ -20,8 +21,8 @@ class DialectError(Exception):
     pass
 
 
-def match(pattern, path, text):
-    found = pattern.fullmatch(text)
+def parsed(pattern, path):
+    found = pattern.fullmatch(path.read_text())
     if not found:
         raise DialectError(f"{path}: not of the form comment, include guard, includes, namespace, body")
     return found
@@ -54,14 +55,11 @@ class Header:
     @staticmethod
     def read(root, name):
         path = root / name
-        file = match(FILE, path, path.read_text())
-        found = BODY.fullmatch(file["rest"])
-        includes = re.findall(r'^#include "(.*)"', found["includes"] if found else file["rest"], re.MULTILINE)
-        includes = [(path.parent / include).resolve().relative_to(root.resolve()).as_posix() for include in includes]
-        if not found and re.search(r"^(?!#include |$)", file["rest"], re.MULTILINE):
-            match(BODY, path, file["rest"])
-        return Header(name, file["comment"], file["guard"], [i for i in includes if i != "portable.h"],
-                      list(blocks(found["body"])) if found else [])
+        file = parsed(HEADER, path)
+        includes = [(path.parent / include).resolve().relative_to(root.resolve()).as_posix()
+                    for include in re.findall(r'^#include "(.*)"', file["includes"], re.MULTILINE)]
+        return Header(name, file["comment"], file["guard"], [include for include in includes if include != "portable.h"],
+                      list(blocks(file["body"] or "")))
 
 
 def code_words(text):
@@ -79,6 +77,18 @@ def fold(text):
     return DECIDED.sub(taken, text)
 
 
+def with_value(code, name, parameters, value):
+    """The code with one macro replaced; no argument holds brackets."""
+    if parameters is None:
+        return re.sub(rf"\b{name}\b", value, code)
+
+    def applied(call):
+        arguments = dict(zip(parameters, call[1].split(", ")))
+        return re.sub(r"\w+", lambda word: arguments.get(word[0], word[0]), value)
+
+    return re.sub(rf"\b{name}\(([^()]*)\)", applied, code)
+
+
 @dataclass
 class Prelude:
     """A language's spelling of the dialect, taken from its prelude: macros to expand, and what is no macro."""
@@ -91,7 +101,7 @@ class Prelude:
 
     @staticmethod
     def read(path):
-        file = match(FILE, path, path.read_text())
+        file = parsed(PRELUDE, path)
         prelude = Prelude(file["comment"], file["guard"])
         for block in blocks(file["rest"]):
             code = re.sub(r"^//.*\n", "", block, flags=re.MULTILINE)
@@ -119,6 +129,9 @@ class Prelude:
     def spelled(self, blocks):
         """Kernels in the package's words."""
         texts = [self.without_unused(fold(self.expanded(block))) for block in blocks]
+        for word in code_words("\n".join(texts)):
+            if word.startswith("GNOMON_") and f"#define {word}" not in "\n".join(self.frame + texts):
+                raise DialectError(f"{word}: a word of the dialect that {self.guard} does not spell")
         texts = [laid_out(text) for text in texts if code_words(text)]
         namespace = [self.expanded(f"GNOMON_NAMESPACE_{end}\n") for end in ("BEGIN", "END")]
         return "\n" + "\n".join(text for text in [namespace[0], *texts, namespace[1]] if text.strip()) + "\n"
@@ -133,16 +146,12 @@ class Prelude:
         return re.sub(r"^ (?=\S)", "", expanded, flags=re.MULTILINE) # what an empty GNOMON_KERNEL leaves
 
     def expanded_code(self, code):
-        def value(found):
-            parameters, text = self.macros[found[1]]
-            if parameters is None:
-                return text + (found[2] or "")
-            arguments = dict(zip(parameters, found[2][1:-1].split(", ")))
-            return re.sub(r"\w+", lambda word: arguments.get(word[0], word[0]), text)
-
-        words = "|".join(word for word in self.macros if word != "Real")
-        while (expanded := re.sub(rf"\b({words})\b(\([^()]*\))?", value, code)) != code:
-            code = expanded
+        before = ""
+        while code != before:
+            before = code
+            for name, (parameters, value) in self.macros.items():
+                if name != "Real" and name in code:
+                    code = with_value(code, name, parameters, value)
         code = re.sub(rf"(\(float\)|\b(?:Real|float))\(({NUMBER})\)", self.literal, code)
         return re.sub(r"\bReal\b", "float", code) if "Real" in self.macros else code
 

@@ -21,7 +21,7 @@ def wrapped(line):
     if function := FUNCTION.fullmatch(line):
         return [*wrapped(function[1]), "{", *wrapped("    " + function[2]), "}"]
     if "//" in line: # a comment behind code that leaves it no room goes before
-        code, comment = line.split("//")
+        code, _, comment = line.partition("//")
         return [" " * (len(line) - len(line.lstrip())) + "//" + comment, *wrapped(code.rstrip())]
     lines, opened, rest = [], [], line
     begins = re.match(r".*?(?: = |\breturn )", line)
@@ -46,7 +46,7 @@ def wrapped(line):
 
 
 def laid_out(text):
-    """The text with each statement and each head of a function on one line where it fits, and so a function of one statement."""
+    """The text with each statement, each head of a function and each function of one statement on one line, where it fits."""
     lines, statement = [], []
     for line in text.splitlines() + [""]:
         code = line.partition("//")[0].rstrip()
@@ -64,6 +64,8 @@ def laid_out(text):
 
 
 def joined(statement):
+    if any("//" in part for part in statement[:-1]):
+        return statement
     line = re.sub(r"\( ", "(", " ".join([statement[0], *map(str.strip, statement[1:])]))
     hangs = any(part.endswith("(") for part in statement) and max(map(len, statement)) <= WIDTH
     return statement if hangs and len(line) > WIDTH else wrapped(line)

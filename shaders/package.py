@@ -56,6 +56,8 @@ def closure(headers, names):
     ordered = []
 
     def visit(name):
+        if name not in headers:
+            raise DialectError(f"{name}: no such header of the kernel dialect below include/gnomon")
         if name not in ordered:
             for include in headers[name].includes:
                 visit(include)
@@ -155,13 +157,13 @@ def write(files, output):
 
 
 def main():
-    if len(sys.argv) != 4:
-        print("package.py: INCLUDE, VERSION and OUTPUT expected", file=sys.stderr)
+    if len(sys.argv) != 4 or not re.fullmatch(r"\d+\.\d+\.\d+", sys.argv[2]):
+        print("package.py: INCLUDE, VERSION such as 0.1.0, and OUTPUT expected", file=sys.stderr)
         sys.exit(2)
     include, version, output = Path(sys.argv[1]), sys.argv[2], Path(sys.argv[3])
     try:
         write(list(Packager(include, version).files()), output)
-    except (DialectError, OSError, ValueError) as error:
+    except (DialectError, OSError) as error:
         print(f"package.py: {error}", file=sys.stderr)
         sys.exit(2)
 

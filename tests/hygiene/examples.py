@@ -46,7 +46,8 @@ def main():
     for document, sections in EXAMPLES.items():
         text = (root / document).read_text()
         for section, (ending, compiler) in sections.items():
-            example = "\n".join(re.findall(r"^    (.*)$|^$", text.split(f"## {section}\n")[1].split("\n## ")[0], re.MULTILINE)).lstrip()
+            page = text.split(f"## {section}\n")[1].split("\n## ")[0]
+            example = "\n".join(re.findall(r"^    (.*)$|^$", page, re.MULTILINE)).lstrip()
             if "OpenGL" in section:
                 example = pasted(example, packages)
             with tempfile.TemporaryDirectory() as folder:
@@ -58,8 +59,8 @@ def main():
             if run.returncode:
                 failed += 1
                 print(f"{document}, {section}: {complaints(run)[0]}")
-    page = (root / "docs/shaders.md").read_text()
-    unnamed = {path.stem for path in packages.glob("*.glsl")} - set(re.findall(r"`(\w+)`", page))
+    words = re.findall(r"`(\w+)`", (root / "docs/shaders.md").read_text())
+    unnamed = {path.stem for path in packages.glob("*.glsl")} - set(words)
     for name in sorted(unnamed):
         print(f"docs/shaders.md: does not name the package {name}")
     print(f"{count} examples, {failed} refused")

@@ -47,12 +47,14 @@ ROUTES = {
     "glsl400": Route("glsl", ".frag", "#version 400\n" + INCLUDES, "void main() {{{}}}\n", ["glslangValidator", "-G"]),
     "essl310": Route("glsl", ".frag", "#version 310 es\n" + INCLUDES, "void main() {{{}}}\n", GLSLANG),
     "essl320": Route("glsl", ".frag", "#version 320 es\n" + INCLUDES, "void main() {{{}}}\n", GLSLANG),
-    "hlsl": Route("hlsl", ".hlsl", "", "[numthreads(1, 1, 1)] void main() {{{}}}\n", GLSLANG + ["-D", "-Od", "-e", "main", "-S", "comp"]),
+    "hlsl": Route("hlsl", ".hlsl", "", "[numthreads(1, 1, 1)] void main() {{{}}}\n",
+                  GLSLANG + ["-D", "-Od", "-e", "main", "-S", "comp"]),
     "opencl": Route("cl", ".cl", "", C_MAIN,
                     ["clang", "-x", "cl", "-cl-std=CL1.2", "-Xclang", "-finclude-default-header", "-target", "spir64", *LLVM]),
     # Apple's compiler is not to be had here: clang, with the few names of metal_stdlib that the prelude uses.
     "metal": Route("metal", ".metal", "", C_MAIN,
-                   ["clang++", "-x", "c++", "-std=c++14", "-D__METAL_VERSION__=300", f"-I{Path(__file__).parent / 'metal'}", *LLVM]),
+                   ["clang++", "-x", "c++", "-std=c++14", "-D__METAL_VERSION__=300", f"-I{Path(__file__).parent / 'metal'}",
+                    *LLVM]),
     "c++": Route("cuh", ".cpp", "", C_MAIN, ["clang++", "-std=c++20", *LLVM]),
 }
 

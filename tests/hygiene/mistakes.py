@@ -54,9 +54,11 @@ def mistakes(include, packages):
     variance = (packages / "variance.glsl").read_text()
     glsl = ROUTES["glsl"]
     older = re.sub(r"GNOMON_PACKAGE (!= )?\d+", r"GNOMON_PACKAGE \g<1>1", variance)
-    yield "packages of two versions", glsl.compiler, ".comp", glsl.begin + moments4 + older, "gnomon: variance.glsl is not of the same"
-    yield "a header behind a package", glsl.compiler, ".comp", glsl.begin + variance + EVERYTHING, "gnomon: a shader package is included"
-    yield "a package behind a header", glsl.compiler, ".comp", glsl.begin + EVERYTHING + variance, "gnomon: variance.glsl and the headers"
+    for what, text, answer in [
+            ("packages of two versions", moments4 + older, "gnomon: variance.glsl is not of the same version"),
+            ("a header behind a package", variance + EVERYTHING, "gnomon: a shader package is included already"),
+            ("a package behind a header", EVERYTHING + variance, "gnomon: variance.glsl and the headers")]:
+        yield what, glsl.compiler, ".comp", glsl.begin + text, answer
     for ending, other in {"glsl": "opencl", "hlsl": "essl310", "metal": "c++", "cl": "c++", "cuh": "metal"}.items():
         route = ROUTES[other]
         yield (f"variance.{ending} in {other}", route.compiler, route.ending,
