@@ -134,6 +134,7 @@ class Prelude:
                 raise DialectError(f"{word}: a word of the dialect that {self.guard} does not spell")
         texts = [laid_out(text) for text in texts if code_words(text)]
         namespace = [self.expanded(f"GNOMON_NAMESPACE_{end}\n") for end in ("BEGIN", "END")]
+        namespace[1] = namespace[1].replace("}", "} // namespace gnomon")
         return "\n" + "\n".join(text for text in [namespace[0], *texts, namespace[1]] if text.strip()) + "\n"
 
     def without_unused(self, text):

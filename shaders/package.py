@@ -48,6 +48,7 @@ CHECKS = """\
 #error "gnomon: {name} is not of the same version as a package before it"
 #endif
 #define GNOMON_PACKAGE {number} // major, minor and patch, two digits each
+
 """
 
 
