@@ -6,6 +6,7 @@
 #include <gnomon/filters/convolution.h>
 #include <gnomon/filters/exponential.h>
 #include <gnomon/filters/exponential_variance.h>
+#include <gnomon/filters/layered_variance.h>
 #include <gnomon/filters/percentage_closer.h>
 #include <gnomon/filters/variance.h>
 #include <gnomon/moments/hamburger_cholesky.h>
@@ -72,6 +73,37 @@ struct variance : compilation {
     template <class Real> static GNOMON_INLINE constexpr Real run(Real mean, Real square, Real z_f)
     {
         return variance_intensity(variance_moments<Real>{mean, square}, z_f, {literal<Real>(2e-7)});
+    }
+};
+
+struct layered : compilation {
+    static constexpr auto name = "layered variance, 4 layers";
+    static constexpr std::size_t inputs = 9;
+    static constexpr bool has_error = true;
+    template <class Real> static constexpr layered_variance_settings<Real> settings(std::size_t layer)
+    {
+        return {literal<Real>(0.5 * static_cast<double>(layer) - 0.75), literal<Real>(4), literal<Real>(2e-7)};
+    }
+    static auto samples(std::size_t count, std::uint64_t seed)
+    {
+        return averages<8>(count, seed, [](double z) {
+            std::array<double, 8> values{};
+            for (std::size_t k = 0; k < 4; ++k) {
+                const auto b = layered_variance_encode(z, settings<double>(k));
+                values[2 * k] = b.mean;
+                values[2 * k + 1] = b.square;
+            }
+            return values;
+        });
+    }
+    template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
+    {
+        using real = std::common_type_t<Reals...>;
+        const std::array<real, inputs> f{operands...};
+        layered_variance<real> state = layered_variance_begin(f[8]);
+        for (std::size_t k = 0; k < 4; ++k)
+            state = layered_variance_add(state, {f[2 * k], f[2 * k + 1]}, settings<real>(k));
+        return layered_variance_end(state);
     }
 };
 
@@ -144,6 +176,6 @@ struct convolution : compilation {
 };
 
 [[maybe_unused]] const bool registered =
-    add_kernels<algorithm1, closer9, variance, exponential, exponential_variance, convolution>("filters");
+    add_kernels<algorithm1, closer9, variance, layered, exponential, exponential_variance, convolution>("filters");
 
 } // namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC

@@ -96,6 +96,10 @@ struct vsm_32 : filterable<variance_unorm16, variance_moments> {
     static constexpr std::string_view name = "VSM 32 bit";
 };
 
+struct lvsm_128 : filterable<layered_variance_unorm16, layered_variance_moments> {
+    static constexpr std::string_view name = "LVSM 128 bit";
+};
+
 struct esm_32 : filterable<exponential_float, exponential_moment> {
     static constexpr std::string_view name = "ESM 32 bit";
 };
@@ -174,8 +178,8 @@ struct msm6_192 : filterable<moments6_float, moments6> {
     static constexpr std::string_view name = "MSM6 192 bit";
 };
 
-using all_methods = std::tuple<pcf, vsm_32, esm_32, evsm_64, evsm_128, csm_256, msm_64_paper, msm_64, msm_64_half,
-                               msm_128_unit, msm_128_paper, msm_128, msm6_60, msm6_96, msm6_192>;
+using all_methods = std::tuple<pcf, vsm_32, lvsm_128, esm_32, evsm_64, evsm_128, csm_256, msm_64_paper, msm_64,
+                               msm_64_half, msm_128_unit, msm_128_paper, msm_128, msm6_60, msm6_96, msm6_192>;
 
 // Calls each.template operator()<M>() for every method.
 template <class Each> void for_each_method(Each each)

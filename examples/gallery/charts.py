@@ -12,7 +12,7 @@ plt.rcParams.update({
     "axes.grid": True, "grid.color": "#e6e6e6", "axes.axisbelow": True, "svg.hashsalt": "gnomon", "svg.fonttype": "none",
 })
 
-FAMILY_COLOURS = {"PCF": "#222222", "VSM": "#8c6d31", "ESM": "#9467bd", "EVSM": "#d62728", "CSM": "#7f7f7f",
+FAMILY_COLOURS = {"PCF": "#222222", "VSM": "#8c6d31", "LVSM": "#c49a4a", "ESM": "#9467bd", "EVSM": "#d62728", "CSM": "#7f7f7f",
                   "MSM": "#1f77b4", "MSM6": "#2ca02c"}
 ERRORS = {"leak": "leak (mean of what is too bright)", "acne": "acne (mean of what is too dark)", "rmse": "RMSE"}
 

@@ -18,6 +18,7 @@
 #include "filters/convolution.h"
 #include "filters/exponential.h"
 #include "filters/exponential_variance.h"
+#include "filters/layered_variance.h"
 #include "filters/percentage_closer.h"
 #include "filters/variance.h"
 #endif

@@ -173,6 +173,10 @@ inline constexpr input_family<T> input_families[] = {
          put(a);
          for (const double c : monic_cubic(bits)) put(a * c);
      }},
+    {"layer", 3,
+     [](auto put, const situation&, bit_source& bits) {
+         put(bits.uniform(-1, 1)), put(bits.uniform(1, 8)), put(std::exp2(bits.uniform(-26, -8)));
+     }},
     // The Fourier series: settings, and a phase.
     {"series", 4,
      [](auto put, const situation&, bit_source& bits) {

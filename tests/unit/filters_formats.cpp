@@ -11,8 +11,9 @@
 
 using namespace gnomon;
 
-#define EVERY_FORMAT \
-    variance_unorm16, exponential_float, exponential_variance_half, exponential_variance_float, convolution_unorm8
+#define EVERY_FORMAT                                                                          \
+    variance_unorm16, layered_variance_unorm16, exponential_float, exponential_variance_half, \
+        exponential_variance_float, convolution_unorm8
 
 TEST_CASE_TEMPLATE("stored channels decode and encode to the same code", Format, EVERY_FORMAT)
 {

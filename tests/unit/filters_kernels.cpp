@@ -7,6 +7,7 @@
 #include <gnomon/filters/convolution.h>
 #include <gnomon/filters/exponential.h>
 #include <gnomon/filters/exponential_variance.h>
+#include <gnomon/filters/layered_variance.h>
 #include <gnomon/filters/percentage_closer.h>
 #include <gnomon/filters/variance.h>
 #include <gnomon/simd/xsimd.hpp>
@@ -119,6 +120,53 @@ TEST_CASE_TEMPLATE("variance: Cantelli's bound, within the stated error, below p
         REQUIRE(std::abs(double(intensity) - exact.bound) <= exact.slack);
         REQUIRE(exact.bound <= d.below(double(z_f)) + rounding_of_weights);
     });
+}
+
+// Two roundings stretch the receiver, two the depths; the rest as above.
+TEST_CASE_TEMPLATE("layered variance: the largest of the layers' bounds, below percentage closer", T, float, double)
+{
+    constexpr std::size_t layers = 4;
+    for_each_query(20'000, [](const distribution& d, double z) {
+        const T z_f = T(z);
+        layered_variance<T> state = layered_variance_begin(z_f);
+        cantelli largest{0, 0};
+        for (std::size_t k = 0; k < layers; ++k) {
+            const layered_variance_settings<T> settings{T(2 * double(k) + 1) / T(layers) - T(1), T(layers), T(0)};
+            const auto stretched = [&](wide x) {
+                return std::clamp((x - wide(settings.centre)) * wide(settings.scale), -1.0L, 1.0L);
+            };
+            const variance_moments<T> filtered{expectation<T>(d, stretched),
+                                               expectation<T>(d, [&](wide x) { return stretched(x) * stretched(x); })};
+            state = layered_variance_add(state, filtered, settings);
+            const cantelli exact = exact_cantelli(d, stretched, stretched(wide(z_f)), 8 * u<T>);
+            largest = {std::max(largest.bound, exact.bound), std::max(largest.slack, exact.slack)};
+        }
+        REQUIRE(std::abs(double(layered_variance_end(state)) - largest.bound) <= largest.slack);
+        REQUIRE(largest.bound <= d.below(double(z_f)) + rounding_of_weights);
+    });
+}
+
+TEST_CASE("one layer over all depths is a variance shadow map; a cut between two occluders stops the leak")
+{
+    const layered_variance_settings<double> all{0, 1, 1e-6};
+    for_each_query(1'000, [&](const distribution& d, double z_f) {
+        const auto b = variance_of<double>(d);
+        const auto state = layered_variance_add(layered_variance_begin(z_f), b, all);
+        REQUIRE(layered_variance_end(state) == variance_intensity(b, z_f, {all.minimum_variance}));
+    });
+    // What covers two thirds of the region lies in front of the last layer, the receiver in it.
+    layered_variance<double> state = layered_variance_begin(0.9);
+    for (const double centre : {-0.5, 0.25, 0.75}) {
+        const layered_variance_settings<double> settings{centre, centre < 0 ? 2.0 : 4.0, 0};
+        variance_moments<double> mean{0, 0};
+        for (const double z : {-0.8, 0.4, 0.9}) {
+            const auto b = layered_variance_encode(z, settings);
+            mean = {mean.mean + b.mean / 3, mean.square + b.square / 3};
+        }
+        state = layered_variance_add(state, mean, settings);
+    }
+    CHECK(layered_variance_end(state) == doctest::Approx(2.0 / 3));
+    CHECK(variance_intensity(variance_of<double>({{-0.8, 0.4, 0.9}, {1.0 / 3, 1.0 / 3, 1.0 / 3}}), 0.9, {0}) < 0.55);
 }
 
 TEST_CASE_TEMPLATE("exponential: Markov's bound, within the stated error, below percentage closer", T, float, double)
@@ -253,9 +301,9 @@ TEST_CASE_TEMPLATE("ordinary odd inputs: lit where nothing is in front, NaN is l
 
 namespace {
 
-constexpr std::size_t argument_count = 8;
+constexpr std::size_t argument_count = 8, intensity_count = 6;
 
-template <class Real> std::array<Real, 5> all_intensities(const std::array<Real, argument_count>& a)
+template <class Real> std::array<Real, intensity_count> all_intensities(const std::array<Real, argument_count>& a)
 {
     percentage_closer<Real> closer_state = percentage_closer_begin(a[0]);
     closer_state = percentage_closer_add(closer_state, a[1], a[2]);
@@ -264,7 +312,11 @@ template <class Real> std::array<Real, 5> all_intensities(const std::array<Real,
     convolution_sum<Real> sum = convolution_begin(a[0], series);
     sum = convolution_add(sum, a[5], a[6], convolution_weight(a[7], series));
     sum = convolution_add(sum, a[6], a[5], a[7]);
-    return {percentage_closer_end(closer_state), variance_intensity(variance_moments<Real>{a[1], a[2]}, a[0], {a[3]}),
+    layered_variance<Real> layered = layered_variance_begin(a[0]);
+    layered = layered_variance_add(layered, {a[1], a[2]}, {a[3], a[4], a[5]});
+    return {percentage_closer_end(closer_state),
+            layered_variance_end(layered),
+            variance_intensity(variance_moments<Real>{a[1], a[2]}, a[0], {a[3]}),
             exponential_intensity(exponential_moment<Real>{a[1]}, a[0], {a[2]}),
             exponential_variance_intensity(exponential_variance_moments<Real>{a[1], a[2], a[3], a[4]}, a[0],
                                            {a[5], a[6], a[7]}),
@@ -299,7 +351,7 @@ TEST_CASE_TEMPLATE("10^7 hostile inputs per kernel and type stay in [0, 1]; pack
     using T = typename Pack::value_type;
     std::mt19937_64 random(17);
     std::array<std::array<T, Pack::size>, argument_count> in;
-    std::array<std::array<T, Pack::size>, 5> out;
+    std::array<std::array<T, Pack::size>, intensity_count> out;
     const bool native = Pack::size > 16 / sizeof(T);
     for (std::int64_t i = 0; i < test::effort(native ? 10'000'000 : 500'000); i += std::int64_t(Pack::size)) {
         std::array<Pack, argument_count> packed;
@@ -308,12 +360,12 @@ TEST_CASE_TEMPLATE("10^7 hostile inputs per kernel and type stay in [0, 1]; pack
             packed[k] = Pack::load_unaligned(in[k].data());
         }
         const auto result = all_intensities(packed);
-        for (std::size_t f = 0; f < 5; ++f) result[f].store_unaligned(out[f].data());
+        for (std::size_t f = 0; f < intensity_count; ++f) result[f].store_unaligned(out[f].data());
         for (std::size_t lane = 0; lane < Pack::size; ++lane) {
             std::array<T, argument_count> arguments;
             for (std::size_t k = 0; k < argument_count; ++k) arguments[k] = in[k][lane];
             const auto scalar = all_intensities(arguments);
-            for (std::size_t f = 0; f < 5; ++f) {
+            for (std::size_t f = 0; f < intensity_count; ++f) {
                 if (!(scalar[f] >= 0 && scalar[f] <= 1) || !(scalar[f] == out[f][lane]))
                     FAIL("kernel " << f << ": scalar " << scalar[f] << ", pack " << out[f][lane]
                                    << ", z_f = " << arguments[0]);

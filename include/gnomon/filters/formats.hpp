@@ -12,6 +12,7 @@
 #include "convolution.h"
 #include "exponential.h"
 #include "exponential_variance.h"
+#include "layered_variance.h"
 #include "variance.h"
 
 #include <array>
@@ -124,6 +125,66 @@ struct exponential_variance_float {
     template <class Real> static Real intensity(exponential_variance_moments<Real> channels, Real z_f)
     {
         return exponential_variance_intensity(channels, z_f, settings<Real>());
+    }
+};
+
+/// The moments of four layers.
+template <class Real> struct layered_variance_moments {
+    static constexpr std::size_t layers = 4;
+    std::array<variance_moments<Real>, layers> layer;
+};
+
+/// 128 bits: four layers that divide [-1, 1] evenly, each two UNORM16 channels, (1 + mean) / 2 and the mean square.
+struct layered_variance_unorm16 {
+    using moments = layered_variance_moments<float>;
+    using texel = std::array<std::uint16_t, 2 * moments::layers>;
+    static constexpr std::string_view method = "layered variance";
+    static constexpr std::string_view name = "8x16 UNORM";
+    static constexpr std::size_t bytes_per_texel = 16;
+    static constexpr double minimum_variance = minimum_variance_against(1.0 / 65535.0);
+
+    template <class Real> static layered_variance_settings<Real> settings(std::size_t layer)
+    {
+        constexpr double scale = double(moments::layers);
+        return {literal<Real>((2.0 * double(layer) + 1.0) / scale - 1.0), literal<Real>(scale),
+                literal<Real>(minimum_variance)};
+    }
+    static moments moments_of_depth(float z)
+    {
+        moments b;
+        for (std::size_t k = 0; k < moments::layers; ++k) b.layer[k] = layered_variance_encode(z, settings<float>(k));
+        return b;
+    }
+    static texel encode_channels(const moments& c)
+    {
+        texel t;
+        for (std::size_t k = 0; k < moments::layers; ++k) {
+            t[2 * k] = unorm_encode<16>(c.layer[k].mean);
+            t[2 * k + 1] = unorm_encode<16>(c.layer[k].square);
+        }
+        return t;
+    }
+    static texel encode(moments b)
+    {
+        for (auto& layer : b.layer) layer.mean = 0.5f * layer.mean + 0.5f;
+        return encode_channels(b);
+    }
+    static moments decode(const texel& t)
+    {
+        moments c;
+        for (std::size_t k = 0; k < moments::layers; ++k)
+            c.layer[k] = {unorm_decode<16>(t[2 * k]), unorm_decode<16>(t[2 * k + 1])};
+        return c;
+    }
+    template <class Real> static Real intensity(const layered_variance_moments<Real>& channels, Real z_f)
+    {
+        layered_variance<Real> state = layered_variance_begin(z_f);
+        for (std::size_t k = 0; k < moments::layers; ++k) {
+            variance_moments<Real> layer = channels.layer[k];
+            layer.mean = Real(2) * layer.mean - Real(1);
+            state = layered_variance_add(state, layer, settings<Real>(k));
+        }
+        return layered_variance_end(state);
     }
 };
 
