@@ -20,8 +20,8 @@
 //   GNOMON_PIVOT_FLOOR               the least pivot, far above the square of what rounding makes of P_k at a node,
 //                                    its 7th power normal once scaled by 2^112: 2^-30, in double 2^-66
 //
-// Zeros have signs, and a pack may lose one: -x of +0 is +0 for xsimd's AVX-512. Where that zero could reach a result,
-// a kernel has 0 - x, which is +0 everywhere.
+// Zeros have signs, and not everybody keeps them: for +0, -x is +0 by xsimd's AVX-512, and 0 - x is -0 by Mesa's
+// llvmpipe. Where such a zero could reach a result, a kernel has Real(-1) * x, which is -0 everywhere.
 #ifndef GNOMON_PORTABLE_H
 #define GNOMON_PORTABLE_H
 

@@ -72,8 +72,11 @@ std::unique_ptr<route> fused_against_split_route(const std::filesystem::path& fi
 /// code 77 says that it cannot run here, and its last line why.
 std::unique_ptr<route> command_route(std::string command, std::string device);
 
-/// Of modules FOLDER/KERNEL.spv on the Vulkan drivers that icd names (VK_ICD_FILENAMES), all drivers where it is empty.
+/// Of modules FOLDER/KERNEL.exact.spv on the Vulkan drivers that icd names (VK_ICD_FILENAMES), all drivers where it is empty.
 std::unique_ptr<route> vulkan_route(const std::filesystem::path& folder, const std::string& icd);
+
+/// Of texts FOLDER/KERNEL.comp in ESSL, on Mesa's OpenGL ES for the CPU.
+std::unique_ptr<route> gles_route(const std::filesystem::path& folder);
 
 /// Of FILE, OpenCL C with a function parity_KERNEL for each kernel, on the first device of the platform.
 std::unique_ptr<route> opencl_route(const std::filesystem::path& file, const std::string& platform);

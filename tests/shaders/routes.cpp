@@ -21,6 +21,32 @@ std::unique_ptr<route> opencl_route(const std::filesystem::path&, const std::str
     throw unavailable("built without OpenCL's headers");
 }
 #endif
+#if !defined(GNOMON_PARITY_GLES)
+std::unique_ptr<route> gles_route(const std::filesystem::path&)
+{
+    throw unavailable("built without the headers of EGL and OpenGL ES");
+}
+#endif
+
+namespace {
+
+/// Chromium's driver on the CPU.
+std::string swiftshader()
+{
+    const std::string icd = "/usr/lib/chromium/vk_swiftshader_icd.json";
+    if (!std::filesystem::exists(icd)) throw unavailable("no SwiftShader (chromium)");
+    return icd;
+}
+
+/// shaders: kernels.wgsl, or a folder of SPIR-V, which naga turns into WGSL.
+std::unique_ptr<route> dawn_route(const std::filesystem::path& shaders)
+{
+    const auto program = built("dawn/run.mjs");
+    if (!exists(program.parent_path() / "node_modules")) throw unavailable("not built: target gnomon_dawn");
+    return command_route("node '" + program.string() + "' '" + shaders.string() + '\'', "Dawn on SwiftShader");
+}
+
+} // namespace
 
 const std::vector<named_route>& all_routes()
 {
@@ -46,6 +72,11 @@ const std::vector<named_route>& all_routes()
         lavapipe("glsl"),
         lavapipe("hlsl"),
         {"glsl-vulkan", [] { return vulkan_route(built("glsl"), ""); }},
+        {"glsl-swiftshader", [] { return vulkan_route(built("glsl"), swiftshader()); }},
+        {"hlsl-swiftshader", [] { return vulkan_route(built("hlsl"), swiftshader()); }},
+        {"wgsl-dawn", [] { return dawn_route(built("wgsl/kernels.wgsl")); }},
+        {"naga-dawn", [] { return dawn_route(built("naga")); }},
+        {"essl-gles", [] { return gles_route(built("essl")); }},
         {"opencl-pocl", [] { return opencl_route(built("opencl/kernels.cl"), "Portable Computing Language"); }},
         {"metal-shim", [] { return module_route(built("metal.so")); }},
         {"cuda", [] { return module_route(built("cuda.so")); }},

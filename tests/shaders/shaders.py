@@ -3,18 +3,26 @@
 
 usage: shaders.py LANGUAGE OUTPUT TABLE INCLUDE    LANGUAGE is a key of LANGUAGES, INCLUDE the folder that holds gnomon/
 
-glsl, hlsl: OUTPUT/KERNEL.spv, one module per kernel, no operation of which may be contracted (no_contraction.py).
-opencl, metal: OUTPUT/kernels.cl, .metal, one text with a function parity_KERNEL for each kernel.
+glsl, hlsl: for each kernel OUTPUT/KERNEL.spv, as the compiler gives it, and OUTPUT/KERNEL.exact.spv, bound to the text's
+    arithmetic (exact_arithmetic.py); then OUTPUT/modules, the kernels' names.
+naga: the same from ESSL 310, which has no precise to lose on the way to WGSL (route.hpp).
+essl: OUTPUT/KERNEL.comp, one text for each kernel, precise throughout, and then OUTPUT/modules too.
+opencl, metal, wgsl: OUTPUT/kernels.cl, .metal, .wgsl, one text with a function parity_KERNEL for each kernel.
+
+Where a language knows no #include, the kernels come from its package.
 """
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import NamedTuple
+from typing import Callable, NamedTuple
 
-sys.path.insert(0, str(Path(__file__).parent.parent / "support"))
+ROOT = Path(__file__).resolve().parents[2]
+sys.path += [str(ROOT / "tests/support"), str(ROOT / "shaders")]
 import kernels
-import no_contraction
+import exact_arithmetic
+from package import Packager
+from precise import precise
 
 BLOCK = 64 # block_rows of kernel_call.hpp
 GLSLANG = ["glslangValidator", "-V", "--target-env", "vulkan1.1"]
@@ -28,21 +36,27 @@ class Language(NamedTuple):
     load: str = "x[{}]"
     store: str = "y[{}] = {}"
     call: str = "{}"
+    declare: str = "{} {}"
+    package: str = "" # what holds the kernels where there is no #include
+    changed: Callable = str # what becomes of the package's text
     compiler: list = [] # to SPIR-V, one module per kernel
 
+
+GLSL_BUFFERS = """layout(local_size_x = 64) in;
+layout(std430, binding = 0) readonly buffer Inputs { uint x[]; };
+layout(std430, binding = 1) buffer Outputs { uint y[]; };
+"""
+GLSL_ENTRY = "void main()\n{\n    uint group = gl_WorkGroupID.x, lane = gl_LocalInvocationIndex;"
 
 LANGUAGES = {
     "glsl": Language(".comp", """#version 450
 #extension GL_GOOGLE_include_directive : require
-layout(local_size_x = 64) in;
-layout(std430, binding = 0) readonly buffer Inputs { uint x[]; };
-layout(std430, binding = 1) buffer Outputs { uint y[]; };
-""", "void main()\n{\n    uint group = gl_WorkGroupID.x, lane = gl_LocalInvocationIndex;", load="uintBitsToFloat(x[{}])",
+""" + GLSL_BUFFERS, GLSL_ENTRY, load="uintBitsToFloat(x[{}])",
         store="y[{}] = floatBitsToUint({})", compiler=GLSLANG),
     "hlsl": Language(".hlsl", """[[vk::binding(0)]] StructuredBuffer<uint> x;
 [[vk::binding(1)]] RWStructuredBuffer<uint> y;
 """, "[numthreads(64, 1, 1)] void main(uint3 groups : SV_GroupID, uint lane : SV_GroupIndex)\n{\n    uint group = groups.x;",
-        load="asfloat(x[{}])", store="y[{}] = asuint({})", compiler=GLSLANG + ["-D", "-DGNOMON_HLSL", "-e", "main", "-S", "comp"]),
+        load="asfloat(x[{}])", store="y[{}] = asuint({})", compiler=GLSLANG + ["-D", "-Od", "-DGNOMON_HLSL", "-e", "main", "-S", "comp"]),
     "opencl": Language(".cl", "#pragma OPENCL FP_CONTRACT OFF\n",
         "kernel __attribute__((reqd_work_group_size(64, 1, 1))) void parity_{}(global const float* x, global float* y)\n"
         "{{\n    uint group = get_group_id(0), lane = get_local_id(0);", struct="struct {}"),
@@ -50,6 +64,17 @@ layout(std430, binding = 1) buffer Outputs { uint y[]; };
         "kernel void parity_{}(device const float* x [[buffer(0)]], device float* y [[buffer(1)]],\n"
         "                      uint group [[threadgroup_position_in_grid]], uint lane [[thread_index_in_threadgroup]])\n{{",
         struct="gnomon::{}<float>", call="gnomon::{}"),
+    "essl": Language(".comp", "#version 320 es\n" + GLSL_BUFFERS, GLSL_ENTRY, load="uintBitsToFloat(x[{}])",
+        store="y[{}] = floatBitsToUint({})", package="gnomon.glsl", changed=precise),
+    "naga": Language(".comp", "#version 310 es\n" + GLSL_BUFFERS, GLSL_ENTRY, load="uintBitsToFloat(x[{}])",
+        store="y[{}] = floatBitsToUint({})", package="gnomon.glsl", compiler=GLSLANG),
+    "wgsl": Language(".wgsl", """alias uint = u32;
+alias float = f32;
+@group(0) @binding(0) var<storage, read> x: array<u32>;
+@group(0) @binding(1) var<storage, read_write> y: array<u32>;
+""", "@compute @workgroup_size(64)\nfn parity_{}(@builtin(workgroup_id) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32)\n"
+        "{{\n    let group = groups.x;", load="bitcast<f32>(x[{}])", store="y[{}] = bitcast<u32>({})", declare="var {1}: {0}",
+        package="gnomon.wgsl"),
 }
 
 
@@ -61,22 +86,25 @@ def function(language, headers, kernel):
     """The function that moves one row through the kernel."""
     outputs = headers.numbers(kernel.result)
     lines = [language.entry.format(kernel.name) if language.entry.count("{}") else language.entry,
-             f"    uint i = group * {BLOCK * headers.inputs(kernel)}u + lane, o = group * {BLOCK * len(outputs)}u + lane;"]
+             f"    {language.declare.format('uint', 'i')} = group * {BLOCK * headers.inputs(kernel)}u + lane;",
+             f"    {language.declare.format('uint', 'o')} = group * {BLOCK * len(outputs)}u + lane;"]
     column = 0
     for k, parameter in enumerate(kernel.parameters):
-        lines.append(f"    {type_of(language, parameter)} a{k};")
+        lines.append(f"    {language.declare.format(type_of(language, parameter), f'a{k}')};")
         for number in headers.numbers(parameter):
             lines.append(f"    a{k}{number} = {language.load.format(f'i + {BLOCK * column}u')};")
             column += 1
     arguments = ", ".join(f"a{k}" for k in range(len(kernel.parameters)))
-    lines.append(f"    {type_of(language, kernel.result)} r = {language.call.format(kernel.name)}({arguments});")
+    result = language.declare.format(type_of(language, kernel.result), "r")
+    lines.append(f"    {result} = {language.call.format(kernel.name)}({arguments});")
     lines += [f"    {language.store.format(f'o + {BLOCK * j}u', f'r{number}')};" for j, number in enumerate(outputs)]
     return "\n".join(lines) + "\n}\n"
 
 
-def text_around(language, headers, some):
+def text_around(language, headers, some, packages):
     includes = "".join(dict.fromkeys(f'#include "{kernel.header}"\n' for kernel in some))
-    return language.head + includes + "\n".join(function(language, headers, kernel) for kernel in some)
+    functions = "\n".join(function(language, headers, kernel) for kernel in some)
+    return language.head + language.changed(packages.get(language.package, includes)) + functions
 
 
 def compile_module(language, source, include):
@@ -84,22 +112,25 @@ def compile_module(language, source, include):
     run = subprocess.run([*language.compiler, f"-I{include}", "-o", module, source], capture_output=True, text=True)
     if run.returncode:
         raise ValueError(f"{source}: {next((line for line in run.stdout.splitlines() if 'ERROR' in line), run.stderr)}")
-    no_contraction.rewrite(module)
+    exact_arithmetic.rewrite(module, source.with_suffix(".exact.spv"))
 
 
 def main():
     language, output, table, include = LANGUAGES[sys.argv[1]], *map(Path, sys.argv[2:])
     headers, _ = kernels.read(table, [h for h in include.rglob("*.h") if h.parent.name != "portable"])
     output.mkdir(parents=True, exist_ok=True)
-    if not language.compiler:
-        (output / ("kernels" + language.ending)).write_text(text_around(language, headers, headers.kernels))
+    packages = dict(Packager(include, "0.0.0").files()) if language.package else {}
+    if "{}" in language.entry:
+        text = text_around(language, headers, headers.kernels, packages)
+        (output / ("kernels" + language.ending)).write_text(text)
         return
     sources = []
     for kernel in headers.kernels:
         sources.append(output / (kernel.name + language.ending))
-        sources[-1].write_text(text_around(language, headers, [kernel]))
+        sources[-1].write_text(text_around(language, headers, [kernel], packages))
     with ThreadPoolExecutor() as pool:
-        list(pool.map(lambda source: compile_module(language, source, include), sources))
+        list(language.compiler and pool.map(lambda source: compile_module(language, source, include), sources))
+    (output / "modules").write_text("".join(f"{source.stem}\n" for source in sources))
 
 
 if __name__ == "__main__":

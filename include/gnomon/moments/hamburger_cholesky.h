@@ -63,15 +63,15 @@ GNOMON_KERNEL GNOMON_T(cubic_roots) cubic_roots_blinn(Real c2, Real c1, Real c0)
     // Depressed: x^3 + 3 hessian1 x + d with x = z + b.
     Real d = hessian2 - Real(2) * b * hessian1;
     GNOMON_T(cosine_sine)
-    t = polynomial_cosine_sine(polynomial_atan2(gnomon_sqrt(discriminant), Real(0) - d) *
+    t = polynomial_cosine_sine(polynomial_atan2(gnomon_sqrt(discriminant), Real(-1) * d) *
                                GNOMON_LITERAL(hamburger_cholesky_third));
-    Real radius = gnomon_sqrt(Real(0) - hessian1);
+    Real radius = gnomon_sqrt(Real(-1) * hessian1);
     Real half_cosine = radius * t.cosine;
     Real half_sine = radius * t.sine * GNOMON_LITERAL(hamburger_cholesky_sqrt3);
     GNOMON_T(cubic_roots) roots;
     roots.z1 = Real(2) * half_cosine - b;
     roots.z2 = (half_sine - half_cosine) - b;
-    roots.z3 = ((Real(0) - half_sine) - half_cosine) - b;
+    roots.z3 = Real(-1) * (half_sine + half_cosine) - b;
     return roots;
 }
 

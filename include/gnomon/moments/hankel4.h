@@ -65,9 +65,9 @@ GNOMON_KERNEL GNOMON_T(hankel4)
     hankel4_biased(GNOMON_T(moments4) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4, GNOMON_SETTING alpha)
 {
     GNOMON_T(moments4) e;
-    e.b1 = Real(0) - alpha * b.b1;
+    e.b1 = Real(-1) * alpha * b.b1;
     e.b2 = alpha * (bias2 - b.b2);
-    e.b3 = Real(0) - alpha * b.b3;
+    e.b3 = Real(-1) * alpha * b.b3;
     e.b4 = alpha * (bias4 - b.b4);
     GNOMON_T(covariances4) c = covariances4_of(b);
     GNOMON_T(double_word) v = biased_covariance(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);

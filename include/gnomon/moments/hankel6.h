@@ -98,11 +98,11 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_biased(GNOMON_T(moments6) b, GNOMON_SETT
                                                GNOMON_SETTING bias6, GNOMON_SETTING alpha)
 {
     GNOMON_T(moments6) e;
-    e.b1 = Real(0) - alpha * b.b1;
+    e.b1 = Real(-1) * alpha * b.b1;
     e.b2 = alpha * (bias2 - b.b2);
-    e.b3 = Real(0) - alpha * b.b3;
+    e.b3 = Real(-1) * alpha * b.b3;
     e.b4 = alpha * (bias4 - b.b4);
-    e.b5 = Real(0) - alpha * b.b5;
+    e.b5 = Real(-1) * alpha * b.b5;
     e.b6 = alpha * (bias6 - b.b6);
     GNOMON_T(covariances6) c = covariances6_of(b);
     c.c11 = biased_covariance(c.c11, b.b1, b.b1, e.b2, e.b1, e.b1);

@@ -25,7 +25,7 @@ GNOMON_KERNEL Real quadratic_negative_root(Real a, Real b, Real c)
 {
     Real r = gnomon_sqrt(b * b - a * c);
     GNOMON_MASK falls = b > Real(0);
-    return gnomon_select(falls, Real(0) - c, r - b) / gnomon_select(falls, b + r, a);
+    return gnomon_select(falls, Real(-1) * c, r - b) / gnomon_select(falls, b + r, a);
 }
 
 GNOMON_NAMESPACE_END

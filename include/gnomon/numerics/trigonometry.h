@@ -147,7 +147,7 @@ GNOMON_KERNEL Real polynomial_atan2(Real y, Real x)
     angle = gnomon_select(wide, GNOMON_LITERAL(trigonometry_quarter_pi) + angle, angle);
     angle = gnomon_select(steep, GNOMON_LITERAL(trigonometry_half_pi) - angle, angle);
     angle = gnomon_select(x < Real(0), GNOMON_LITERAL(trigonometry_pi) - angle, angle);
-    return gnomon_select(y < Real(0), Real(0) - angle, angle);
+    return gnomon_select(y < Real(0), Real(-1) * angle, angle);
 }
 
 GNOMON_NAMESPACE_END
