@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Compiles the examples of README.md and docs/shaders.md, so that what a newcomer copies works.
 
-usage: examples.py ROOT PACKAGES    prints what a compiler has against an example; exit code 1 if there is any
+usage: examples.py ROOT PACKAGES               prints what a compiler has against an example; exit code 1 if there is any
+       examples.py ROOT PACKAGES CHECKER...    the example in WGSL by a checker that takes a folder
 
 ROOT holds README.md, PACKAGES the shader packages. An example is the indented text of a section.
 """
@@ -35,19 +36,31 @@ EXAMPLES = {
 }
 
 
+def example_in(root, document, section):
+    page = (root / document).read_text().split(f"## {section}\n")[1].split("\n## ")[0]
+    return "\n".join(re.findall(r"^    (.*)$|^$", page, re.MULTILINE)).lstrip()
+
+
 def pasted(text, packages):
     """The text as an engine without #include hands it on."""
     return re.sub(r'^#include "(.*)"\n', lambda include: (packages / include[1]).read_text(), text, flags=re.MULTILINE)
 
 
+def checked_wgsl(root, packages, checker):
+    with tempfile.TemporaryDirectory() as folder:
+        text = (packages / "moments4.wgsl").read_text() + example_in(root, "docs/shaders.md", "WebGPU")
+        (Path(folder) / "example.wgsl").write_text(text)
+        return subprocess.run([*checker, folder]).returncode
+
+
 def main():
     root, packages = Path(sys.argv[1]), Path(sys.argv[2])
+    if sys.argv[3:]:
+        sys.exit(checked_wgsl(root, packages, sys.argv[3:]))
     count = failed = 0
     for document, sections in EXAMPLES.items():
-        text = (root / document).read_text()
         for section, (ending, compiler) in sections.items():
-            page = text.split(f"## {section}\n")[1].split("\n## ")[0]
-            example = "\n".join(re.findall(r"^    (.*)$|^$", page, re.MULTILINE)).lstrip()
+            example = example_in(root, document, section)
             if "OpenGL" in section:
                 example = pasted(example, packages)
             with tempfile.TemporaryDirectory() as folder:
