@@ -86,8 +86,8 @@ class Demo(unittest.TestCase):
         files = sorted((self.out / "gallery").rglob("*.png"))
         self.assertGreater(len(files), 40)
         for file in files:
-            if file.name == "method00-filtered.png":
-                continue  # percentage-closer filtering against itself is white but for the frames
+            if file.name == "method00-filtered.png" or file.name.endswith("-difference.png"):
+                continue  # white: percentage-closer filtering against itself, and the CPU against a device
             self.assertGreater(matplotlib.image.imread(file)[..., :3].std(), 0.01, file)
 
     def test_the_page_links_to_what_is_there_and_to_nothing_outside(self):

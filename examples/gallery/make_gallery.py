@@ -159,6 +159,51 @@ def model(out, folder, facts, report):
 <p>A model from a file on a ground plane, camera and light framed by its bounds.</p>""")
 
 
+def vulkan_shadows(out, folder, facts, report):
+    passes = list(facts["methods"][0]["passes"])
+    heads = ["method", "format", *(f"{name.replace('_', ' ')}, ms" for name in passes), "mean", "99%", "99.9%", "largest",
+             f"beyond {1e3 * facts['tolerance']:g}, per million", "of these at edges"]
+
+    def cells(m):
+        yield m["method"], escape(m["method"])
+        yield m["format"], escape(m["format"])
+        yield from ((m["passes"][name], f"{m['passes'][name]:.2f}") for name in passes)
+        yield from ((m[name], f"{1e3 * m[name]:.3f}") for name in ("mean", "p99", "p999", "largest"))
+        yield m["beyond"], f"{1e6 * m['beyond']:.0f}"
+        at_edges = 1 - m["beyond_inside"] / m["beyond"] if m["beyond"] else 1
+        yield at_edges, f"{100 * at_edges:.1f} %" if m["beyond"] else "&ndash;"
+
+    head = "".join(f"<th>{escape(text)}</th>" for text in heads)
+    body = "\n".join("<tr>" + "".join(f'<td data-key="{escape(str(key))}">{text}</td>' for key, text in cells(m)) + "</tr>"
+                     for m in facts["methods"])
+    pictures = "\n".join(
+        f'<h3>{escape(m["method"])} <span class="quiet">{escape(" + ".join(m["images"]))}</span></h3><div class="three">'
+        + picture(f"{folder}/{m['file']}-device.png", "Vulkan") + picture(f"{folder}/{m['file']}-cpu.png", "CPU")
+        + picture(f"{folder}/{m['file']}-difference.png", "difference") + "</div>" for m in facts["methods"])
+    return "The same shadows on Vulkan", f"""
+<p>The scene of the hard shadows on {escape(facts["device"])}, as an engine renders it: a shadow map of
+{facts["map_resolution"]} x {facts["map_resolution"]} texels by the rasterizer with four samples, its resolve to the method's
+format and a Gaussian of two passes by compute shaders, mip levels by blits, and {facts["width"]} x {facts["height"]} pixels lit by a
+fragment shader that looks the map up through a trilinear sampler. The shaders are {facts["language"]} and include the package of
+the library, whose kernels are the CPU's, bit for bit.</p>
+<h3>Times and differences</h3>
+<p>Times are the device's own timestamps. Differences of visibility to the CPU, in thousandths, over {facts["receivers"]:,}
+receivers. They come from what Vulkan leaves to a device: which way a value is rounded to the map's format, with how many bits a
+sampler weighs texels, how positions are interpolated, and which sample on an edge a triangle gets. All but the last move the
+stored moments by no more than a few roundings of the format, which on a lit surface show as {1e3 * facts["tolerance"]:g} thousandths at
+most; beyond that lie receivers at edges of shadows or surfaces, where intensity is steep. EVSM in half floats differs most where a
+device rounds them toward zero, as Vulkan permits.</p>
+<div class="scroll"><table><thead><tr>{head}</tr></thead>
+<tbody>
+{body}
+</tbody></table></div>
+<h3>Pictures</h3>
+<p>Differences of visibility: <b style="color:#2a62cc">blue</b> where the device is brighter, <b style="color:#c8232c">red</b>
+where it is darker, saturated at {facts["error_scale"]:g}.</p>
+{pictures}
+"""
+
+
 def bounds(out, folder, facts, report):
     charts.bounds(facts, out / "gallery" / folder, "bounds")
     return "Bounds from moments", f"""
@@ -170,7 +215,7 @@ that touches both bounds; it is all that the kernels have to find. The more mome
 """
 
 
-SECTIONS = {"hard_shadows": hard_shadows, "bounds": bounds, "model": model}
+SECTIONS = {"hard_shadows": hard_shadows, "vulkan_shadows": vulkan_shadows, "bounds": bounds, "model": model}
 
 
 def main():

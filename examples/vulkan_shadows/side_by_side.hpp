@@ -2,9 +2,10 @@
 //
 // The kernels give the same bits on both. What differs is what Vulkan leaves to a device: in which direction a stored
 // half float is rounded, with how many bits a sampler weighs texels, in which order floats are interpolated, and which
-// sample or pixel on an edge a triangle gets. All but the last move the moments by less than the formats' own rounding,
-// which their biases and minimum variances are made for: it shows as 1% of intensity (filters/formats.hpp). Hence the
-// tolerance; beyond it only receivers at an edge, of a surface or of a shadow, may lie.
+// sample or pixel on an edge a triangle gets. All but the last move the moments by no more than a few of the formats'
+// roundings, which their biases and minimum variances are made to hide: on a lit surface they show as 1% of intensity
+// at most (filters/formats.hpp). Hence the tolerance: 99% of the receivers keep it, and those that do not lie at an
+// edge of a surface or of a shadow, where intensity is steep.
 #pragma once
 
 #include <tbb/parallel_for.h>
@@ -49,12 +50,12 @@ class device_comparison {
         return result;
     }
 
+    difference_statistics difference(const toolbox::image<float>& device, const toolbox::image<float>& host) const;
+
     const toolbox::image<toolbox::surface>& seen() const { return seen_; }
     const receivers& where() const { return where_; }
 
   private:
-    difference_statistics difference(const toolbox::image<float>& device, const toolbox::image<float>& host) const;
-
     std::array<float, 9> taps_ = gaussian_weights();
     depth_map depths_;
     toolbox::image<toolbox::surface> seen_;

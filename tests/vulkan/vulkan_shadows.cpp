@@ -1,0 +1,56 @@
+// The example vulkan_shadows, small, from either shading language: its shadows are those of the CPU, within the
+// tolerance that side_by_side.hpp derives, and the validation layer has nothing to say.
+#include <toolbox/stage.hpp>
+#include <vulkan_shadows/side_by_side.hpp>
+
+#include <string_view>
+
+#include "device.hpp"
+
+using namespace gnomon;
+using namespace gnomon::demo;
+
+namespace {
+
+const settings small{.width = 320, .height = 180, .map_resolution = 256};
+
+// Shares of the receivers; of 5 10^4 receivers, 50 may be off without an edge to blame.
+void check(const difference_statistics& d)
+{
+    CHECK(d.p99 <= double(device_tolerance));
+    CHECK(d.errors.mean_abs <= 0.1 * double(device_tolerance));
+    CHECK(d.beyond_inside <= 1e-3);
+}
+
+} // namespace
+
+TEST_CASE("the device's shadows are those of the CPU")
+{
+    const auto gpu = test::device_or_skip();
+    if (!gpu) return;
+    const toolbox::stage scenery = toolbox::fence_stage(double(small.width) / small.height);
+    for (const bool hlsl : {false, true}) {
+        CAPTURE(hlsl);
+        settings how = small;
+        how.hlsl = hlsl;
+        const device_comparison comparison(*gpu, scenery, how);
+        for_each_device_method([&]<method M>() {
+            const std::string_view name = M::name;
+            CAPTURE(name);
+            check(comparison.render<M>().difference);
+        });
+    }
+    for (const std::string& complaint : gpu->complaints()) FAIL_CHECK(complaint);
+}
+
+TEST_CASE("another method's shadows are beyond the tolerance")
+{
+    const auto gpu = test::device_or_skip();
+    if (!gpu) return;
+    const toolbox::stage scenery = toolbox::fence_stage(double(small.width) / small.height);
+    const device_comparison comparison(*gpu, scenery, small);
+    const auto wrong =
+        comparison.difference(comparison.render<msm_64>().device.visibility, comparison.render<msm_128>().host);
+    CHECK(wrong.p99 > double(device_tolerance));
+    CHECK(wrong.errors.mean_abs > 0.1 * double(device_tolerance));
+}
