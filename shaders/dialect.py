@@ -143,7 +143,7 @@ class Prelude:
 
     def expanded(self, text):
         parts = re.split(r"(//.*)", text)
-        expanded = "".join(part if part.startswith("//") else self.expanded_code(part) for part in parts)
+        expanded = "".join(self.without_real(part) if part.startswith("//") else self.expanded_code(part) for part in parts)
         return re.sub(r"^ (?=\S)", "", expanded, flags=re.MULTILINE) # what an empty GNOMON_KERNEL leaves
 
     def expanded_code(self, code):
@@ -154,7 +154,10 @@ class Prelude:
                 if name != "Real" and name in code:
                     code = with_value(code, name, parameters, value)
         code = re.sub(rf"(\(float\)|\b(?:Real|float))\(({NUMBER})\)", self.literal, code)
-        return re.sub(r"\bReal\b", "float", code) if "Real" in self.macros else code
+        return self.without_real(code)
+
+    def without_real(self, text):
+        return re.sub(r"\bReal\b", "float", text) if "Real" in self.macros else text
 
     def literal(self, found):
         """A number behind a cast to float as a number of that type, unless the cast is a template's."""

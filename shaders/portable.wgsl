@@ -1,6 +1,6 @@
 // WGSL has neither preprocessor nor include guard: put this text, once, before the shader's own.
-// The same bits as on the CPU come wherever / and sqrt are rounded correctly and no product is fused with a sum, neither
-// of which WGSL can ask for (docs/shaders.md). Exact products stay whole in any case.
+// The same bits as on the CPU come wherever / and sqrt are rounded correctly and no product is fused with a sum,
+// neither of which WGSL can ask for (docs/shaders.md). Exact products stay whole in any case.
 
 const gnomon_splitter: f32 = 4097.0;
 const gnomon_pivot_floor: f32 = 0x1p-30;

@@ -1,4 +1,4 @@
-// GLSL from version 400 and ESSL from version 310, with float as Real.
+// GLSL from version 400, ESSL from version 310.
 // For the same bits as on the CPU compile without contraction (docs/shaders.md); exact products stay whole in any case.
 #ifndef GNOMON_PORTABLE_GLSL_H
 #define GNOMON_PORTABLE_GLSL_H

@@ -1,4 +1,4 @@
-// HLSL with float as Real; no templates, so that old front ends take it too.
+// HLSL without templates, so that old front ends take it too.
 // For the same bits as on the CPU compile with strict IEEE arithmetic (/Gis); exact products stay whole in any case.
 #ifndef GNOMON_PORTABLE_HLSL_H
 #define GNOMON_PORTABLE_HLSL_H

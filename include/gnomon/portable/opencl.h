@@ -1,4 +1,4 @@
-// OpenCL C from version 1.2, full profile, with float as Real.
+// OpenCL C from version 1.2, full profile.
 // For the same bits as on the CPU put #pragma OPENCL FP_CONTRACT OFF before the kernels and build without relaxed
 // mathematics.
 #ifndef GNOMON_PORTABLE_OPENCL_H
