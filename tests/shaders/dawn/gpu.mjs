@@ -1,0 +1,47 @@
+// A device of Dawn, the WebGPU implementation of Chromium, on Chromium's Vulkan driver for the CPU; and what Tint, Dawn's
+// compiler, and naga have to say about a text in WGSL.
+import { NagaError, parseWgsl, validate } from "naga-wasm";
+import { existsSync } from "node:fs";
+import { basename } from "node:path";
+import { create, globals } from "webgpu";
+
+const unavailable = 77; // ctest's SKIP_RETURN_CODE
+const swiftshader = "/usr/lib/chromium/vk_swiftshader_icd.json";
+
+process.on("uncaughtException", (error) => {
+    console.error(`${basename(process.argv[1])}: ${error.message}`);
+    process.exit(2);
+});
+
+Object.assign(globalThis, globals);
+process.env.VK_ICD_FILENAMES = swiftshader;
+process.env.XDG_RUNTIME_DIR ??= "/tmp"; // a library below complains of none
+const gpu = create([]); // must outlive its devices
+
+export async function open_device() {
+    const adapter = existsSync(swiftshader) && (await gpu.requestAdapter());
+    if (!adapter) {
+        console.error("no WebGPU: Dawn wants SwiftShader (chromium) and a Vulkan loader (libvulkan1)");
+        process.exit(unavailable);
+    }
+    const { maxBufferSize, maxStorageBufferBindingSize } = adapter.limits;
+    return adapter.requestDevice({ requiredLimits: { maxBufferSize, maxStorageBufferBindingSize } });
+}
+
+/// The module, and all that Tint says, warnings too.
+export async function compile(device, text) {
+    const module = device.createShaderModule({ code: text });
+    const { messages } = await module.getCompilationInfo();
+    return { module, complaints: messages.map((m) => `${m.lineNum}:${m.linePos}: ${m.type}: ${m.message}`) };
+}
+
+/// naga's report, empty where there is nothing to say.
+export function naga_complaint(text) {
+    try {
+        validate(parseWgsl(text)).free();
+        return "";
+    } catch (error) {
+        if (error instanceof NagaError) return error.formatted;
+        throw error;
+    }
+}

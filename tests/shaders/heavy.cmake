@@ -1,0 +1,44 @@
+# The routes of ./run test --all: a second Vulkan driver (SwiftShader, of Chromium), WebGPU (Dawn, from npm, on
+# SwiftShader), and OpenGL ES.
+function(heavy_test name)
+    parity_test(${name} ${ARGN})
+    set_tests_properties(parity/${name} PROPERTIES LABELS "shader;heavy")
+endfunction()
+
+heavy_test(swiftshader glsl-swiftshader hlsl-swiftshader)
+
+find_path(GNOMON_EGL_INCLUDE EGL/egl.h)
+find_path(GNOMON_GLES_INCLUDE GLES3/gl32.h)
+find_library(GNOMON_EGL EGL)
+find_library(GNOMON_GLES GLESv2)
+if(GNOMON_EGL_INCLUDE AND GNOMON_GLES_INCLUDE AND GNOMON_EGL AND GNOMON_GLES)
+    target_sources(parity PRIVATE gles_route.cpp)
+    target_compile_definitions(parity PRIVATE GNOMON_PARITY_GLES)
+    target_link_libraries(parity PRIVATE ${GNOMON_EGL} ${GNOMON_GLES})
+    parity_shaders(essl modules)
+endif()
+heavy_test(gles essl-gles)
+
+# Dawn, Tint and naga as node's modules, in the versions of package-lock.json. They come over the network: nobody but
+# gnomon_dawn asks for them.
+parity_shaders(wgsl kernels.wgsl)
+if(GNOMON_GLSLANG AND GNOMON_SPIRV_AS)
+    parity_shaders(naga modules)
+endif()
+find_program(GNOMON_NODE node)
+find_program(GNOMON_NPM npm)
+if(GNOMON_NODE AND GNOMON_NPM)
+    set(dawn ${CMAKE_CURRENT_BINARY_DIR}/dawn)
+    file(GLOB scripts RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS dawn/*)
+    foreach(script IN LISTS scripts)
+        configure_file(${script} ${script} COPYONLY)
+    endforeach()
+    # naga-wasm asks for a later node than it needs, hence the log level; nothing here needs its scripts of installation.
+    add_custom_command(OUTPUT ${dawn}/node_modules/.package-lock.json
+        COMMAND ${GNOMON_NPM} ci --ignore-scripts --no-audit --no-fund --loglevel=error
+        DEPENDS dawn/package-lock.json WORKING_DIRECTORY ${dawn} COMMENT "Fetching Dawn and naga from npm")
+    add_custom_target(gnomon_dawn DEPENDS ${dawn}/node_modules/.package-lock.json)
+    add_test(NAME wgsl/packages COMMAND ${GNOMON_NODE} ${dawn}/check.mjs ${GNOMON_SHADERS})
+    set_tests_properties(wgsl/packages PROPERTIES LABELS "shader;heavy" SKIP_RETURN_CODE 77)
+endif()
+heavy_test(wgsl wgsl-dawn naga-dawn)
