@@ -185,14 +185,14 @@ def vulkan_shadows(out, folder, facts, report):
 {facts["map_resolution"]} x {facts["map_resolution"]} texels by the rasterizer with four samples, its resolve to the method's
 format and a Gaussian of two passes by compute shaders, mip levels by blits, and {facts["width"]} x {facts["height"]} pixels lit by a
 fragment shader that looks the map up through a trilinear sampler. The shaders are {facts["language"]} and include the package of
-the library, whose kernels are the CPU's, bit for bit.</p>
+the library, the same kernels as on the CPU.</p>
 <h3>Times and differences</h3>
 <p>Times are the device's own timestamps. Differences of visibility to the CPU, in thousandths, over {facts["receivers"]:,}
-receivers. They come from what Vulkan leaves to a device: which way a value is rounded to the map's format, with how many bits a
-sampler weighs texels, how positions are interpolated, and which sample on an edge a triangle gets. All but the last move the
-stored moments by no more than a few roundings of the format, which on a lit surface show as {1e3 * facts["tolerance"]:g} thousandths at
-most; beyond that lie receivers at edges of shadows or surfaces, where intensity is steep. EVSM in half floats differs most where a
-device rounds them toward zero, as Vulkan permits.</p>
+receivers. They come from what Vulkan leaves to a device: whether a product and a sum are fused, which way a value is rounded to
+the map's format, with how many bits a sampler weighs texels, how positions are interpolated, and how finely corners are snapped to
+the grid of samples. On this device they may add up to {1e3 * facts["tolerance"]:g} thousandths; beyond that lie receivers at edges of
+shadows or surfaces, where intensity is steep. EVSM in half floats differs most where a device rounds them toward zero, as Vulkan
+permits.</p>
 <div class="scroll"><table><thead><tr>{head}</tr></thead>
 <tbody>
 {body}

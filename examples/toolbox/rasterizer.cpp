@@ -19,7 +19,6 @@ namespace gnomon::toolbox {
 namespace {
 
 constexpr int tile_size = 64;
-constexpr int subpixels = 256;
 constexpr int largest_extent = 1 << 14; // pixels; with the guard band below, edge functions stay under 2^52
 constexpr double guard_band = 1 << 15;  // pixels beyond which triangles are clipped
 

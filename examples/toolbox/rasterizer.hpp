@@ -1,6 +1,6 @@
 // A minimal rasterizer on the CPU, parallel over tiles; its results do not depend on the number of threads.
 //
-// Coverage follows the rules of Direct3D: vertices snap to 1/256 pixel, edge functions are exact integers, the top-left
+// Coverage follows the rules of Direct3D: vertices snap to subpixels, edge functions are exact integers, the top-left
 // rule gives a sample on a shared edge to exactly one triangle, four samples lie in the standard rotated pattern. Depth
 // and position, however, are those of the view ray through the sample and the plane of the unsnapped triangle, in
 // double.
@@ -17,6 +17,9 @@
 namespace gnomon::toolbox {
 
 enum class faces { both, front, back };
+
+// Steps per pixel that corners snap to.
+inline constexpr int subpixels = 256;
 
 // Offsets from the pixel centre in 1/16 pixel, y down: D3D11_STANDARD_MULTISAMPLE_PATTERN.
 template <int Samples> inline constexpr std::array<glm::ivec2, Samples> sample_offsets{};

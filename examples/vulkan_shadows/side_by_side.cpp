@@ -24,10 +24,18 @@ bool at_edge(const image<float>& visibility, int x, int y)
     return high - low > 0.0625f;
 }
 
+float tolerance_of(const vulkan::device& gpu, std::span<const float> taps)
+{
+    constexpr float storage = 0.01f;
+    const bool coarse = 1 << gpu.physical().getProperties().limits.subPixelPrecisionBits < subpixels;
+    return coarse ? storage + 0.25f * std::ranges::max(taps) : storage;
+}
+
 } // namespace
 
 device_comparison::device_comparison(const vulkan::device& gpu, const stage& scenery, const settings& how)
-    : depths_(rasterize_depth<4>(scenery.world, scenery.light, how.map_resolution, how.map_resolution)),
+    : tolerance_(tolerance_of(gpu, taps_)),
+      depths_(rasterize_depth<4>(scenery.world, scenery.light, how.map_resolution, how.map_resolution)),
       seen_(rasterize_surfaces(scenery.world, scenery.eye, how.width * how.supersampling,
                                how.height * how.supersampling)),
       where_(receivers_of(seen_, scenery.light, how.map_resolution)),
@@ -43,7 +51,7 @@ difference_statistics device_comparison::difference(const image<float>& device, 
         estimates.push_back(device.pixels[pixel]);
         references.push_back(host.pixels[pixel]);
         values.push_back(std::abs(estimates.back() - references.back()));
-        if (values.back() <= device_tolerance) continue;
+        if (values.back() <= tolerance_) continue;
         beyond += 1;
         if (!at_edge(host, int(pixel) % host.width, int(pixel) / host.width)) beyond_inside += 1;
     }

@@ -52,7 +52,7 @@ void compare_on(const vulkan::device& gpu, const settings& how)
                                  {"height", how.height},
                                  {"map_resolution", how.map_resolution},
                                  {"receivers", comparison.where().size()},
-                                 {"tolerance", device_tolerance},
+                                 {"tolerance", comparison.tolerance()},
                                  {"error_scale", error_scale},
                                  {"methods", nlohmann::json::array()}};
     std::vector<report_row> rows;
