@@ -12,7 +12,7 @@
 
 namespace gnomon::demo {
 
-template <method M> inline const device_method on_device;
+template <method M> extern const device_method on_device;
 
 template <>
 inline const device_method on_device<vsm_32>{
