@@ -5,9 +5,10 @@ usage: shaders.py LANGUAGE OUTPUT TABLE INCLUDE    LANGUAGE is a key of LANGUAGE
 
 glsl, hlsl: for each kernel OUTPUT/KERNEL.spv, as the compiler gives it, and OUTPUT/KERNEL.exact.spv, bound to the text's
     arithmetic (exact_arithmetic.py); then OUTPUT/modules, the kernels' names.
-naga: the same from ESSL 310, which has no precise to lose on the way to WGSL (route.hpp).
+naga: the same from ESSL 310, every operation kept (kept.py): naga turns KERNEL.spv into WGSL, which has no decorations.
 essl: OUTPUT/KERNEL.comp, one text for each kernel, precise throughout, and then OUTPUT/modules too.
-opencl, metal, wgsl: OUTPUT/kernels.cl, .metal, .wgsl, one text with a function parity_KERNEL for each kernel.
+opencl, metal, wgsl: OUTPUT/kernels.cl, .metal, .wgsl, one text with a function parity_KERNEL for each kernel; in WGSL every
+    operation is kept.
 
 Where a language knows no #include, the kernels come from its package.
 """
@@ -21,6 +22,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path += [str(ROOT / "tests/support"), str(ROOT / "shaders")]
 import kernels
 import exact_arithmetic
+from kept import kept
 from package import Packager
 from precise import precise
 
@@ -67,14 +69,14 @@ LANGUAGES = {
     "essl": Language(".comp", "#version 320 es\n" + GLSL_BUFFERS, GLSL_ENTRY, load="uintBitsToFloat(x[{}])",
         store="y[{}] = floatBitsToUint({})", package="gnomon.glsl", changed=precise),
     "naga": Language(".comp", "#version 310 es\n" + GLSL_BUFFERS, GLSL_ENTRY, load="uintBitsToFloat(x[{}])",
-        store="y[{}] = floatBitsToUint({})", package="gnomon.glsl", compiler=GLSLANG),
+        store="y[{}] = floatBitsToUint({})", package="gnomon.glsl", changed=kept, compiler=GLSLANG),
     "wgsl": Language(".wgsl", """alias uint = u32;
 alias float = f32;
 @group(0) @binding(0) var<storage, read> x: array<u32>;
 @group(0) @binding(1) var<storage, read_write> y: array<u32>;
 """, "@compute @workgroup_size(64)\nfn parity_{}(@builtin(workgroup_id) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32)\n"
         "{{\n    let group = groups.x;", load="bitcast<f32>(x[{}])", store="y[{}] = bitcast<u32>({})", declare="var {1}: {0}",
-        package="gnomon.wgsl"),
+        package="gnomon.wgsl", changed=kept),
 }
 
 

@@ -1,0 +1,60 @@
+"""Keeps every operation of a text in GLSL or WGSL as it is written, where nothing else can: WGSL knows neither precise nor
+NoContraction, and SwiftShader rewrites a b + a c, x (1 / y), (x - y) + y and more. Results go through gnomon_kept, which
+nothing is rewritten across; the functions of the prelude, which has it, stay."""
+import re
+
+TOKEN = re.compile(r"\s*(\w[\w.]*(?:(?<=\de)[+-]\d+)?|[<>=!]=|&&|\|\||.)")
+LEVELS = [["||"], ["&&"], ["==", "!="], ["<", "<=", ">", ">="], ["+", "-"], ["*", "/"]]
+EXPRESSION = re.compile(r"(^ +(?:\w+ )?\w+(?: \w+)?(?:\.\w+)* = |\breturn )([^;]*)(?=;)", re.MULTILINE)
+KERNELS = re.compile(r"^// \w+/", re.MULTILINE)
+
+
+class Parser:
+    def __init__(self, text):
+        self.tokens = TOKEN.findall(text.strip()) + [""]
+
+    def take(self):
+        return self.tokens.pop(0)
+
+    def binary(self, level=0):
+        if level == len(LEVELS):
+            return self.unary()
+        left = self.binary(level + 1)
+        while self.tokens[0] in LEVELS[level]:
+            operator = self.take()
+            left = f"{left} {operator} {self.binary(level + 1)}"
+            left = f"gnomon_kept({left})" if operator in "+-*/" else f"({left})"
+        return left
+
+    def unary(self):
+        if self.tokens[0] in ("-", "!"):
+            return self.take() + self.unary()
+        if self.tokens[0] == "(":
+            return self.bracketed() + self.members()
+        name = self.take()
+        return name + (self.bracketed() if self.tokens[0] == "(" else "") + self.members()
+
+    def members(self):
+        members = ""
+        while self.tokens[0] == ".":
+            members += self.take() + self.take()
+        return members
+
+    def bracketed(self):
+        parts = []
+        while self.take() in ("(", ","):
+            parts.append(self.binary())
+        return f"({', '.join(parts)})"
+
+
+def expression(found):
+    parser = Parser(found[2])
+    text = parser.binary()
+    if parser.tokens != [""]:
+        raise ValueError(f"kept.py: cannot read {found[2]}")
+    return found[1] + text
+
+
+def kept(text):
+    start = KERNELS.search(text).start()
+    return text[:start] + EXPRESSION.sub(expression, text[start:])
