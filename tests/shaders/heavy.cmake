@@ -42,5 +42,7 @@ if(GNOMON_NODE AND GNOMON_NPM)
     add_test(NAME wgsl/example COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/../hygiene/examples.py
         ${PROJECT_SOURCE_DIR} ${GNOMON_SHADERS} ${GNOMON_NODE} ${dawn}/check.mjs)
     set_tests_properties(wgsl/packages wgsl/example PROPERTIES LABELS "shader;heavy" SKIP_RETURN_CODE 77)
+else()
+    add_custom_target(gnomon_dawn COMMENT "No node and npm here: Dawn and naga stay away")
 endif()
 heavy_test(wgsl wgsl-dawn naga-dawn)
