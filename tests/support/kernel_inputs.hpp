@@ -16,9 +16,10 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -177,6 +178,18 @@ inline constexpr input_family<T> input_families[] = {
      [](auto put, const situation&, bit_source& bits) {
          put(bits.uniform(-1, 1)), put(bits.uniform(1, 8)), put(std::exp2(bits.uniform(-26, -8)));
      }},
+    // Motion: times, surfaces and where they are when.
+    {"time", 1,
+     [](auto put, const situation&, bit_source& bits) {
+         put(bits.chance(0.2) ? double(bits.below(5)) / 4 : bits.uniform(0, 1));
+     }},
+    {"index", 1, [](auto put, const situation&, bit_source& bits) { put(double(bits.below(4))); }},
+    {"range", 5,
+     [](auto put, const situation& s, bit_source& bits) {
+         const double a = bits.uniform(0, 1), b = bits.chance(0.1) ? a : bits.uniform(0, 1);
+         put(std::min(a, b)), put(std::max(a, b)), put(s.texel), put(bits.chance(0.3) ? s.texel : s.receiver);
+         put(double(bits.below(4)));
+     }},
     // The Fourier series: settings, and a phase.
     {"series", 4,
      [](auto put, const situation&, bit_source& bits) {
@@ -200,33 +213,37 @@ template <class T> class kernel_inputs {
         for (std::string word; words >> word;) {
             const auto* found = std::find_if(std::begin(input_families<T>), std::end(input_families<T>),
                                              [&](const auto& family) { return family.name == word; });
-            if (found == std::end(input_families<T>))
-                throw std::invalid_argument("kernels.txt: " + std::string(kernel) + ": no family " + word);
+            if (found == std::end(input_families<T>)) wrong(kernel, "there is no family " + word);
             families_.push_back(found);
             keep_.insert(keep_.end(), found->numbers, !found->may_be_hostile);
         }
         if (keep_.size() != numbers)
-            throw std::invalid_argument("kernels.txt: " + std::string(kernel) + " takes " + std::to_string(numbers) +
-                                        " numbers, its families give " + std::to_string(keep_.size()));
+            wrong(kernel,
+                  "takes " + std::to_string(numbers) + " numbers, its families give " + std::to_string(keep_.size()));
     }
 
-    /// The next blocks, in the layout of kernel_call.hpp.
-    void draw(std::size_t blocks, T* to)
+    /// The next blocks, in the layout of kernel_call.hpp; tame ones are all in the kernel's domain.
+    void draw(std::size_t blocks, T* to, bool tame = false)
     {
         std::vector<T> row(numbers_);
         for (std::size_t end = block_ + blocks; block_ < end; ++block_, to += block_rows * numbers_)
             for (std::size_t i = 0; i < block_rows; ++i) {
-                draw_row(row, block_ % 4);
+                draw_row(row, tame ? 0 : block_ % 4);
                 for (std::size_t j = 0; j < numbers_; ++j) to[j * block_rows + i] = row[j];
             }
     }
 
   private:
+    [[noreturn]] static void wrong(std::string_view kernel, const std::string& what)
+    {
+        std::fprintf(stderr, "kernels.txt: %s: %s\n", std::string(kernel).c_str(), what.c_str());
+        std::exit(2);
+    }
+
     void draw_row(std::vector<T>& row, std::size_t turn)
     {
         static const std::vector<situation> situations = draw_situations(std::size_t{1} << 16, 7);
         const situation& s = situations[bits_.below(situations.size())];
-        row_writer<T> put(row.data());
         T* at = row.data();
         for (const auto* family : families_) {
             family->draw(row_writer<T>(at), s, bits_);

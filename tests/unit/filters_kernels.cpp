@@ -1,5 +1,5 @@
-// The filters beside moment shadow maps: their bounds are bounds, their errors are those that the comments state,
-// nothing leaves [0, 1], packs equal scalars.
+// The filters beside moment shadow maps: their bounds are bounds, their errors are those that the comments state. That
+// nothing leaves [0, 1] is tested with every kernel (every_kernel.hpp).
 
 #include "../support/distributions.hpp"
 #include "../support/effort.hpp"
@@ -10,12 +10,10 @@
 #include <gnomon/filters/layered_variance.h>
 #include <gnomon/filters/percentage_closer.h>
 #include <gnomon/filters/variance.h>
-#include <gnomon/simd/xsimd.hpp>
 
 #include <doctest/doctest.h>
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -297,79 +295,4 @@ TEST_CASE_TEMPLATE("ordinary odd inputs: lit where nothing is in front, NaN is l
     const convolution_settings<T> series{T(1), T(0), T(0), T(1)};
     CHECK(convolution_end(convolution_add(convolution_begin(T(1), series), nan, T(0), T(1))) == 0);
     CHECK(convolution_end(convolution_add(convolution_begin(nan, series), T(0), T(0), T(1))) == 0);
-}
-
-namespace {
-
-constexpr std::size_t argument_count = 8, intensity_count = 6;
-
-template <class Real> std::array<Real, intensity_count> all_intensities(const std::array<Real, argument_count>& a)
-{
-    percentage_closer<Real> closer_state = percentage_closer_begin(a[0]);
-    closer_state = percentage_closer_add(closer_state, a[1], a[2]);
-    closer_state = percentage_closer_add(closer_state, a[3], a[4]);
-    const convolution_settings<Real> series{a[1], a[2], a[3], a[4]};
-    convolution_sum<Real> sum = convolution_begin(a[0], series);
-    sum = convolution_add(sum, a[5], a[6], convolution_weight(a[7], series));
-    sum = convolution_add(sum, a[6], a[5], a[7]);
-    layered_variance<Real> layered = layered_variance_begin(a[0]);
-    layered = layered_variance_add(layered, {a[1], a[2]}, {a[3], a[4], a[5]});
-    return {percentage_closer_end(closer_state),
-            layered_variance_end(layered),
-            variance_intensity(variance_moments<Real>{a[1], a[2]}, a[0], {a[3]}),
-            exponential_intensity(exponential_moment<Real>{a[1]}, a[0], {a[2]}),
-            exponential_variance_intensity(exponential_variance_moments<Real>{a[1], a[2], a[3], a[4]}, a[0],
-                                           {a[5], a[6], a[7]}),
-            convolution_end(sum)};
-}
-
-/// Any bit pattern, a number that a map could hold, or a special one.
-template <class T> T hostile(std::uint64_t random)
-{
-    constexpr T infinity = std::numeric_limits<T>::infinity();
-    constexpr T largest = std::numeric_limits<T>::max();
-    constexpr T least = std::numeric_limits<T>::denorm_min();
-    constexpr std::array<T, 16> special{0,     T(-0.0), 1,      -1, infinity, -infinity, largest,      -largest,
-                                        least, -least,  T(0.5), 40, T(5.54),  T(1e-7),   T(nan_value), 2};
-    switch (random & 3) {
-        case 0:
-            return std::bit_cast<T>(
-                std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>(random >> (sizeof(T) == 4 ? 8 : 0)));
-        case 1:
-            return special[random >> 2 & 15];
-        default:
-            return T(std::int64_t(random)) * T(0x1p-63);
-    }
-}
-
-} // namespace
-
-TEST_CASE_TEMPLATE("10^7 hostile inputs per kernel and type stay in [0, 1]; packs equal scalars", Pack,
-                   xsimd::batch<float>, xsimd::batch<double>, xsimd::make_sized_batch_t<float, 4>,
-                   xsimd::make_sized_batch_t<double, 2>)
-{
-    using T = typename Pack::value_type;
-    std::mt19937_64 random(17);
-    std::array<std::array<T, Pack::size>, argument_count> in;
-    std::array<std::array<T, Pack::size>, intensity_count> out;
-    const bool native = Pack::size > 16 / sizeof(T);
-    for (std::int64_t i = 0; i < test::effort(native ? 10'000'000 : 500'000); i += std::int64_t(Pack::size)) {
-        std::array<Pack, argument_count> packed;
-        for (std::size_t k = 0; k < argument_count; ++k) {
-            for (T& lane : in[k]) lane = hostile<T>(random());
-            packed[k] = Pack::load_unaligned(in[k].data());
-        }
-        const auto result = all_intensities(packed);
-        for (std::size_t f = 0; f < intensity_count; ++f) result[f].store_unaligned(out[f].data());
-        for (std::size_t lane = 0; lane < Pack::size; ++lane) {
-            std::array<T, argument_count> arguments;
-            for (std::size_t k = 0; k < argument_count; ++k) arguments[k] = in[k][lane];
-            const auto scalar = all_intensities(arguments);
-            for (std::size_t f = 0; f < intensity_count; ++f) {
-                if (!(scalar[f] >= 0 && scalar[f] <= 1) || !(scalar[f] == out[f][lane]))
-                    FAIL("kernel " << f << ": scalar " << scalar[f] << ", pack " << out[f][lane]
-                                   << ", z_f = " << arguments[0]);
-            }
-        }
-    }
 }
