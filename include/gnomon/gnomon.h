@@ -1,5 +1,5 @@
 // Everything in the kernel dialect, in the order in which data flows: depth -> moments -> storage format -> bounds ->
-// intensity; then the comparators. What is C++ only (.hpp: formats in memory, passes over maps, adapters, packs) is
+// intensity; then the comparators; then moving geometry. What is C++ only (.hpp: formats in memory, passes over maps, adapters, packs) is
 // included by name.
 #ifndef GNOMON_GNOMON_H
 #define GNOMON_GNOMON_H
@@ -21,4 +21,6 @@
 #include "filters/layered_variance.h"
 #include "filters/percentage_closer.h"
 #include "filters/variance.h"
+
+#include "motion/range.h"
 #endif

@@ -1,0 +1,99 @@
+// Depth-time ranges: from time t0 to t1 of the shutter interval [0, 1] a surface covers a texel of the shadow map, at a
+// depth that goes linearly from z0 to z1. The depth-time range of Hong & Oh ("Motion blurred shadows utilizing a
+// depth-time ranges shadow map", section 4), the tuple of their temporal shadow map (2017) and the interval of Gribel
+// et al. 2010 and Palmer 2011 are these five numbers; the id tells whose surface it is, since none shadows itself.
+//
+// A range whose times are not in order, or one of them NaN, is empty: it shadows nothing.
+#ifndef GNOMON_MOTION_RANGE_H
+#define GNOMON_MOTION_RANGE_H
+#include "../numerics/select.h"
+GNOMON_NAMESPACE_BEGIN
+
+/// Times in [0, 1], signed depths, and a whole number that floats hold, such as a triangle's index below 2^24.
+GNOMON_STRUCT depth_time_range { Real t0, t1, z0, z1, id; };
+
+/// The range between two points of time and depth, in any order.
+GNOMON_KERNEL GNOMON_T(depth_time_range) range_between(Real time_a, Real z_a, Real time_b, Real z_b, Real id)
+{
+    GNOMON_MASK swapped = time_b < time_a;
+    GNOMON_T(depth_time_range) r;
+    r.t0 = gnomon_select(swapped, time_b, time_a);
+    r.t1 = gnomon_select(swapped, time_a, time_b);
+    r.z0 = gnomon_select(swapped, z_b, z_a);
+    r.z1 = gnomon_select(swapped, z_a, z_b);
+    r.id = id;
+    return r;
+}
+
+/// Depth at time t, outside that of the nearer end, z0 at the one time of a range of no duration; exact at both ends.
+/// Error: 5 (|z0| + |z1|) 2^-p, p the bits of the significand.
+GNOMON_KERNEL Real range_depth(GNOMON_T(depth_time_range) r, Real t)
+{
+    Real passed = saturate_or_zero((t - r.t0) / (r.t1 - r.t0));
+    return r.z0 * (Real(1) - passed) + r.z1 * passed;
+}
+
+/// How long it lasts, 0 where it is empty.
+GNOMON_KERNEL Real range_duration(GNOMON_T(depth_time_range) r) { return gnomon_max(r.t1 - r.t0, Real(0)); }
+
+/// What of it falls between two times; empty where nothing does.
+GNOMON_KERNEL GNOMON_T(depth_time_range) range_clip(GNOMON_T(depth_time_range) r, Real begin, Real end)
+{
+    GNOMON_T(depth_time_range) c;
+    c.t0 = gnomon_max(begin, r.t0);
+    c.t1 = gnomon_min(end, r.t1);
+    c.z0 = range_depth(r, c.t0);
+    c.z1 = range_depth(r, c.t1);
+    c.id = r.id;
+    return c;
+}
+
+/// When both are at the same depth; an end of the time that they have in common where they never are, so that cutting
+/// both there (range_clip) leaves them in one order on either side. Error: (80 z / d + 4) 2^-p, z the largest depth and
+/// d the change of their distance.
+GNOMON_KERNEL Real range_crossing(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+{
+    Real begin = gnomon_max(a.t0, b.t0);
+    Real end = gnomon_min(a.t1, b.t1);
+    Real distance0 = range_depth(a, begin) - range_depth(b, begin);
+    Real distance1 = range_depth(a, end) - range_depth(b, end);
+    Real passed = saturate_or_zero(distance0 / (distance0 - distance1));
+    return begin * (Real(1) - passed) + end * passed;
+}
+
+/// What of it is in front of depth z, a receiver's that does not move; empty where nothing is.
+GNOMON_KERNEL GNOMON_T(depth_time_range) range_in_front(GNOMON_T(depth_time_range) r, Real z)
+{
+    Real before0 = z - r.z0;
+    Real before1 = z - r.z1;
+    Real passed = clamp_or_nan(before0 / (before0 - before1), Real(0), Real(1));
+    Real meeting = r.t0 * (Real(1) - passed) + r.t1 * passed;
+    Real begin = gnomon_select(Real(0) < before0, r.t0, gnomon_select(Real(0) < before1, meeting, Real(1)));
+    Real end = gnomon_select(Real(0) < before1, r.t1, gnomon_select(Real(0) < before0, meeting, Real(0)));
+    GNOMON_MASK ever = begin < end; // false for NaN
+    return range_clip(r, gnomon_select(ever, begin, Real(1)), gnomon_select(ever, end, Real(0)));
+}
+
+/// Shadow intensity, 0 or 1, at time t and depth z on the surface with the given id: 1 where the range is there at that
+/// time, more than the bias in front, and not of that surface (Hong & Oh, section 5). NaN gives 0, lit.
+GNOMON_KERNEL Real range_intensity(GNOMON_T(depth_time_range) r, Real t, Real z, Real id, GNOMON_SETTING bias)
+{
+    GNOMON_MASK during = r.t0 <= t && t <= r.t1;
+    GNOMON_MASK hides = range_depth(r, t) + bias < z && !(id == r.id);
+    return gnomon_select(during && hides, Real(1), Real(0));
+}
+
+/// Share of the light that an open shutter has let in by time t, of what it does from begin to end: a shutter that
+/// opens and closes at once. The share between two times is the difference. In [0, 1]; 0 where anything is NaN.
+GNOMON_KERNEL Real shutter_box(Real t, Real begin, Real end) { return saturate_or_zero((t - begin) / (end - begin)); }
+
+/// The same for a shutter that opens and closes evenly, wide open halfway.
+GNOMON_KERNEL Real shutter_tent(Real t, Real begin, Real end)
+{
+    Real x = shutter_box(t, begin, end);
+    Real left = Real(1) - x;
+    return gnomon_select(x < Real(0.5), Real(2) * (x * x), Real(1) - Real(2) * (left * left));
+}
+
+GNOMON_NAMESPACE_END
+#endif

@@ -1,0 +1,191 @@
+// Depth-time ranges against extended precision: their depths, clips and crossings within the stated errors, and what
+// they shadow against the definition, asked at many times.
+#include "../support/effort.hpp"
+#include "../support/hostile.hpp"
+
+#include <gnomon/motion/range.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+using namespace gnomon;
+using gnomon::test::bit_source;
+
+namespace {
+
+using wide = long double;
+template <class T> constexpr double u = double(std::numeric_limits<T>::epsilon()) / 2;
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+
+template <class T> T any_time(bit_source& bits)
+{
+    return T(bits.chance(0.2) ? double(bits.below(5)) / 4 : bits.uniform(0, 1));
+}
+
+/// Ordinary ranges, short ones, ones of no duration, level ones.
+template <class T> depth_time_range<T> any_range(bit_source& bits)
+{
+    const T t = any_time<T>(bits), z = T(bits.uniform(-1, 1));
+    const T other = bits.chance(0.1) ? t : bits.chance(0.1) ? T(double(t) * 0.9999) : any_time<T>(bits);
+    return range_between(t, z, other, bits.chance(0.2) ? z : T(bits.uniform(-1, 1)), T(bits.below(3)));
+}
+
+template <class T> wide depth(const depth_time_range<T>& r, wide t)
+{
+    if (r.t0 == r.t1) return t <= wide(r.t0) ? wide(r.z0) : wide(r.z1);
+    const wide passed = std::clamp((t - wide(r.t0)) / (wide(r.t1) - wide(r.t0)), 0.0L, 1.0L);
+    return wide(r.z0) + passed * (wide(r.z1) - wide(r.z0));
+}
+
+template <class T> void for_each_range(std::int64_t count, auto f)
+{
+    bit_source bits(7);
+    for (std::int64_t i = 0; i < test::effort(count); ++i) f(any_range<T>(bits), bits);
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("range_depth: within the stated error, exact at the ends", T, float, double)
+{
+    for_each_range<T>(100'000, [](const depth_time_range<T>& r, bit_source& bits) {
+        const T t = any_time<T>(bits);
+        const double error = std::abs(double(wide(range_depth(r, t)) - depth(r, wide(t))));
+        REQUIRE(error <= 5 * u<T> * (std::abs(double(r.z0)) + std::abs(double(r.z1))));
+        REQUIRE(range_depth(r, r.t0) == r.z0);
+        if (r.t0 < r.t1) REQUIRE(range_depth(r, r.t1) == r.z1);
+    });
+}
+
+TEST_CASE_TEMPLATE("range_between does not mind the order of its points", T, float, double)
+{
+    for_each_range<T>(10'000, [](const depth_time_range<T>& r, bit_source&) {
+        if (r.t0 == r.t1) return;
+        const auto swapped = range_between(r.t1, r.z1, r.t0, r.z0, r.id);
+        REQUIRE(swapped.t0 == r.t0);
+        REQUIRE(swapped.t1 == r.t1);
+        REQUIRE(swapped.z0 == r.z0);
+        REQUIRE(swapped.z1 == r.z1);
+    });
+}
+
+TEST_CASE_TEMPLATE("range_clip: the times asked for, the same depths; in two parts nothing is lost", T, float, double)
+{
+    for_each_range<T>(50'000, [](const depth_time_range<T>& r, bit_source& bits) {
+        const T a = any_time<T>(bits), b = any_time<T>(bits), begin = std::min(a, b), end = std::max(a, b);
+        const auto c = range_clip(r, begin, end);
+        const T expected = std::max(T(0), std::min(end, r.t1) - std::max(begin, r.t0));
+        REQUIRE(range_duration(c) == expected);
+        if (expected > 0) {
+            REQUIRE(c.z0 == range_depth(r, c.t0));
+            REQUIRE(c.z1 == range_depth(r, c.t1));
+        }
+        const auto before = range_clip(r, T(0), a), after = range_clip(r, a, T(1));
+        const double parts = double(range_duration(before)) + double(range_duration(after));
+        REQUIRE(std::abs(parts - double(range_duration(r))) <= 2 * u<T>);
+    });
+}
+
+TEST_CASE_TEMPLATE("range_crossing: within the stated error, and an order on either side", T, float, double)
+{
+    for_each_range<T>(100'000, [](const depth_time_range<T>& a, bit_source& bits) {
+        const auto b = any_range<T>(bits);
+        const T begin = std::max(a.t0, b.t0), end = std::min(a.t1, b.t1);
+        if (!(begin < end)) return;
+        const T t = range_crossing(a, b);
+        REQUIRE(t >= begin);
+        REQUIRE(t <= end + T(u<T>));
+        const wide d0 = depth(a, wide(begin)) - depth(b, wide(begin)), d1 = depth(a, wide(end)) - depth(b, wide(end));
+        const double change = std::abs(double(d0 - d1));
+        const double largest =
+            std::max({std::abs(double(a.z0)), std::abs(double(a.z1)), std::abs(double(b.z0)), std::abs(double(b.z1))});
+        if (d0 * d1 < 0) {
+            const wide exact = wide(begin) + d0 / (d0 - d1) * (wide(end) - wide(begin));
+            REQUIRE(std::abs(double(wide(t) - exact)) <= (80 * largest / change + 4) * u<T>);
+        } else if (std::abs(double(d0)) > 1e-3 && std::abs(double(d1)) > 1e-3) {
+            REQUIRE((t == begin || t == end));
+        }
+    });
+}
+
+TEST_CASE_TEMPLATE("range_in_front: the times at which it shadows a receiver at rest", T, float, double)
+{
+    for_each_range<T>(20'000, [](const depth_time_range<T>& r, bit_source& bits) {
+        const T z = bits.chance(0.1) ? r.z0 : T(bits.uniform(-1.2, 1.2));
+        const auto front = range_in_front(r, z);
+        // Where the depths are within this of one another, rounding decides.
+        const double slack = 16 * u<T>;
+        for (int i = 0; i <= 32; ++i) {
+            const T t = T(i) / T(32);
+            const wide ahead = wide(z) - depth(r, wide(t));
+            if (t < r.t0 || t > r.t1 || r.t0 == r.t1 || std::abs(double(ahead)) <= slack) continue;
+            const double slope = std::abs(double(r.z1) - double(r.z0)) / (double(r.t1) - double(r.t0));
+            if (std::abs(double(ahead)) <= slope * 8 * u<T>) continue;
+            CAPTURE(double(t));
+            REQUIRE((front.t0 <= t && t <= front.t1) == (ahead > 0));
+            REQUIRE(double(range_intensity(r, t, z, T(9), T(0))) == double(ahead > 0));
+        }
+    });
+}
+
+TEST_CASE_TEMPLATE("range_intensity: its own surface, its ends, bias, NaN", T, float, double)
+{
+    const T nan = T(nan_value);
+    const depth_time_range<T> r{T(0.25), T(0.75), T(-0.5), T(0.5), T(3)};
+    CHECK(range_intensity(r, T(0.5), T(0.25), T(1), T(0)) == 1);
+    CHECK(range_intensity(r, T(0.5), T(0.25), T(3), T(0)) == 0);
+    CHECK(range_intensity(r, T(0.5), T(0.25), T(1), T(0.25)) == 0);
+    CHECK(range_intensity(r, T(0.5), T(0), T(1), T(0)) == 0);
+    CHECK(range_intensity(r, T(0.25), T(1), T(1), T(0)) == 1);
+    CHECK(range_intensity(r, T(0.75), T(1), T(1), T(0)) == 1);
+    CHECK(range_intensity(r, T(0.2), T(1), T(1), T(0)) == 0);
+    CHECK(range_intensity(r, T(0.8), T(1), T(1), T(0)) == 0);
+    CHECK(range_intensity(r, nan, T(1), T(1), T(0)) == 0);
+    CHECK(range_intensity(r, T(0.5), nan, T(1), T(0)) == 0);
+    CHECK(range_intensity(r, T(0.5), T(1), T(1), nan) == 0);
+    for (const auto member : {&depth_time_range<T>::t0, &depth_time_range<T>::t1, &depth_time_range<T>::z0}) {
+        depth_time_range<T> broken = r;
+        broken.*member = nan;
+        CHECK(range_intensity(broken, T(0.5), T(1), T(1), T(0)) == 0);
+        CHECK(range_duration(range_in_front(broken, T(1))) == 0);
+    }
+    CHECK(range_duration(range_between(T(0.5), T(0), T(0.5), T(0), T(0))) == 0);
+    CHECK(range_duration(depth_time_range<T>{T(1), T(0), T(0), T(0), T(0)}) == 0);
+}
+
+// A plane that comes towards the light never shadows itself, whatever its speed: its own range is ignored by id, and a
+// neighbour's, which reaches the same depth at the same time, is not in front.
+TEST_CASE_TEMPLATE("a surface that moves along z does not shadow itself or its neighbour in the plane", T, float,
+                   double)
+{
+    bit_source bits(3);
+    for (int i = 0; i < 1000; ++i) {
+        const T z0 = T(bits.uniform(-1, 1)), z1 = T(bits.uniform(-1, 1));
+        const depth_time_range<T> own{T(0), T(1), z0, z1, T(1)}, neighbour{T(0), T(1), z0, z1, T(2)};
+        const T t = any_time<T>(bits), z = range_depth(own, t);
+        CHECK(range_intensity(own, t, z, T(1), T(0)) == 0);
+        CHECK(range_intensity(neighbour, t, z, T(1), T(0)) == 0);
+    }
+}
+
+TEST_CASE_TEMPLATE("shutters: from 0 to 1, never back, their density as said", T, float, double)
+{
+    for (const auto shutter : {shutter_box<T>, shutter_tent<T>}) {
+        CHECK(shutter(T(0.25), T(0.25), T(0.75)) == 0);
+        CHECK(shutter(T(0.5), T(0.25), T(0.75)) == T(0.5));
+        CHECK(shutter(T(0.75), T(0.25), T(0.75)) == 1);
+        CHECK(shutter(T(0), T(0.25), T(0.75)) == 0);
+        CHECK(shutter(T(1), T(0.25), T(0.75)) == 1);
+        CHECK(shutter(T(nan_value), T(0), T(1)) == 0);
+        for (int i = 0; i < 1024; ++i) CHECK(shutter(T(i) / 1024, T(0), T(1)) <= shutter(T(i + 1) / 1024, T(0), T(1)));
+    }
+    // The tent opens as t: by time t < 1/2 it has let in 2 t^2.
+    for (int i = 0; i <= 32; ++i) {
+        const T t = T(i) / 64;
+        CHECK(shutter_tent(t, T(0), T(1)) == 2 * t * t);
+        CHECK(shutter_tent(1 - t, T(0), T(1)) == 1 - 2 * t * t);
+    }
+}
