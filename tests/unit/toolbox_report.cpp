@@ -54,6 +54,24 @@ TEST_CASE("a row has the fields of the report, in their order")
         "max_abs": 1.0, "ns_per_receiver": 3.5, "build_ms": 2.0, "real": "float", "lanes": 1, "threads": 1}])"));
 }
 
+TEST_CASE("a device's row has its name and the times of its passes, and replaces no other device's")
+{
+    const temporary_folder folder;
+    report_row row = some_row();
+    merge_report(folder / "report.json", std::vector{row});
+    row.device = "some card";
+    row.passes = {{"blur", 0.5}, {"lighting", 0.25}};
+    merge_report(folder / "report.json", std::vector{row});
+    row.passes[0].second = 0.75;
+    merge_report(folder / "report.json", std::vector{row});
+    const nlohmann::json report = parsed(folder / "report.json");
+    REQUIRE(report.size() == 2);
+    CHECK(!report[0].contains("device"));
+    CHECK(report[1]["device"] == "some card");
+    CHECK(report[1]["blur_ms"] == 0.75);
+    CHECK(report[1]["lighting_ms"] == 0.25);
+}
+
 TEST_CASE("a second run replaces its own rows only")
 {
     const temporary_folder folder;
