@@ -24,7 +24,7 @@ STATEMENTS = [(re.compile(pattern, re.MULTILINE), replacement) for pattern, repl
     (r"\bfloat\(", "f32("),
     (r"\bint\(", "i32("),
     (r"\bfor \(int (\w+) = (.*); \+\+\1\)", r"for (var \1 = \2; \1++)"),
-    (r"^( *(?:for|if) \(.*\)) ([^{]*;)$", r"\1 { \2 }"),
+    (r"^( *(?:for|if) \(.*\)) ([^{;]*;)$", r"\1 { \2 }"),
 ]]
 NOT_WGSL = re.compile(r"^#.*|.*(?:\?|\+\+\w|\[|\b(?:bool|float|int) \w|\b(?:do|while)\b|\belse [^{i]).*", re.MULTILINE)
 
@@ -54,7 +54,7 @@ def structure(found):
 def function(found):
     result, name, parameters, body = found.groups()
     parameters = [parameter.split() for parameter in re.split(r",\s*", parameters)]
-    assigned = set(re.findall(r"^ *(\w+)(?:\.\w+)* = ", body, re.MULTILINE))
+    assigned = set(re.findall(r"(?:^ *|\) )(\w+)(?:\.\w+)* = ", body, re.MULTILINE))
 
     def declaration(found):
         indent, kind, word, rest = found.groups()

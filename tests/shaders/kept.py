@@ -1,5 +1,5 @@
 """Keeps every operation of a text in GLSL or WGSL as it is written, where nothing else can: WGSL knows neither precise nor
-NoContraction, and SwiftShader rewrites a b + a c, x (1 / y), (x - y) + y and more. Results go through gnomon_kept, which
+NoContraction, and SwiftShader makes x of (x - y) + y, -x of 0 - x, and more. Results go through gnomon_kept, which
 nothing is rewritten across; the functions of the prelude, which has it, stay."""
 import re
 
