@@ -23,4 +23,5 @@
 #include "filters/variance.h"
 
 #include "motion/range.h"
+#include "motion/static_receiver.h"
 #endif
