@@ -183,11 +183,10 @@ nlohmann::ordered_json compare(const kernel& k, const candidate& c, std::span<co
 }
 
 /// The routes that this machine can run; says why it cannot run others.
-std::vector<candidate> prepare(const std::vector<std::string>& names, const references& hosts)
+std::vector<candidate> prepare(const std::vector<named_route>& wanted, const references& hosts)
 {
     std::vector<candidate> ready;
-    for (const named_route& r : all_routes()) {
-        if (std::find(names.begin(), names.end(), r.name) == names.end()) continue;
+    for (const named_route& r : wanted) {
         try {
             candidate c{r.name, r.make(), {}};
             if (c.where->computes() == products::fused && !hosts.fuses())
@@ -231,7 +230,7 @@ bool summarize(const nlohmann::ordered_json& report, const std::vector<candidate
 
 int main(int argc, char** argv)
 try {
-    std::vector<std::string> routes, known, names, all;
+    std::vector<std::string> routes, known, modules, names, all;
     for (const named_route& r : all_routes()) known.push_back(r.name);
     for (const kernel& k : kernels) all.emplace_back(k.name);
     std::int64_t rows = test::effort(std::int64_t{1} << 20);
@@ -241,6 +240,7 @@ try {
     CLI::App app("Compares routes with the host, kernel by kernel and bit by bit.", "parity");
     app.add_flag("--list", list, "names every route");
     app.add_option("--route", routes, "routes to run; all unless told")->check(CLI::IsMember(known));
+    app.add_option("--module", modules, "shared objects that export module.hpp, as routes")->check(CLI::ExistingFile);
     app.add_option("--kernel", names, "kernels to run; all unless told")->check(CLI::IsMember(all));
     app.add_option("--rows", rows, "rows for each kernel, rounded up to blocks of 64")->check(CLI::Range(1, 1 << 26));
     app.add_option("--out", out, "JSON with a row for each kernel and route");
@@ -255,11 +255,15 @@ try {
         for (const std::string& name : known) fmt::print("{}\n", name);
         return 0;
     }
-    if (routes.empty()) routes = known;
+    if (routes.empty() && modules.empty()) routes = known;
     if (names.empty()) names = all;
+    std::vector<named_route> wanted;
+    for (const named_route& r : all_routes())
+        if (std::find(routes.begin(), routes.end(), r.name) != routes.end()) wanted.push_back(r);
+    for (const std::string& file : modules) wanted.push_back({file, [file] { return module_route(file); }});
 
     references hosts;
-    const std::vector<candidate> candidates = prepare(routes, hosts);
+    const std::vector<candidate> candidates = prepare(wanted, hosts);
     auto report = nlohmann::ordered_json::array();
     const std::size_t blocks = (std::size_t(rows) + test::block_rows - 1) / test::block_rows;
     std::size_t done = 0;
@@ -273,7 +277,7 @@ try {
     }
     if (!out.empty()) toolbox::write_file(out, report.dump(1) + "\n");
     if (!summarize(report, candidates)) return 1;
-    if (candidates.size() == routes.size()) return 0;
+    if (candidates.size() == wanted.size()) return 0;
     const char* ci = std::getenv("CI");
     return ci != nullptr && std::string_view(ci) == "true" ? 1 : skipped;
 } catch (const std::exception& error) {
