@@ -76,6 +76,10 @@ def translated(glsl):
     text = GUARDS.sub("", PRELUDE.sub(lambda rule: f"{rule[1]}{LANGUAGE.read_text()}\n", glsl))
     text = text.replace(" in GLSL,", " in WGSL,", 1).replace(".glsl:", ".wgsl:", 1)
     text = STRUCT.sub(structure, laid_out(FUNCTION.sub(function, CONSTANT.sub(constant, text))))
-    if left := NOT_WGSL.search(re.sub(r"//.*", "", text)):
+    code = re.sub(r"//.*", "", text)
+    if left := NOT_WGSL.search(code):
         raise DialectError(f"wgsl.py: cannot say in WGSL: {left[0].strip()}")
+    words = set(re.findall(r"\bgnomon_\w+", code)) - set(re.findall(r"(?:fn|const) (gnomon_\w+)", code))
+    if words:
+        raise DialectError(f"{LANGUAGE}: lacks {', '.join(sorted(words))}")
     return text

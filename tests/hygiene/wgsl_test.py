@@ -36,6 +36,7 @@ REFUSED = [
     "float f(float x)\n{\n    while (x < 1.0) x = x + x;\n    return x;\n}\n",
     "float f(float x)\n{\n    float y, z;\n    return x;\n}\n",
     "#define A 1\n",
+    "float f(float x) { return gnomon_unknown(x); }\n",
 ]
 
 
