@@ -104,6 +104,17 @@ shadow_renderer::shadow_renderer(const vulkan::device& gpu, const stage& scenery
                      .setMaxLod(VK_LOD_CLAMP_NONE))
 {}
 
+bool shadow_renderer::supports(const device_method& method) const
+{
+    using feature = vk::FormatFeatureFlagBits;
+    const auto needed =
+        feature::eStorageImage | feature::eSampledImageFilterLinear | feature::eBlitSrc | feature::eBlitDst;
+    return gpu_.physical().getFeatures().shaderStorageImageWriteWithoutFormat &&
+           std::ranges::all_of(method.images, [&](vk::Format format) {
+               return (gpu_.physical().getFormatProperties(format).optimalTilingFeatures & needed) == needed;
+           });
+}
+
 device_frame shadow_renderer::render(const device_method& method) const
 {
     const shader_texts& texts = language_ == shading_language::glsl ? glsl : hlsl;

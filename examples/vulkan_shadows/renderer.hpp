@@ -42,6 +42,8 @@ class shadow_renderer {
     shadow_renderer(const toolbox::vulkan::device& gpu, const toolbox::stage& scenery, vk::Extent2D extent,
                     int map_resolution, std::span<const float> taps, shading_language language);
 
+    // Whether the device can write the method's images from a shader, halve them and filter them.
+    bool supports(const device_method& method) const;
     device_frame render(const device_method& method) const;
 
   private:

@@ -39,6 +39,8 @@ class device_comparison {
   public:
     device_comparison(const toolbox::vulkan::device& gpu, const toolbox::stage& scenery, const settings& how);
 
+    template <method M> bool possible() const { return renderer_.supports(on_device<M>); }
+
     template <method M> side_by_side render() const
     {
         const typename M::map map{depths_, taps_};

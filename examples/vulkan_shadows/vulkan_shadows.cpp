@@ -57,6 +57,8 @@ void compare_on(const vulkan::device& gpu, const settings& how)
                                  {"methods", nlohmann::json::array()}};
     std::vector<report_row> rows;
     for_each_device_method([&]<method M>() {
+        if (!comparison.possible<M>())
+            return progress(driver_name, fmt::format("{}: skipped, the device lacks its format", M::name));
         progress(driver_name, M::name);
         const side_by_side both = comparison.render<M>();
         const std::string file = fmt::format("method{:02}", rows.size());
