@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 #include <gnomon/passes/mips.hpp>
 #include <limits>
+#include <optional>
 
 #include "receivers.hpp"
 #include "spirv.hpp"
@@ -82,6 +84,92 @@ vulkan::buffer filled(const vulkan::device& gpu, std::span<const T> values, vk::
 
 vk::Extent2D square(int size) { return {std::uint32_t(size), std::uint32_t(size)}; }
 
+// A method's map, of one image or two, and the passes that make it from a shadow map.
+class device_map {
+  public:
+    device_map(const vulkan::device& gpu, const device_method& method, const vulkan::image& depths,
+               const vulkan::buffer& taps, const vulkan::shader& resolve, const vulkan::shader& blur)
+        : size_(depths.extent().width), radius_(int(taps.mapped<float>().size() / 2))
+    {
+        const auto levels = std::uint32_t(mip_levels(size_, size_));
+        for (const vk::Format format : method.images) {
+            const auto use = usage::eStorage | usage::eSampled;
+            maps_.emplace_back(gpu, format, depths.extent(), use | usage::eTransferSrc | usage::eTransferDst, levels);
+            scratch_.emplace_back(gpu, format, depths.extent(), use);
+        }
+        resolve_.emplace(gpu, resolve,
+                         resources{vulkan::sampled{depths}, vulkan::stored{first()}, vulkan::stored{second()}});
+        for (std::size_t i = 0; i < maps_.size(); ++i) {
+            const vulkan::image &map = maps_[i], &scratch = scratch_[i];
+            blur_.push_back(
+                {{gpu, blur, resources{vulkan::sampled{map}, vulkan::stored{scratch}, taps}, sizeof(blur_push)}, 1, 0});
+            blur_.push_back(
+                {{gpu, blur, resources{vulkan::sampled{scratch}, vulkan::stored{map}, taps}, sizeof(blur_push)}, 0, 1});
+        }
+    }
+
+    // Vulkan takes no empty place: of a method of one image both are the same.
+    const vulkan::image& first() const { return maps_.front(); }
+    const vulkan::image& second() const { return maps_.back(); }
+
+    void resolve(const vk::raii::CommandBuffer& commands) const { resolve_->record(commands, groups()); }
+    void blur(const vk::raii::CommandBuffer& commands) const
+    {
+        for (const auto& [pass, dx, dy] : blur_)
+            pass.record(commands, groups(), bytes_of(blur_push{dx, dy, radius_, int(size_) - 1}));
+    }
+    void build_mips(const vk::raii::CommandBuffer& commands) const
+    {
+        for (const vulkan::image& map : maps_) vulkan::build_mips(commands, map);
+    }
+
+  private:
+    using resources = std::vector<vulkan::resource>;
+    struct blur_push {
+        int dx, dy, radius, last;
+    };
+    struct blur_pass {
+        vulkan::compute_pass pass;
+        int dx, dy;
+    };
+    vk::Extent3D groups() const { return {(size_ + group - 1) / group, (size_ + group - 1) / group, 1}; }
+
+    std::uint32_t size_;
+    int radius_;
+    std::vector<vulkan::image> maps_, scratch_;
+    std::optional<vulkan::compute_pass> resolve_;
+    std::vector<blur_pass> blur_;
+};
+
+struct named_pass {
+    std::string name;
+    std::function<void(const vk::raii::CommandBuffer&)> record;
+};
+
+// Runs all passes in turn, several times over, and keeps the least time of each. The first run does not count: drivers
+// compile in it.
+std::vector<device_pass> timed(const vulkan::device& gpu, const std::vector<named_pass>& passes)
+{
+    std::vector<device_pass> result;
+    for (const named_pass& pass : passes) result.push_back({pass.name, std::numeric_limits<double>::infinity()});
+    const vulkan::timeline times(gpu, std::uint32_t(passes.size()) + 1);
+    for (int i = 0; i <= repetitions; ++i) {
+        gpu.run([&](const vk::raii::CommandBuffer& commands) {
+            std::uint32_t marks = 0;
+            times.reset(commands);
+            times.mark(commands, marks++);
+            for (const named_pass& pass : passes) {
+                pass.record(commands);
+                times.mark(commands, marks++);
+            }
+        });
+        const std::vector<double> milliseconds = times.milliseconds();
+        for (std::size_t k = 0; i > 0 && k < result.size(); ++k)
+            result[k].milliseconds = std::min(result[k].milliseconds, milliseconds[k]);
+    }
+    return result;
+}
+
 } // namespace
 
 shadow_renderer::shadow_renderer(const vulkan::device& gpu, const stage& scenery, vk::Extent2D extent,
@@ -120,77 +208,28 @@ device_frame shadow_renderer::render(const device_method& method) const
     const shader_texts& texts = language_ == shading_language::glsl ? glsl : hlsl;
     std::vector<std::uint32_t> constants{method.id, std::uint32_t(method.images.size())};
     for (const float setting : method.settings) constants.push_back(std::bit_cast<std::uint32_t>(setting));
-    const vulkan::shader scene{texts.scene}, resolve{texts.resolve, constants}, blur{texts.blur},
-        lighting{texts.lighting, constants};
+    const vulkan::shader scene{texts.scene};
 
-    const vk::Extent2D extent = depths_.extent();
-    const auto levels = std::uint32_t(mip_levels(extent.width, extent.height));
-    std::vector<vulkan::image> maps, scratch;
-    for (const vk::Format format : method.images) {
-        const auto use = usage::eStorage | usage::eSampled;
-        maps.emplace_back(gpu_, format, extent, use | usage::eTransferSrc | usage::eTransferDst, levels);
-        scratch.emplace_back(gpu_, format, extent, use);
-    }
-
-    // Vulkan takes no empty place: a method of one image has it in both.
-    const vulkan::image &first = maps.front(), &second = maps.back();
     const vulkan::raster_target to_map{.depth = depths_, .samples = vk::SampleCountFlagBits::e4};
     const vulkan::raster_pass shadow_map(gpu_, {scene, {}}, to_map, 3, {}, sizeof(light_rows_));
-    const vulkan::compute_pass resolving(gpu_, resolve,
-                                         {vulkan::sampled{depths_}, vulkan::stored{first}, vulkan::stored{second}});
-    struct blur_push {
-        int dx, dy, radius, last;
-    };
-    std::vector<vulkan::compute_pass> along_x, along_y;
-    for (std::size_t i = 0; i < maps.size(); ++i) {
-        along_x.emplace_back(gpu_, blur,
-                             std::vector<vulkan::resource>{vulkan::sampled{maps[i]}, vulkan::stored{scratch[i]}, taps_},
-                             sizeof(blur_push));
-        along_y.emplace_back(gpu_, blur,
-                             std::vector<vulkan::resource>{vulkan::sampled{scratch[i]}, vulkan::stored{maps[i]}, taps_},
-                             sizeof(blur_push));
-    }
+    const device_map map(gpu_, method, depths_, taps_, {texts.resolve, constants}, {texts.blur});
+    const glm::vec3& sky = daylight.background;
     const vulkan::raster_target to_camera{
-        .depth = camera_depth_,
-        .colour = &camera_picture_,
-        .background = {daylight.background.r, daylight.background.g, daylight.background.b, 1}};
-    const vulkan::raster_pass lit(
-        gpu_, {scene, lighting}, to_camera, 3,
-        {vulkan::uniform{frame_}, vulkan::sampled{first}, vulkan::sampled{second}, *trilinear_}, sizeof(eye_rows_));
-
-    const vk::Extent3D groups{(extent.width + group - 1) / group, (extent.height + group - 1) / group, 1};
-    const int radius = int(taps_.mapped<float>().size() / 2), last = int(extent.width) - 1;
-    const std::array<std::pair<const char*, std::function<void(const vk::raii::CommandBuffer&)>>, 5> passes{{
-        {"shadow_map", [&](auto& commands) { shadow_map.record(commands, vertices_, bytes_of(light_rows_)); }},
-        {"resolve", [&](auto& commands) { resolving.record(commands, groups); }},
-        {"blur",
-         [&](auto& commands) {
-             for (const auto& pass : along_x) pass.record(commands, groups, bytes_of(blur_push{1, 0, radius, last}));
-             for (const auto& pass : along_y) pass.record(commands, groups, bytes_of(blur_push{0, 1, radius, last}));
-         }},
-        {"mips",
-         [&](auto& commands) {
-             for (const vulkan::image& map : maps) build_mips(commands, map);
-         }},
-        {"lighting", [&](auto& commands) { lit.record(commands, vertices_, bytes_of(eye_rows_)); }},
-    }};
-
+        camera_depth_, vk::SampleCountFlagBits::e1, &camera_picture_, {sky.r, sky.g, sky.b, 1}};
+    const vulkan::raster_pass lighting(
+        gpu_, {scene, vulkan::shader{texts.lighting, constants}}, to_camera, 3,
+        {vulkan::uniform{frame_}, vulkan::sampled{map.first()}, vulkan::sampled{map.second()}, *trilinear_},
+        sizeof(eye_rows_));
     device_frame result;
-    for (const auto& [name, pass] : passes) result.passes.push_back({name, std::numeric_limits<double>::infinity()});
-    const vulkan::timeline times(gpu_, passes.size() + 1);
-    for (int i = 0; i <= repetitions; ++i) {
-        gpu_.run([&](const vk::raii::CommandBuffer& commands) {
-            times.reset(commands);
-            times.mark(commands, 0);
-            for (std::uint32_t k = 0; k < passes.size(); ++k) {
-                passes[k].second(commands);
-                times.mark(commands, k + 1);
-            }
+    result.passes = timed(
+        gpu_,
+        {
+            {"shadow_map", [&](auto& commands) { shadow_map.record(commands, vertices_, bytes_of(light_rows_)); }},
+            {"resolve", [&](auto& commands) { map.resolve(commands); }},
+            {"blur", [&](auto& commands) { map.blur(commands); }},
+            {"mips", [&](auto& commands) { map.build_mips(commands); }},
+            {"lighting", [&](auto& commands) { lighting.record(commands, vertices_, bytes_of(eye_rows_)); }},
         });
-        const std::vector<double> milliseconds = times.milliseconds();
-        for (std::size_t k = 0; i > 0 && k < passes.size(); ++k) // the first run compiles
-            result.passes[k].milliseconds = std::min(result.passes[k].milliseconds, milliseconds[k]);
-    }
 
     const auto [width, height] = camera_picture_.extent();
     const vulkan::buffer pixels(gpu_, width * height * sizeof(glm::vec4), vk::BufferUsageFlagBits::eTransferDst);
