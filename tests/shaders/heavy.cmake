@@ -1,5 +1,7 @@
 # The routes of ./run test --all: a second Vulkan driver (SwiftShader, of Chromium), WebGPU (Dawn, from npm, on
-# SwiftShader), and OpenGL ES.
+# SwiftShader), and OpenGL ES. What they need beyond the program is built by gnomon_heavy alone.
+add_custom_target(gnomon_heavy)
+
 function(heavy_test name)
     parity_test(${name} ${ARGN})
     set_tests_properties(parity/${name} PROPERTIES LABELS "shader;heavy")
@@ -15,15 +17,14 @@ if(GNOMON_EGL_INCLUDE AND GNOMON_GLES_INCLUDE AND GNOMON_EGL AND GNOMON_GLES)
     target_sources(parity PRIVATE gles_route.cpp)
     target_compile_definitions(parity PRIVATE GNOMON_PARITY_GLES)
     target_link_libraries(parity PRIVATE ${GNOMON_EGL} ${GNOMON_GLES})
-    parity_shaders(essl modules)
+    parity_shaders(essl modules gnomon_heavy)
 endif()
 heavy_test(gles essl-gles)
 
-# Dawn, Tint and naga as node's modules, in the versions of package-lock.json. They come over the network: nobody but
-# gnomon_dawn asks for them.
-parity_shaders(wgsl kernels.wgsl)
+# Dawn, Tint and naga as node's modules, in the versions of package-lock.json, over the network.
+parity_shaders(wgsl kernels.wgsl gnomon_heavy)
 if(GNOMON_GLSLANG AND GNOMON_SPIRV_AS)
-    parity_shaders(naga modules)
+    parity_shaders(naga modules gnomon_heavy)
 endif()
 find_program(GNOMON_NODE node)
 find_program(GNOMON_NPM npm)
@@ -38,11 +39,10 @@ if(GNOMON_NODE AND GNOMON_NPM)
         COMMAND ${GNOMON_NPM} ci --ignore-scripts --no-audit --no-fund --loglevel=error
         DEPENDS dawn/package-lock.json WORKING_DIRECTORY ${dawn} COMMENT "Fetching Dawn and naga from npm")
     add_custom_target(gnomon_dawn DEPENDS ${dawn}/node_modules/.package-lock.json)
+    add_dependencies(gnomon_heavy gnomon_dawn)
     add_test(NAME wgsl/packages COMMAND ${GNOMON_NODE} ${dawn}/check.mjs ${GNOMON_SHADERS})
     add_test(NAME wgsl/example COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/../hygiene/examples.py
         ${PROJECT_SOURCE_DIR} ${GNOMON_SHADERS} ${GNOMON_NODE} ${dawn}/check.mjs)
     set_tests_properties(wgsl/packages wgsl/example PROPERTIES LABELS "shader;heavy" SKIP_RETURN_CODE 77)
-else()
-    add_custom_target(gnomon_dawn COMMENT "No node and npm here: Dawn and naga stay away")
 endif()
 heavy_test(wgsl wgsl-dawn naga-dawn)

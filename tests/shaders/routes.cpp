@@ -42,7 +42,8 @@ std::string swiftshader()
 std::unique_ptr<route> dawn_route(const std::filesystem::path& shaders)
 {
     const auto program = built("dawn/run.mjs");
-    if (!exists(program.parent_path() / "node_modules")) throw unavailable("not built: target gnomon_dawn");
+    if (!exists(shaders) || !exists(program.parent_path() / "node_modules"))
+        throw unavailable("not built: target gnomon_heavy");
     return command_route("node '" + program.string() + "' '" + shaders.string() + '\'', "Dawn on SwiftShader");
 }
 

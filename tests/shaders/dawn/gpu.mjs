@@ -17,7 +17,7 @@ process.on("uncaughtException", (error) => {
 });
 
 const [{ create, globals }, { NagaError, parseWgsl, validate }] = await Promise.all([import("webgpu"), import("naga-wasm")])
-    .catch(() => skip("Dawn and naga are not here (target gnomon_dawn)"));
+    .catch(() => skip("Dawn and naga are not here (target gnomon_heavy)"));
 Object.assign(globalThis, globals);
 process.env.VK_ICD_FILENAMES = swiftshader;
 process.env.XDG_RUNTIME_DIR ??= "/tmp"; // a library below complains of none
