@@ -1,6 +1,6 @@
 // Everything in the kernel dialect, in the order in which data flows: depth -> moments -> storage format -> bounds ->
-// intensity; then the comparators; then moving geometry. What is C++ only (.hpp: formats in memory, passes over maps, adapters, packs) is
-// included by name.
+// intensity; then the comparators; then moving geometry. What is C++ only (.hpp: formats in memory, passes over maps,
+// adapters, packs) is included by name.
 #ifndef GNOMON_GNOMON_H
 #define GNOMON_GNOMON_H
 #include "moments/moments.h"
@@ -22,6 +22,7 @@
 #include "filters/percentage_closer.h"
 #include "filters/variance.h"
 
+#include "motion/moving_triangle.h"
 #include "motion/range.h"
 #include "motion/static_receiver.h"
 #endif
