@@ -35,17 +35,28 @@ const Real gnomon_pivot_floor = Real(9.31322574615478515625e-10); // 2^-30
 
 Real gnomon_select(bool mask, Real a, Real b) { return mask ? a : b; }
 bool gnomon_any(bool mask) { return mask; }
-Real gnomon_min(Real a, Real b) { return a < b ? a : b; }
-Real gnomon_max(Real a, Real b) { return b < a ? a : b; }
 Real gnomon_abs(Real a) { return abs(a); }
 Real gnomon_sqrt(Real a) { return sqrt(a); }
 Real gnomon_fma(Real a, Real b, Real c) { return a * b + c; } // never called: GNOMON_FUSED is false
+// What is not kept or precise Mesa fuses, cancels, and replaces by min() and max(), which lose a NaN.
 #if defined(GL_ES) && __VERSION__ < 320
-// There is no precise; but nothing is fused across a choice. Both sides of this one have the same value.
+// There is no precise; but nothing is rewritten across a choice. Both sides of this one have the same value.
 Real gnomon_kept(Real x) { return gnomon_select(abs(x) <= Real(3.4028234663852886e38), x, x + x); }
+Real gnomon_min(Real a, Real b) { return gnomon_select(a < b, a, gnomon_kept(b)); }
+Real gnomon_max(Real a, Real b) { return gnomon_select(b < a, a, gnomon_kept(b)); }
 Real gnomon_product(Real a, Real b) { return gnomon_kept(a * b); }
 Real gnomon_difference(Real a, Real b) { return gnomon_kept(a - b); }
 #else
+Real gnomon_min(Real a, Real b)
+{
+    precise Real m = a < b ? a : b;
+    return m;
+}
+Real gnomon_max(Real a, Real b)
+{
+    precise Real m = b < a ? a : b;
+    return m;
+}
 Real gnomon_product(Real a, Real b)
 {
     precise Real p = a * b;

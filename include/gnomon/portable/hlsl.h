@@ -23,8 +23,16 @@ static const Real gnomon_pivot_floor = Real(9.31322574615478515625e-10); // 2^-3
 
 Real gnomon_select(bool mask, Real a, Real b) { return mask ? a : b; }
 bool gnomon_any(bool mask) { return mask; }
-Real gnomon_min(Real a, Real b) { return a < b ? a : b; }
-Real gnomon_max(Real a, Real b) { return b < a ? a : b; }
+Real gnomon_min(Real a, Real b)
+{
+    precise Real m = a < b ? a : b;
+    return m;
+}
+Real gnomon_max(Real a, Real b)
+{
+    precise Real m = b < a ? a : b;
+    return m;
+}
 Real gnomon_abs(Real a) { return abs(a); }
 Real gnomon_sqrt(Real a) { return sqrt(a); }
 Real gnomon_fma(Real a, Real b, Real c) { return a * b + c; } // never called: GNOMON_FUSED is false
