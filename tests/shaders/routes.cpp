@@ -10,7 +10,7 @@ std::filesystem::path built(const std::string& name)
 }
 
 #if !defined(GNOMON_PARITY_VULKAN)
-std::unique_ptr<route> vulkan_route(const std::filesystem::path&, const std::string&)
+std::unique_ptr<route> vulkan_route(const std::filesystem::path&, const std::string&, const std::string&)
 {
     throw unavailable("built without Vulkan's headers or glslangValidator");
 }
@@ -33,7 +33,7 @@ namespace {
 /// Chromium's driver on the CPU.
 std::string swiftshader()
 {
-    const std::string icd = "/usr/lib/chromium/vk_swiftshader_icd.json";
+    std::string icd = "/usr/lib/chromium/vk_swiftshader_icd.json";
     if (!std::filesystem::exists(icd)) throw unavailable("no SwiftShader (chromium)");
     return icd;
 }
@@ -55,11 +55,11 @@ const std::vector<named_route>& all_routes()
         return named_route{name, [name] { return module_route(built("host_" + name + ".so")); }};
     };
     // Mesa's driver on the CPU, wherever Debian's architectures put it.
-    const auto lavapipe = [](const std::string& language) {
-        return named_route{language + "-lavapipe", [language] {
+    const auto lavapipe = [](const std::string& language, const std::string& name, const std::string& ending) {
+        return named_route{language + name, [language, ending] {
                                for (const auto* machine : {"x86_64", "aarch64"}) {
                                    const auto icd = std::string("/usr/share/vulkan/icd.d/lvp_icd.") + machine + ".json";
-                                   if (std::filesystem::exists(icd)) return vulkan_route(built(language), icd);
+                                   if (std::filesystem::exists(icd)) return vulkan_route(built(language), icd, ending);
                                }
                                throw unavailable("no lavapipe (mesa-vulkan-drivers)");
                            }};
@@ -70,8 +70,10 @@ const std::vector<named_route>& all_routes()
         host("8lanes"),
         host("16lanes"),
         host("wide"),
-        lavapipe("glsl"),
-        lavapipe("hlsl"),
+        lavapipe("glsl", "-lavapipe", ".exact.spv"),
+        lavapipe("hlsl", "-lavapipe", ".exact.spv"),
+        lavapipe("glsl", "-plain", ".spv"),
+        lavapipe("hlsl", "-plain", ".spv"),
         {"glsl-vulkan", [] { return vulkan_route(built("glsl"), ""); }},
         {"glsl-swiftshader", [] { return vulkan_route(built("glsl"), swiftshader()); }},
         {"hlsl-swiftshader", [] { return vulkan_route(built("hlsl"), swiftshader()); }},
