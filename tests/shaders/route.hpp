@@ -72,9 +72,10 @@ std::unique_ptr<route> fused_against_split_route(const std::filesystem::path& fi
 /// code 77 says that it cannot run here, and its last line why.
 std::unique_ptr<route> command_route(std::string command, std::string device);
 
-/// Of modules FOLDER/KERNEL.exact.spv on the Vulkan drivers that icd names (VK_ICD_FILENAMES), all drivers where it is
+/// Of modules FOLDER/KERNELending on the Vulkan drivers that icd names (VK_ICD_FILENAMES), all drivers where it is
 /// empty.
-std::unique_ptr<route> vulkan_route(const std::filesystem::path& folder, const std::string& icd);
+std::unique_ptr<route> vulkan_route(const std::filesystem::path& folder, const std::string& icd,
+                                    const std::string& ending = ".exact.spv");
 
 /// Of texts FOLDER/KERNEL.comp in ESSL, on Mesa's OpenGL ES for the CPU.
 std::unique_ptr<route> gles_route(const std::filesystem::path& folder);

@@ -26,7 +26,8 @@ std::vector<std::uint32_t> read_words(const std::filesystem::path& file)
 
 class compute_shaders final : public route {
   public:
-    explicit compute_shaders(std::filesystem::path folder) : folder_(std::move(folder))
+    compute_shaders(std::filesystem::path folder, std::string ending)
+        : folder_(std::move(folder)), ending_(std::move(ending))
     {
         using controls = vk::PhysicalDeviceVulkan12Properties;
         const auto properties = gpu_.physical().getProperties2<vk::PhysicalDeviceProperties2, controls>();
@@ -36,7 +37,7 @@ class compute_shaders final : public route {
 
     void run(const kernel& k, std::span<const float> in, std::span<float> out) override
     {
-        const std::vector<std::uint32_t> code = read_words(folder_ / (std::string(k.name) + ".exact.spv"));
+        const std::vector<std::uint32_t> code = read_words(folder_ / (k.name + ending_));
         const vulkan::buffer inputs(gpu_, in.size_bytes()), outputs(gpu_, out.size_bytes());
         std::ranges::copy(in, inputs.mapped<float>().begin());
         const vulkan::compute_pass pass(gpu_, {code}, {inputs, outputs});
@@ -49,17 +50,19 @@ class compute_shaders final : public route {
 
   private:
     std::filesystem::path folder_;
+    std::string ending_;
     vulkan::device gpu_{vulkan::validation::on};
 };
 
 } // namespace
 
-std::unique_ptr<route> vulkan_route(const std::filesystem::path& folder, const std::string& icd)
+std::unique_ptr<route> vulkan_route(const std::filesystem::path& folder, const std::string& icd,
+                                    const std::string& ending)
 try {
     if (!exists(folder)) throw unavailable("no shaders in " + folder.string());
     if (icd.empty()) unsetenv("VK_ICD_FILENAMES");
     else setenv("VK_ICD_FILENAMES", icd.c_str(), 1);
-    return std::make_unique<compute_shaders>(folder);
+    return std::make_unique<compute_shaders>(folder, ending);
 } catch (const vulkan::unavailable& why) {
     throw unavailable(why.what());
 }
