@@ -81,7 +81,7 @@ template <class T> void check_every_kernel()
 #define CHECK_KERNEL(name, inputs_, outputs_, families, unit)                                                          \
     {                                                                                                                  \
         using call = kernel_call<T, &gnomon::name<T>>;                                                                 \
-        static_assert(call::inputs == inputs_ && call::outputs == outputs_, "kernels.py has misread " #name);          \
+        static_assert(call::inputs == (inputs_) && call::outputs == (outputs_), "kernels.py has misread " #name);      \
         const std::string mistake = first_mistake<T>({#name, inputs_, outputs_, families, unit},                       \
                                                      []<class Real>(std::size_t blocks, const T* in, T* out) {         \
                                                          kernel_call<Real, &gnomon::name<Real>>::run(blocks, in, out); \
