@@ -68,9 +68,9 @@ std::filesystem::path built(const std::string& name);
 std::unique_ptr<route> module_route(const std::filesystem::path& file);
 std::unique_ptr<route> fused_against_split_route(const std::filesystem::path& file);
 
-/// Of a command that is called as COMMAND KERNEL INPUTS OUTPUTS IN OUT: how many numbers, and files of floats; exit
+/// Of a command that is called as LINE KERNEL INPUTS OUTPUTS IN OUT: how many numbers, and files of floats; exit
 /// code 77 says that it cannot run here, and its last line why.
-std::unique_ptr<route> command_route(std::string command, std::string device);
+std::unique_ptr<route> command_route(std::string line, std::string device);
 
 /// Of modules FOLDER/KERNELending on the Vulkan drivers that icd names (VK_ICD_FILENAMES), all drivers where it is
 /// empty.
