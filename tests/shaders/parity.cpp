@@ -270,8 +270,11 @@ try {
     for (const kernel& k : kernels) {
         if (std::find(names.begin(), names.end(), k.name) == names.end() || candidates.empty()) continue;
         fmt::print(stderr, "parity: {} ({} of {})\n", k.name, ++done, names.size());
-        std::vector<float> in(blocks * test::block_rows * k.inputs);
-        test::kernel_inputs<float>(k.name, k.families, k.inputs).draw(blocks, in.data());
+        // At most 128 MiB, which is what Vulkan and WebGPU promise a buffer.
+        const std::size_t row_bytes = std::max(k.inputs, k.outputs) * sizeof(float);
+        const std::size_t count = std::min(blocks, (std::size_t{1} << 27) / (test::block_rows * row_bytes));
+        std::vector<float> in(count * test::block_rows * k.inputs);
+        test::kernel_inputs<float>(k.name, k.families, k.inputs).draw(count, in.data());
         hosts.reset(k, in);
         for (const candidate& c : candidates) report.push_back(compare(k, c, in, hosts));
     }

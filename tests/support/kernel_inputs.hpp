@@ -10,6 +10,7 @@
 #include "distributions.hpp"
 #include "hostile.hpp"
 #include "kernel_call.hpp"
+#include "moving_triangles.hpp"
 
 #include <gnomon/filters/convolution.h>
 #include <gnomon/moments/stored.h>
@@ -114,6 +115,19 @@ template <class T> hankel6<T> any_hankel6(const situation& s, bit_source& bits)
     }
 }
 
+/// A moving triangle and a sample, as T, and the edge functions between them.
+template <class T> struct seen_triangle {
+    moving_triangle<T> triangle;
+    moving_edges<T> edges;
+};
+
+template <class T> seen_triangle<T> any_seen_triangle(bit_source& bits)
+{
+    const moving_scene scene = draw_moving_scene(movement(bits.below(movement_count)), bits);
+    const moving_triangle<T> triangle = rounded_triangle<T>(scene.triangle);
+    return {triangle, moving_triangle_edges(triangle, T(scene.s_x), T(scene.s_y))};
+}
+
 template <class T> struct input_family {
     std::string_view name;
     std::size_t numbers;
@@ -199,6 +213,23 @@ inline constexpr input_family<T> input_families[] = {
     {"phase", 4,
      [](auto put, const situation& s, bit_source& bits) {
          put(convolution_phase_at(T(s.receiver), T(bits.uniform(0.5, 1))));
+     }},
+    // Moving triangles.
+    {"moving_triangle", 24,
+     [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits).triangle); }},
+    {"moving_vertex", 8,
+     [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits).triangle.a); }},
+    {"sheared_vertex", 4,
+     [](auto put, const situation&, bit_source& bits) {
+         put(moving_vertex_sheared(any_seen_triangle<T>(bits).triangle.a, T(bits.uniform(-1, 1)), T(0)));
+     }},
+    {"moving_edge", 3, [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits).edges.a); }},
+    {"moving_edges", 9, [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits).edges); }},
+    {"moving_triangle_and_edges", 33,
+     [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits)); }},
+    {"coverage_times", 9,
+     [](auto put, const situation&, bit_source& bits) {
+         put(moving_coverage(any_seen_triangle<T>(bits).edges, T(1)));
      }},
 };
 

@@ -1,0 +1,153 @@
+// When a sample is covered by a triangle whose edge functions are quadratics in time (moving_triangle.h): at most four
+// intervals of the shutter for either facing (Gribel et al. 2010; Palmer 2011, 2.1).
+//
+// An edge function is held by its Bernstein coefficients, e(t) = e0 (1 - t)^2 + 2 e1 t (1 - t) + e2 t^2, so that e0
+// and e2 are its values at shutter open and close, and a root t = u / (1 + u) belongs to a root u >= 0 of
+//     e2 u^2 + 2 e1 u + e0 = 0,   u = q / e2 or e0 / q,   q = -(e1 + sign(e1) sqrt(e1^2 - e0 e2))
+// which gives t = q / (q + e2) or e0 / (e0 + q): sums of like signs, so nothing cancels, neither near 0 nor near 1.
+// Where e >= 0 is one interval, or, when e is positive at both ends, everything but one gap. Three edges leave one
+// interval less three gaps, hence four intervals. No signs are sampled in between: of two triangles that share an edge
+// one has e, the other -e, both have the same roots bit for bit, and one covers exactly when the other does not.
+#ifndef GNOMON_MOTION_COVERAGE_TIMES_H
+#define GNOMON_MOTION_COVERAGE_TIMES_H
+#include "../numerics/select.h"
+GNOMON_NAMESPACE_BEGIN
+
+/// e(t) = e0 (1 - t)^2 + 2 e1 t (1 - t) + e2 t^2.
+GNOMON_STRUCT moving_edge { Real e0, e1, e2; };
+
+/// The edge functions across from the vertices a, b, c of a triangle.
+GNOMON_STRUCT moving_edges { GNOMON_T(moving_edge) a, b, c; };
+
+/// From begin to end, but not from gap_begin to gap_end; without a gap both of these are coverage_none, and where
+/// nothing is left begin is 1 and end 0.
+GNOMON_STRUCT edge_times { Real begin, end, gap_begin, gap_end; };
+
+/// Four numbers in order.
+GNOMON_STRUCT ordered4 { Real first, second, third, fourth; };
+
+/// As many intervals as count says, in order and apart; the others begin and end at coverage_none.
+GNOMON_STRUCT coverage_times { Real count, begin0, end0, begin1, end1, begin2, end2, begin3, end3; };
+
+GNOMON_CONSTANT(coverage_none, 2.0);                       // after the shutter has closed
+GNOMON_CONSTANT(moving_edge_limit, 1152921504606846976.0); // 2^60: squares of coefficients are finite in float
+
+/// e(t), t in [0, 1] (de Casteljau). Error: 6 2^-p times the largest coefficient; odd in e, bit for bit.
+GNOMON_KERNEL Real moving_edge_at(GNOMON_T(moving_edge) e, Real t)
+{
+    Real s = Real(1) - t;
+    return (e.e0 * s + e.e1 * t) * s + (e.e1 * s + e.e2 * t) * t;
+}
+
+/// How large its coefficients are; infinite or NaN where one is.
+GNOMON_KERNEL Real moving_edge_size(GNOMON_T(moving_edge) e)
+{
+    return (gnomon_abs(e.e0) + gnomon_abs(e.e1)) + gnomon_abs(e.e2);
+}
+
+/// The times in [0, 1] at which e >= 0; at which e <= 0 where facing is negative. They are exact for coefficients that
+/// differ by 16 2^-p of the largest, which is between 2^-50 and 2^58 in float. Where e is 0 throughout, all times.
+/// Coefficients beyond that, or NaN: none.
+GNOMON_KERNEL GNOMON_T(edge_times) moving_edge_inside(GNOMON_T(moving_edge) e, GNOMON_SETTING facing)
+{
+    GNOMON_MASK back = facing < Real(0);
+    Real c0 = gnomon_select(back, Real(-1) * e.e0, e.e0);
+    Real c1 = gnomon_select(back, Real(-1) * e.e1, e.e1);
+    Real c2 = gnomon_select(back, Real(-1) * e.e2, e.e2);
+    Real r = gnomon_sqrt(gnomon_max(c1 * c1 - c0 * c2, Real(0)));
+    // The last case keeps q odd in e where c1 = 0.
+    GNOMON_MASK falls = Real(0) < c1 || (c1 == Real(0) && Real(0) < c2);
+    Real q = gnomon_select(falls, Real(-1) * (c1 + r), r - c1);
+    // In this order where both are in [0, 1].
+    Real early = saturate_or_zero(c0 / (c0 + q));
+    Real late = saturate_or_zero(q / (q + c2));
+
+    GNOMON_MASK turns = Real(0) < r;
+    GNOMON_MASK outside = c0 <= Real(0) && c2 <= Real(0) && (c0 < Real(0) || c2 < Real(0));
+    GNOMON_MASK known = moving_edge_size(e) < GNOMON_LITERAL(moving_edge_limit);
+    GNOMON_MASK some = known && !(outside && !(turns && Real(0) < c1));
+    GNOMON_MASK gap = Real(0) <= c0 && Real(0) <= c2 && turns && c1 < Real(0) && early < late;
+    // With ends of unlike signs there is one root in [0, 1], by one formula or the other.
+    Real begin = gnomon_select(c1 < Real(0) && Real(0) < c2, late, early);
+    Real end = gnomon_select(c1 <= Real(0) && Real(0) < c0, early, late);
+    GNOMON_T(edge_times) x;
+    x.begin = gnomon_select(some, gnomon_select(Real(0) <= c0, Real(0), begin), Real(1));
+    x.end = gnomon_select(some, gnomon_select(Real(0) <= c2, Real(1), end), Real(0));
+    x.gap_begin = gnomon_select(gap, early, GNOMON_LITERAL(coverage_none));
+    x.gap_end = gnomon_select(gap, late, GNOMON_LITERAL(coverage_none));
+    return x;
+}
+
+/// By a network of five exchanges; numbers, not NaN.
+GNOMON_KERNEL GNOMON_T(ordered4) ordered4_of(Real a, Real b, Real c, Real d)
+{
+    Real low0 = gnomon_min(a, b);
+    Real high0 = gnomon_max(a, b);
+    Real low1 = gnomon_min(c, d);
+    Real high1 = gnomon_max(c, d);
+    Real middle0 = gnomon_max(low0, low1);
+    Real middle1 = gnomon_min(high0, high1);
+    GNOMON_T(ordered4) x;
+    x.first = gnomon_min(low0, low1);
+    x.second = gnomon_min(middle0, middle1);
+    x.third = gnomon_max(middle0, middle1);
+    x.fourth = gnomon_max(high0, high1);
+    return x;
+}
+
+/// The times at which the three edge functions are >= 0 together, or, where facing is negative, <= 0: the sample is
+/// then covered by a triangle that turns this side to it. On the border it is covered; by a triangle without any area,
+/// three edge functions that are 0 throughout, it is not. Errors as for moving_edge_inside; anything NaN or out of
+/// range gives none.
+GNOMON_KERNEL GNOMON_T(coverage_times) moving_coverage(GNOMON_T(moving_edges) e, GNOMON_SETTING facing)
+{
+    GNOMON_T(edge_times) a = moving_edge_inside(e.a, facing);
+    GNOMON_T(edge_times) b = moving_edge_inside(e.b, facing);
+    GNOMON_T(edge_times) c = moving_edge_inside(e.c, facing);
+    Real size = (moving_edge_size(e.a) + moving_edge_size(e.b)) + moving_edge_size(e.c);
+    Real begin = gnomon_max(gnomon_max(a.begin, b.begin), c.begin);
+    Real end = gnomon_min(gnomon_min(a.end, b.end), c.end);
+    end = gnomon_select(Real(0) < size, end, Real(0));
+
+    // In order, each by itself, the gaps' begins and ends bound what is outside of all gaps: a time is there when as
+    // many have begun as have ended.
+    Real none = GNOMON_LITERAL(coverage_none);
+    GNOMON_T(ordered4) starts = ordered4_of(a.gap_begin, b.gap_begin, c.gap_begin, none);
+    GNOMON_T(ordered4) stops = ordered4_of(a.gap_end, b.gap_end, c.gap_end, none);
+    Real begin1 = gnomon_max(begin, stops.first);
+    Real begin2 = gnomon_max(begin, stops.second);
+    Real begin3 = gnomon_max(begin, stops.third);
+    Real end0 = gnomon_min(end, starts.first);
+    Real end1 = gnomon_min(end, starts.second);
+    Real end2 = gnomon_min(end, starts.third);
+    GNOMON_MASK some0 = begin < end0;
+    GNOMON_MASK some1 = begin1 < end1;
+    GNOMON_MASK some2 = begin2 < end2;
+    GNOMON_MASK some3 = begin3 < end;
+    // The empty ones go to the end, the others keep their order.
+    starts = ordered4_of(gnomon_select(some0, begin, none), gnomon_select(some1, begin1, none),
+                         gnomon_select(some2, begin2, none), gnomon_select(some3, begin3, none));
+    stops = ordered4_of(gnomon_select(some0, end0, none), gnomon_select(some1, end1, none),
+                        gnomon_select(some2, end2, none), gnomon_select(some3, end, none));
+    GNOMON_T(coverage_times) x;
+    x.count = (gnomon_select(some0, Real(1), Real(0)) + gnomon_select(some1, Real(1), Real(0))) +
+              (gnomon_select(some2, Real(1), Real(0)) + gnomon_select(some3, Real(1), Real(0)));
+    x.begin0 = starts.first;
+    x.end0 = stops.first;
+    x.begin1 = starts.second;
+    x.end1 = stops.second;
+    x.begin2 = starts.third;
+    x.end2 = stops.third;
+    x.begin3 = starts.fourth;
+    x.end3 = stops.fourth;
+    return x;
+}
+
+/// How much of the shutter interval they last together, in [0, 1].
+GNOMON_KERNEL Real coverage_duration(GNOMON_T(coverage_times) x)
+{
+    return saturate_or_zero(((x.end0 - x.begin0) + (x.end1 - x.begin1)) + ((x.end2 - x.begin2) + (x.end3 - x.begin3)));
+}
+
+GNOMON_NAMESPACE_END
+#endif

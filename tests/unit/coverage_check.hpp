@@ -1,0 +1,85 @@
+// Covered times against edge functions in extended precision.
+#pragma once
+
+#include "../support/hostile.hpp"
+
+#include <gnomon/motion/coverage_times.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace gnomon::test {
+
+using exact = long double;
+template <class T> constexpr double u = double(std::numeric_limits<T>::epsilon()) / 2;
+
+struct interval {
+    double begin, end;
+    template <class T> interval(T b, T e) : begin(double(b)), end(double(e)) {}
+};
+
+template <class T> std::array<interval, 4> intervals_of(const coverage_times<T>& x)
+{
+    return {interval(x.begin0, x.end0), interval(x.begin1, x.end1), interval(x.begin2, x.end2),
+            interval(x.begin3, x.end3)};
+}
+
+/// What the struct promises whatever went in.
+template <class T> void require_in_order(const coverage_times<T>& x)
+{
+    const auto all = intervals_of(x);
+    for (std::size_t k = 0; k < 4; ++k)
+        if (T(k) < x.count) {
+            REQUIRE(all[k].begin >= (k > 0 ? std::nextafter(all[k - 1].end, 2) : 0));
+            REQUIRE(all[k].begin < all[k].end);
+            REQUIRE(all[k].end <= 1);
+        } else {
+            REQUIRE(all[k].begin == coverage_none);
+            REQUIRE(all[k].end == coverage_none);
+        }
+}
+
+template <class T> bool covers(const coverage_times<T>& x, double t)
+{
+    const auto all = intervals_of(x);
+    return std::any_of(all.begin(), all.end(), [&](interval i) { return i.begin <= t && t <= i.end; });
+}
+
+struct tally {
+    std::int64_t covered = 0, decided = 0, asked = 0;
+};
+
+/// Covered where all edge functions are positive beyond their tolerance, not where one of them is negative beyond it.
+template <class T, class Edges>
+void check_coverage(const coverage_times<T>& x, T facing, const std::array<exact, 3>& tolerance, Edges edges_at,
+                    bit_source& bits, tally& count)
+{
+    const auto ask = [&](double t, tally& to) {
+        const std::array<exact, 3> e = edges_at(exact(t));
+        bool inside = true, outside = false;
+        for (std::size_t k = 0; k < 3; ++k) {
+            inside = inside && exact(facing) * e[k] > tolerance[k];
+            outside = outside || exact(facing) * e[k] < -tolerance[k];
+        }
+        if (inside) REQUIRE(covers(x, t));
+        if (outside) REQUIRE(!covers(x, t));
+        to.covered += inside;
+        to.decided += inside || outside;
+        ++to.asked;
+    };
+    constexpr int times = 16;
+    for (int i = 0; i < times; ++i) ask((i + bits.uniform(0, 1)) / times, count);
+    // Where a root that is wrong shows: nearby, from one rounding away on.
+    tally near;
+    for (const interval& i : intervals_of(x))
+        for (const double root : {i.begin, i.end}) {
+            const double t = root + u<T> * std::exp2(bits.uniform(0, 12)) * (bits.chance(0.5) ? 1 : -1);
+            if (0 <= t && t <= 1) ask(t, near);
+        }
+}
+
+} // namespace gnomon::test

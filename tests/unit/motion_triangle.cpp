@@ -1,0 +1,267 @@
+// Moving triangles: covered times against the coverage of dense times in extended precision, depth and its line against
+// extended precision, degenerate and hostile input.
+#include "../support/effort.hpp"
+#include "../support/moving_triangles.hpp"
+#include "coverage_check.hpp"
+
+#include <gnomon/motion/moving_triangle.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+using namespace gnomon;
+using namespace gnomon::test;
+
+namespace {
+
+/// What the kernels see of a triangle, in extended precision, and how far their edge functions may be from it.
+template <class T> class reference {
+  public:
+    reference(const moving_triangle<T>& m, T s_x, T s_y)
+    {
+        const std::array<moving_vertex<T>, 3> v{m.a, m.b, m.c};
+        for (std::size_t k = 0; k < 3; ++k) {
+            open_[k] = {exact(v[k].x0), exact(v[k].y0), exact(v[k].z0), exact(v[k].w0)};
+            close_[k] = {exact(v[k].x1), exact(v[k].y1), exact(v[k].z1), exact(v[k].w1)};
+            for (auto* p : {&open_[k], &close_[k]}) {
+                size_x_[k] = std::max(size_x_[k], std::abs((*p)[0]) + std::abs(exact(s_x) * (*p)[3]));
+                size_y_[k] = std::max(size_y_[k], std::abs((*p)[1]) + std::abs(exact(s_y) * (*p)[3]));
+                (*p)[0] -= exact(s_x) * (*p)[3];
+                (*p)[1] -= exact(s_y) * (*p)[3];
+            }
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+            tolerance[k] = 32 * exact(u<T>) * (size_x_[i] * size_y_[j] + size_y_[i] * size_x_[j]);
+        }
+    }
+
+    struct moment {
+        std::array<exact, 3> edges, z, w;
+    };
+    moment at(exact t) const
+    {
+        std::array<std::array<exact, 4>, 3> p;
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t i = 0; i < 4; ++i) p[k][i] = (1 - t) * open_[k][i] + t * close_[k][i];
+        moment r;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto &a = p[(k + 1) % 3], &b = p[(k + 2) % 3];
+            r.edges[k] = a[0] * b[1] - a[1] * b[0];
+            r.z[k] = p[k][2];
+            r.w[k] = p[k][3];
+        }
+        return r;
+    }
+
+    std::array<exact, 3> tolerance{};
+
+  private:
+    std::array<std::array<exact, 4>, 3> open_, close_;
+    std::array<exact, 3> size_x_{}, size_y_{};
+};
+
+/// Calls f(triangle, s_x, s_y, movement) as T.
+template <class T, class F> void for_each_scene(std::int64_t scenes, std::uint64_t seed, F f)
+{
+    bit_source bits(seed);
+    for (std::int64_t i = 0; i < effort(scenes); ++i) {
+        const auto how = movement(std::size_t(i) % movement_count);
+        const moving_scene scene = draw_moving_scene(how, bits);
+        f(rounded_triangle<T>(scene.triangle), T(scene.s_x), T(scene.s_y), how);
+    }
+}
+
+} // namespace
+
+// The tolerance, from the comment: 6 2^-p for shearing and products, 6 for the roots (moving_edge_inside), 8 for
+// rounding times, whose slope is at most twice the coefficients' range; each with X_i Y_j + Y_i X_j as the scale, 32
+// all told.
+TEST_CASE_TEMPLATE("covered times are those of the static triangle at every time", T, float, double)
+{
+    bit_source bits(3);
+    std::array<tally, movement_count> counts;
+    for_each_scene<T>(500'000, 1, [&](const moving_triangle<T>& m, T s_x, T s_y, movement how) {
+        const reference<T> r(m, s_x, s_y);
+        const moving_edges<T> e = moving_triangle_edges(m, s_x, s_y);
+        for (const T facing : {T(1), T(-1)}) {
+            const coverage_times<T> x = moving_coverage(e, facing);
+            require_in_order(x);
+            check_coverage(
+                x, facing, r.tolerance, [&](exact t) { return r.at(t).edges; }, bits, counts[std::size_t(how)]);
+        }
+    });
+    for (const tally& count : counts) {
+        CHECK(double(count.covered) > 0.05 * double(count.asked));
+        CHECK(double(count.decided) > 0.85 * double(count.asked)); // a still sample on a border never is
+    }
+}
+
+// What the comment states; where depth is outside of [-1, 1], both are at its end.
+TEST_CASE_TEMPLATE("depth of the covering triangle, and between its vertices' depths", T, float, double)
+{
+    bit_source bits(7);
+    std::int64_t asked = 0, sharp = 0;
+    for_each_scene<T>(300'000, 8, [&](const moving_triangle<T>& m, T s_x, T s_y, movement) {
+        const reference<T> r(m, s_x, s_y);
+        const moving_edges<T> e = moving_triangle_edges(m, s_x, s_y);
+        for (const T facing : {T(1), T(-1)}) {
+            const coverage_times<T> x = moving_coverage(e, facing);
+            if (x.count == 0) continue;
+            const T passed = T(bits.uniform(0, 1)), t = x.begin0 + (x.end0 - x.begin0) * passed;
+            const auto at = r.at(exact(t));
+            exact z = 0, w = 0, wrong = 0, low = 1, high = -1, largest = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                z += at.edges[k] * at.z[k];
+                w += at.edges[k] * at.w[k];
+                const exact vertex = at.z[k] / at.w[k];
+                low = std::min(low, vertex);
+                high = std::max(high, vertex);
+                largest = std::max(largest, std::abs(vertex));
+            }
+            const exact rounding = 16 * exact(u<T>) * std::max(largest, exact(1));
+            const exact depth = exact(moving_triangle_depth(m, e, t));
+            REQUIRE(depth >= std::clamp(low, -1.0L, 1.0L) - rounding);
+            REQUIRE(depth <= std::clamp(high, -1.0L, 1.0L) + rounding);
+            for (std::size_t k = 0; k < 3; ++k) wrong += r.tolerance[k] * std::abs(at.z[k] - z / w * at.w[k]);
+            const exact bound = wrong / std::abs(w) + rounding;
+            if (w != 0) REQUIRE(std::abs(depth - std::clamp(z / w, -1.0L, 1.0L)) <= bound);
+            ++asked;
+            sharp += w != 0 && bound < 1e4L * exact(u<T>);
+        }
+    });
+    CHECK(double(sharp) > 0.8 * double(asked));
+}
+
+// Halved until the deviation found is within the tolerance, or the piece is a millionth of the shutter: what happens
+// there, in float where the edge functions nearly vanish together, is noise.
+TEST_CASE_TEMPLATE("depth by lines, split to a tolerance", T, float, double)
+{
+    constexpr T tolerance = T(0.005), shortest = T(0x1p-20);
+    std::int64_t intervals = 0, pieces = 0, misjudged = 0;
+    for_each_scene<T>(30'000, 9, [&](const moving_triangle<T>& m, T s_x, T s_y, movement how) {
+        const moving_edges<T> e = moving_triangle_edges(m, s_x, s_y);
+        const coverage_times<T> x = moving_coverage(e, 1);
+        std::vector<std::array<T, 2>> waiting;
+        if (x.count > 0) waiting.push_back({x.begin0, x.end0});
+        intervals += x.count > 0;
+        while (!waiting.empty()) {
+            const auto [begin, end] = waiting.back();
+            waiting.pop_back();
+            const depth_line<T> line = moving_triangle_depth_line(m, e, begin, end);
+            REQUIRE(line.z0 == moving_triangle_depth(m, e, begin));
+            REQUIRE(line.z1 == moving_triangle_depth(m, e, end));
+            const T middle = (begin + end) / 2;
+            if (line.deviation > tolerance && end - begin > shortest) {
+                waiting.push_back({begin, middle});
+                waiting.push_back({middle, end});
+                continue;
+            }
+            ++pieces;
+            if (how == movement::still) REQUIRE(line.deviation <= 64 * u<T>);
+            T worst = 0;
+            for (int i = 1; i < 32 && line.deviation <= tolerance; ++i) {
+                const T passed = T(i) / 32;
+                const T z = moving_triangle_depth(m, e, begin * (1 - passed) + end * passed);
+                worst = std::max(worst, std::abs(z - (line.z0 * (1 - passed) + line.z1 * passed)));
+            }
+            misjudged += worst > T(0.006);
+        }
+    });
+    CHECK(pieces > intervals);
+    CHECK(pieces < 5 * intervals);
+    CHECK(1000 * misjudged <= pieces);
+}
+
+namespace {
+
+moving_vertex<double> vertex(double x0, double y0, double x1, double y1, double z0 = 0, double z1 = 0)
+{
+    return {x0, y0, z0, 1, x1, y1, z1, 1};
+}
+
+coverage_times<double> coverage(const moving_triangle<double>& m, double s_x, double s_y, double facing = 1)
+{
+    return moving_coverage(moving_triangle_edges(m, s_x, s_y), facing);
+}
+
+constexpr std::array<double, 9> nothing{0, 2, 2, 2, 2, 2, 2, 2, 2};
+constexpr std::array<double, 9> everything{1, 0, 1, 2, 2, 2, 2, 2, 2};
+std::array<double, 9> numbers(const coverage_times<double>& x)
+{
+    return {x.count, x.begin0, x.end0, x.begin1, x.end1, x.begin2, x.end2, x.begin3, x.end3};
+}
+
+} // namespace
+
+TEST_CASE("still, edge-on, touching and carried triangles")
+{
+    const moving_triangle<double> still{vertex(0, 0, 0, 0, -0.5, 0.5), vertex(1, 0, 1, 0, -0.5, 0.5),
+                                        vertex(0, 1, 0, 1, -0.5, 0.5)};
+    CHECK(numbers(coverage(still, 0.25, 0.25)) == everything);
+    CHECK(numbers(coverage(still, 0.25, 0.25, -1)) == nothing);
+    CHECK(numbers(coverage(still, 0.75, 0.75)) == nothing);
+    CHECK(numbers(coverage(still, 0.5, 0)) == everything); // on an edge
+    CHECK(numbers(coverage(still, 0, 0)) == everything);   // at a vertex
+    CHECK(numbers(coverage(still, 2, 0)) == nothing);      // on an edge's extension
+    const auto edges = moving_triangle_edges(still, 0.25, 0.25);
+    CHECK(moving_triangle_depth(still, edges, 0.75) == 0.25);
+    const depth_line<double> line = moving_triangle_depth_line(still, edges, 0.0, 1.0);
+    CHECK(line.z0 == -0.5);
+    CHECK(line.z1 == 0.5);
+    CHECK(line.deviation == 0);
+
+    const moving_triangle<double> edge_on{vertex(0, 0, 0, 0), vertex(1, 0, 1, 0), vertex(0.5, 0, 0.5, 0)};
+    for (const double x : {-1.0, 0.0, 0.25, 2.0}) CHECK(numbers(coverage(edge_on, x, 0)) == nothing);
+    const moving_triangle<double> point{vertex(0, 0, 0, 0), vertex(0, 0, 0, 0), vertex(0, 0, 0, 0)};
+    CHECK(numbers(coverage(point, 0, 0)) == nothing);
+
+    // Carried by 2 along x past the origin: its leading vertex is there at 1/4, its trailing edge at 3/4.
+    const moving_triangle<double> carried{vertex(-1.5, -0.5, 0.5, -0.5), vertex(-0.5, 0, 1.5, 0),
+                                          vertex(-1.5, 0.5, 0.5, 0.5)};
+    CHECK(numbers(coverage(carried, 0, 0)) == std::array<double, 9>{1, 0.25, 0.75, 2, 2, 2, 2, 2, 2});
+    CHECK(coverage_duration(coverage(carried, 0, 0)) == 0.5);
+    CHECK(numbers(coverage(carried, 0, 0.5)) == nothing); // grazed at one point for no time
+    CHECK(numbers(coverage(carried, 0, 0.75)) == nothing);
+
+    // Turned inside out: a vertex crosses the opposite edge halfway, where the area vanishes.
+    const moving_triangle<double> flipped{vertex(-1, -1, -1, -1), vertex(1, -1, 1, -1), vertex(0, 1, 0, -3)};
+    CHECK(numbers(coverage(flipped, 0, -0.5)) == std::array<double, 9>{1, 0, 0.375, 2, 2, 2, 2, 2, 2});
+    CHECK(numbers(coverage(flipped, 0, -1.5, -1)) == std::array<double, 9>{1, 0.625, 1, 2, 2, 2, 2, 2, 2});
+
+    // Behind the light there is no depth in front of anything.
+    moving_triangle<double> behind = still;
+    for (auto* v : {&behind.a, &behind.b, &behind.c}) v->w0 = v->w1 = -1;
+    CHECK(moving_triangle_depth(behind, moving_triangle_edges(behind, -0.25, -0.25), 0.5) == 1);
+}
+
+TEST_CASE_TEMPLATE("anything in gives intervals in order and depths in [-1, 1]", T, float, double)
+{
+    hostile_source<T> hostile(10);
+    bit_source bits(11);
+    for (std::int64_t i = 0; i < effort(500'000); ++i) {
+        moving_triangle<T> m = rounded_triangle<T>(draw_moving_scene(movement::deformed, bits).triangle);
+        std::array<T, 26> numbers;
+        std::memcpy(numbers.data(), &m, sizeof m);
+        const std::size_t kind = bits.below(3);
+        for (T& x : numbers)
+            if (kind > 0 || bits.chance(0.1)) x = kind == 1 ? hostile.special() : hostile.pattern();
+        std::memcpy(&m, numbers.data(), sizeof m);
+        const moving_edges<T> e = moving_triangle_edges(m, numbers[24], numbers[25]);
+        const T facing = bits.chance(0.1) ? hostile.special() : T(bits.chance(0.5) ? 1 : -1);
+        const coverage_times<T> x = moving_coverage(e, facing);
+        require_in_order(x);
+        const T t = bits.chance(0.5) ? hostile.pattern() : T(bits.uniform(0, 1));
+        REQUIRE(std::abs(moving_triangle_depth(m, e, t)) <= 1);
+        const depth_line<T> line = moving_triangle_depth_line(m, e, x.begin0, t);
+        REQUIRE(std::abs(line.z0) <= 1);
+        REQUIRE(std::abs(line.z1) <= 1);
+        REQUIRE((line.deviation >= 0 && line.deviation <= 2));
+    }
+}
