@@ -18,7 +18,7 @@ void time_kernel(benchmark::State& state, const char* name, const char* families
 {
     alignas(64) static rows<float, Scalar::inputs> in;
     alignas(64) static rows<float, Scalar::outputs> out;
-    test::kernel_inputs<float>(name, families, Scalar::inputs).draw(blocks, in.data(), true);
+    test::kernel_inputs<float>(name, families, Scalar::inputs).draw(blocks, in.data(), test::row_kind::tame);
     const auto times = time_in_turn({{[] { Scalar::run(blocks, in.data(), out.data()); }, double(resident_fragments)},
                                      {[] { Pack::run(blocks, in.data(), out.data()); }, double(resident_fragments)}});
     for (auto _ : state) state.SetIterationTime(quantile(times[packed], 0.5) * 1e-9);

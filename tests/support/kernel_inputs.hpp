@@ -233,6 +233,9 @@ inline constexpr input_family<T> input_families[] = {
      }},
 };
 
+/// Rows of every kind in turn, those in the kernel's domain alone, or the others alone.
+enum class row_kind { all, tame, hostile };
+
 /// The rows of one kernel.
 template <class T> class kernel_inputs {
   public:
@@ -253,13 +256,13 @@ template <class T> class kernel_inputs {
                   "takes " + std::to_string(numbers) + " numbers, its families give " + std::to_string(keep_.size()));
     }
 
-    /// The next blocks, in the layout of kernel_call.hpp; tame ones are all in the kernel's domain.
-    void draw(std::size_t blocks, T* to, bool tame = false)
+    /// The next blocks, in the layout of kernel_call.hpp.
+    void draw(std::size_t blocks, T* to, row_kind kind = row_kind::all)
     {
         std::vector<T> row(numbers_);
         for (std::size_t end = block_ + blocks; block_ < end; ++block_, to += block_rows * numbers_)
             for (std::size_t i = 0; i < block_rows; ++i) {
-                draw_row(row, tame ? 0 : block_ % 4);
+                draw_row(row, kind == row_kind::all ? block_ % 4 : kind == row_kind::tame ? 0 : 2 + block_ % 2);
                 for (std::size_t j = 0; j < numbers_; ++j) to[j * block_rows + i] = row[j];
             }
     }

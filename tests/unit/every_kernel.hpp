@@ -1,5 +1,5 @@
-// Every kernel of kernels.txt on inputs of every kind, for T and for packs of it: what should lie in [0, 1] does, and
-// packs give the bits of the scalar.
+// Every kernel of kernels.txt on inputs of every kind, for T and for packs of it: what should lie in [0, 1] does, for
+// ten million hostile inputs, and packs give the bits of the scalar.
 #pragma once
 
 #include "../support/effort.hpp"
@@ -51,12 +51,14 @@ template <class T, class Run> std::string first_mistake(const kernel_shape& k, R
     constexpr std::size_t blocks = 64;
     kernel_inputs<T> source(k.name, k.families, k.inputs);
     std::vector<T> in(blocks * block_rows * k.inputs), scalar(blocks * block_rows * k.outputs), lanes(scalar.size());
-    const std::int64_t batches = effort(200'000) / std::int64_t(blocks * block_rows) + 1;
-    for (std::int64_t batch = 0; batch < batches; ++batch) {
-        source.draw(blocks, in.data());
+    const std::int64_t mixed = effort(200'000) / std::int64_t(blocks * block_rows) + 1;
+    const std::int64_t hostile = k.unit ? effort(10'000'000) / std::int64_t(blocks * block_rows) + 1 : 0;
+    for (std::int64_t batch = 0; batch < mixed + hostile; ++batch) {
+        source.draw(blocks, in.data(), batch < mixed ? row_kind::all : row_kind::hostile);
         run.template operator()<T>(blocks, in.data(), scalar.data());
         for (std::size_t i = 0; k.unit && i < scalar.size(); ++i)
             if (!(scalar[i] >= 0 && scalar[i] <= 1)) return row_text(k, in, scalar, i);
+        if (batch > mixed && batch % 16 != 0) continue;
         std::string mistake;
         const auto compare = [&]<class Pack> {
             run.template operator()<Pack>(blocks, in.data(), lanes.data());
