@@ -33,7 +33,7 @@ class Headers:
         self.structs, self.kernels = {}, []
         for header in sorted(headers):
             text = re.sub(r"//.*", "", Path(header).read_text())
-            name = re.search(r"gnomon/.*", Path(header).as_posix())[0]
+            name = re.fullmatch(r".*/(gnomon/.*)", Path(header).as_posix())[1] # the clone may be in a folder gnomon, too
             for struct, body in re.findall(r"^GNOMON_STRUCT\s+(\w+)\s*\{([^}]*)\}", text, re.MULTILINE):
                 self.structs[struct] = [(type_name(member_type), member.strip())
                                         for member_type, members in re.findall(rf"({TYPE})\s+([\w\s,]+);", body)
