@@ -1,4 +1,5 @@
-// The C++ text of every kernel on a CUDA device, as a module: compiled with --fmad=false, so that only two_product fuses.
+// The C++ text of every kernel on a CUDA device, as a module: compiled with --fmad=false, so that only two_product
+// fuses.
 #include "kernels.hpp"
 
 #include "module.hpp"
@@ -49,7 +50,8 @@ struct device_memory {
 };
 
 template <class Function>
-bool run_blocks(Function function, std::size_t inputs, std::size_t outputs, std::size_t blocks, const float* in, float* out)
+bool run_blocks(Function function, std::size_t inputs, std::size_t outputs, std::size_t blocks, const float* in,
+                float* out)
 {
     const std::size_t in_bytes = blocks * block_rows * inputs * sizeof(float);
     const std::size_t out_bytes = blocks * block_rows * outputs * sizeof(float);
@@ -62,11 +64,11 @@ bool run_blocks(Function function, std::size_t inputs, std::size_t outputs, std:
 
 } // namespace
 
-#define ENTRY(name, ...) \
+#define ENTRY(name, ...)                                                  \
     extern "C" __global__ void parity_##name(const float* in, float* out) \
-    { \
-        using kernel_type = decltype(&gnomon::name<float>); \
-        run_row<&gnomon::name<float>>(kernel_type(nullptr), in, out); \
+    {                                                                     \
+        using kernel_type = decltype(&gnomon::name<float>);               \
+        run_row<&gnomon::name<float>>(kernel_type(nullptr), in, out);     \
     }
 GNOMON_FOR_EACH_KERNEL(ENTRY)
 
