@@ -24,8 +24,9 @@ fi
 rm -rf "$root/opt/gnomon"
 git clone --quiet --no-local "$repository" "$root/opt/gnomon"
 
-# In a mount namespace of its own, so that /proc goes when the command ends.
+# In a mount namespace of its own, so that /proc and /sys, which PoCL reads, go when the command ends.
 exec unshare --mount --fork bash -c '
     mount -t proc proc "$0/proc"
+    mount --rbind /sys "$0/sys"
     exec chroot "$0" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 /opt/gnomon/run "$@"
 ' "$root" "$@" < /dev/null
