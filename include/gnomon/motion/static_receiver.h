@@ -52,9 +52,9 @@ GNOMON_KERNEL GNOMON_T(static_receiver)
     return static_receiver_lose(state, hidden, share);
 }
 
-/// Shadow intensity in [0, 1] over the whole shutter. A NaN hides nothing. Error for each range that comes or goes in
-/// front: (80 z / d + 12) 2^-p of the range's share of the shutter, z and d its largest depth and its change; for the
-/// others 12 2^-p.
+/// Shadow intensity in [0, 1] over the whole shutter. A NaN hides nothing. Error for each range 8 2^-p; for one that
+/// meets the receiver's depth (6 z / d + 14) 2^-p over the duration of the shutter, z the largest depth, the receiver's
+/// included, and d how far its own changes. Twice that for a tent.
 GNOMON_KERNEL Real static_receiver_end(GNOMON_T(static_receiver) state) { return saturate_or_zero(state.shadowed); }
 
 GNOMON_NAMESPACE_END
