@@ -4,7 +4,7 @@
 //
 //   format          transform   bias                                       bytes
 //   4 x 16 UNORM    theta4      adaptive, noise 9 2^-20                     8
-//   4 x half        none        adaptive, noise 3 2^-13                     8
+//   4 x half        none        adaptive, noise 13 2^-15                    8
 //   4 x float       none        adaptive, noise 3 2^-26                    16
 //   6 x 10 UNORM    theta6      interpolated, 4e-3                          8, as two 10-10-10-2 words
 //   6 x 16 UNORM    theta6      interpolated, 8e-5                         12
@@ -24,7 +24,7 @@ GNOMON_NAMESPACE_BEGIN
 GNOMON_CONSTANT(stored4_unorm16_weight, 6e-5);
 GNOMON_CONSTANT(stored4_unorm16_noise, 8.58306884765625e-06); // 9 2^-20, half a code and an eighth
 GNOMON_CONSTANT(stored4_half_weight, 3.6e-3);
-GNOMON_CONSTANT(stored4_half_noise, 0.0003662109375); // 3 2^-13
+GNOMON_CONSTANT(stored4_half_noise, 0.000396728515625); // 13 2^-15
 GNOMON_CONSTANT(stored4_float_weight, 3e-7);
 GNOMON_CONSTANT(stored4_float_noise, 4.470348358154297e-08); // 3 2^-26
 GNOMON_CONSTANT(stored6_unorm10_weight, 4e-3);
