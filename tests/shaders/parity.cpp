@@ -13,7 +13,6 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <bit>
 
 #if defined(__SSE__)
 #include <xmmintrin.h>
@@ -120,11 +119,6 @@ float stored(float x, denormals d)
     return d.out_flushed && std::fpclassify(x) == FP_SUBNORMAL ? std::copysign(0.0f, x) : x;
 }
 
-bool same(float a, float b)
-{
-    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) || (std::isnan(a) && std::isnan(b));
-}
-
 /// Row i of blocks of n numbers each.
 std::vector<float> row_of(std::span<const float> blocks, std::size_t n, std::size_t i)
 {
@@ -165,7 +159,7 @@ nlohmann::ordered_json compare(const kernel& k, const candidate& c, std::span<co
         const std::size_t at = i / test::block_rows * test::block_rows * k.outputs + i % test::block_rows;
         bool equal = true;
         for (std::size_t j = at; j < at + k.outputs * test::block_rows; j += test::block_rows)
-            equal = equal && same(stored(want[j], c.flush), stored(got[j], c.flush));
+            equal = equal && test::same(stored(want[j], c.flush), stored(got[j], c.flush));
         if (equal) continue;
         if (differing++ == 0)
             first = {{"row", i},

@@ -8,6 +8,7 @@
 #include "reals.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <tuple>
@@ -16,6 +17,12 @@
 namespace gnomon::test {
 
 inline constexpr std::size_t block_rows = 64;
+
+/// Equal bits, or NaN both.
+template <class T> bool same(T a, T b)
+{
+    return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b));
+}
 
 template <class Real, class T> inline constexpr std::size_t numbers_in = sizeof(T) / sizeof(Real);
 

@@ -20,12 +20,6 @@ struct kernel_shape {
     bool unit;
 };
 
-/// Equal bits, or NaN both.
-template <class T> bool same(T a, T b)
-{
-    return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b));
-}
-
 /// The row that holds result i, for a message.
 template <class T>
 std::string row_text(const kernel_shape& k, const std::vector<T>& in, const std::vector<T>& out, std::size_t i)
