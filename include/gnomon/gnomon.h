@@ -22,6 +22,7 @@
 #include "filters/percentage_closer.h"
 #include "filters/variance.h"
 
+#include "motion/edge_field.h"
 #include "motion/moving_triangle.h"
 #include "motion/range.h"
 #include "motion/static_receiver.h"

@@ -14,6 +14,7 @@
 
 #include <gnomon/filters/convolution.h>
 #include <gnomon/moments/stored.h>
+#include <gnomon/motion/edge_field.h>
 
 #include <array>
 #include <cmath>
@@ -128,6 +129,11 @@ template <class T> seen_triangle<T> any_seen_triangle(bit_source& bits)
     return {triangle, moving_triangle_edges(triangle, T(scene.s_x), T(scene.s_y))};
 }
 
+template <class T> moving_field<T> any_moving_field(bit_source& bits)
+{
+    return moving_field_of(any_seen_triangle<T>(bits).triangle, T(bits.uniform(-1, 1)), T(bits.uniform(-1, 1)));
+}
+
 template <class T> struct input_family {
     std::string_view name;
     std::size_t numbers;
@@ -227,6 +233,9 @@ inline constexpr input_family<T> input_families[] = {
     {"moving_edges", 9, [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits).edges); }},
     {"moving_triangle_and_edges", 33,
      [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits)); }},
+    {"sample_plane", 3, [](auto put, const situation&, bit_source& bits) { put(any_moving_field<T>(bits).a.e0); }},
+    {"edge_field", 9, [](auto put, const situation&, bit_source& bits) { put(any_moving_field<T>(bits).b); }},
+    {"moving_field", 27, [](auto put, const situation&, bit_source& bits) { put(any_moving_field<T>(bits)); }},
     {"coverage_times", 9,
      [](auto put, const situation&, bit_source& bits) {
          put(moving_coverage(any_seen_triangle<T>(bits).edges, T(1)));

@@ -54,27 +54,36 @@ GNOMON_KERNEL GNOMON_T(edge_times) moving_edge_inside(GNOMON_T(moving_edge) e, G
     Real c0 = gnomon_select(back, Real(-1) * e.e0, e.e0);
     Real c1 = gnomon_select(back, Real(-1) * e.e1, e.e1);
     Real c2 = gnomon_select(back, Real(-1) * e.e2, e.e2);
-    Real r = gnomon_sqrt(gnomon_max(c1 * c1 - c0 * c2, Real(0)));
-    // The last case keeps q odd in e where c1 = 0.
-    GNOMON_MASK falls = Real(0) < c1 || (c1 == Real(0) && Real(0) < c2);
-    Real q = gnomon_select(falls, Real(-1) * (c1 + r), r - c1);
-    // In this order where both are in [0, 1].
-    Real early = saturate_or_zero(c0 / (c0 + q));
-    Real late = saturate_or_zero(q / (q + c2));
+    // Where all coefficients have one sign there is no root; where the ends do not, there is one in [0, 1], by one
+    // formula or the other; else two, in the order of the formulas.
+    GNOMON_MASK rises = c0 < Real(0) && Real(0) < c2;
+    GNOMON_MASK falls = Real(0) < c0 && c2 < Real(0);
+    GNOMON_MASK inside = Real(0) <= c0 && Real(0) <= c2 && c1 < Real(0);
+    GNOMON_MASK outside = c0 <= Real(0) && c2 <= Real(0) && (c0 < Real(0) || c2 < Real(0));
+    GNOMON_MASK twice = inside || (outside && Real(0) < c1);
+    Real r = Real(0);
+    Real first = Real(0);
+    Real second = Real(0);
+    if (gnomon_any(rises || falls || twice)) {
+        r = gnomon_sqrt(gnomon_max(c1 * c1 - c0 * c2, Real(0)));
+        // The last case keeps q odd in e where c1 = 0.
+        GNOMON_MASK negative = Real(0) < c1 || (c1 == Real(0) && Real(0) < c2);
+        Real q = gnomon_select(negative, Real(-1) * (c1 + r), r - c1);
+        GNOMON_MASK late = (rises && c1 < Real(0)) || (falls && Real(0) < c1);
+        first = saturate_or_zero(gnomon_select(late, q, c0) / (gnomon_select(late, c2, c0) + q));
+        second = first;
+        if (gnomon_any(twice)) second = gnomon_select(twice, saturate_or_zero(q / (q + c2)), first);
+    }
 
     GNOMON_MASK turns = Real(0) < r;
-    GNOMON_MASK outside = c0 <= Real(0) && c2 <= Real(0) && (c0 < Real(0) || c2 < Real(0));
     GNOMON_MASK known = moving_edge_size(e) < GNOMON_LITERAL(moving_edge_limit);
     GNOMON_MASK some = known && !(outside && !(turns && Real(0) < c1));
-    GNOMON_MASK gap = Real(0) <= c0 && Real(0) <= c2 && turns && c1 < Real(0) && early < late;
-    // With ends of unlike signs there is one root in [0, 1], by one formula or the other.
-    Real begin = gnomon_select(c1 < Real(0) && Real(0) < c2, late, early);
-    Real end = gnomon_select(c1 <= Real(0) && Real(0) < c0, early, late);
+    GNOMON_MASK gap = inside && turns && first < second;
     GNOMON_T(edge_times) x;
-    x.begin = gnomon_select(some, gnomon_select(Real(0) <= c0, Real(0), begin), Real(1));
-    x.end = gnomon_select(some, gnomon_select(Real(0) <= c2, Real(1), end), Real(0));
-    x.gap_begin = gnomon_select(gap, early, GNOMON_LITERAL(coverage_none));
-    x.gap_end = gnomon_select(gap, late, GNOMON_LITERAL(coverage_none));
+    x.begin = gnomon_select(some, gnomon_select(Real(0) <= c0, Real(0), first), Real(1));
+    x.end = gnomon_select(some, gnomon_select(Real(0) <= c2, Real(1), second), Real(0));
+    x.gap_begin = gnomon_select(gap, first, GNOMON_LITERAL(coverage_none));
+    x.gap_end = gnomon_select(gap, second, GNOMON_LITERAL(coverage_none));
     return x;
 }
 
@@ -109,37 +118,49 @@ GNOMON_KERNEL GNOMON_T(coverage_times) moving_coverage(GNOMON_T(moving_edges) e,
     Real end = gnomon_min(gnomon_min(a.end, b.end), c.end);
     end = gnomon_select(Real(0) < size, end, Real(0));
 
-    // In order, each by itself, the gaps' begins and ends bound what is outside of all gaps: a time is there when as
-    // many have begun as have ended.
     Real none = GNOMON_LITERAL(coverage_none);
-    GNOMON_T(ordered4) starts = ordered4_of(a.gap_begin, b.gap_begin, c.gap_begin, none);
-    GNOMON_T(ordered4) stops = ordered4_of(a.gap_end, b.gap_end, c.gap_end, none);
-    Real begin1 = gnomon_max(begin, stops.first);
-    Real begin2 = gnomon_max(begin, stops.second);
-    Real begin3 = gnomon_max(begin, stops.third);
-    Real end0 = gnomon_min(end, starts.first);
-    Real end1 = gnomon_min(end, starts.second);
-    Real end2 = gnomon_min(end, starts.third);
-    GNOMON_MASK some0 = begin < end0;
-    GNOMON_MASK some1 = begin1 < end1;
-    GNOMON_MASK some2 = begin2 < end2;
-    GNOMON_MASK some3 = begin3 < end;
-    // The empty ones go to the end, the others keep their order.
-    starts = ordered4_of(gnomon_select(some0, begin, none), gnomon_select(some1, begin1, none),
-                         gnomon_select(some2, begin2, none), gnomon_select(some3, begin3, none));
-    stops = ordered4_of(gnomon_select(some0, end0, none), gnomon_select(some1, end1, none),
-                        gnomon_select(some2, end2, none), gnomon_select(some3, end, none));
+    GNOMON_MASK some = begin < end;
     GNOMON_T(coverage_times) x;
-    x.count = (gnomon_select(some0, Real(1), Real(0)) + gnomon_select(some1, Real(1), Real(0))) +
-              (gnomon_select(some2, Real(1), Real(0)) + gnomon_select(some3, Real(1), Real(0)));
-    x.begin0 = starts.first;
-    x.end0 = stops.first;
-    x.begin1 = starts.second;
-    x.end1 = stops.second;
-    x.begin2 = starts.third;
-    x.end2 = stops.third;
-    x.begin3 = starts.fourth;
-    x.end3 = stops.fourth;
+    x.count = gnomon_select(some, Real(1), Real(0));
+    x.begin0 = gnomon_select(some, begin, none);
+    x.end0 = gnomon_select(some, end, none);
+    x.begin1 = none;
+    x.end1 = none;
+    x.begin2 = none;
+    x.end2 = none;
+    x.begin3 = none;
+    x.end3 = none;
+    if (gnomon_any(some && gnomon_min(gnomon_min(a.gap_begin, b.gap_begin), c.gap_begin) < none)) {
+        // In order, each by itself, the gaps' begins and ends bound what is outside of all gaps: a time is there when
+        // as many have begun as have ended.
+        GNOMON_T(ordered4) starts = ordered4_of(a.gap_begin, b.gap_begin, c.gap_begin, none);
+        GNOMON_T(ordered4) stops = ordered4_of(a.gap_end, b.gap_end, c.gap_end, none);
+        Real begin1 = gnomon_max(begin, stops.first);
+        Real begin2 = gnomon_max(begin, stops.second);
+        Real begin3 = gnomon_max(begin, stops.third);
+        Real end0 = gnomon_min(end, starts.first);
+        Real end1 = gnomon_min(end, starts.second);
+        Real end2 = gnomon_min(end, starts.third);
+        GNOMON_MASK some0 = begin < end0;
+        GNOMON_MASK some1 = begin1 < end1;
+        GNOMON_MASK some2 = begin2 < end2;
+        GNOMON_MASK some3 = begin3 < end;
+        // The empty ones go to the end, the others keep their order.
+        starts = ordered4_of(gnomon_select(some0, begin, none), gnomon_select(some1, begin1, none),
+                             gnomon_select(some2, begin2, none), gnomon_select(some3, begin3, none));
+        stops = ordered4_of(gnomon_select(some0, end0, none), gnomon_select(some1, end1, none),
+                            gnomon_select(some2, end2, none), gnomon_select(some3, end, none));
+        x.count = (gnomon_select(some0, Real(1), Real(0)) + gnomon_select(some1, Real(1), Real(0))) +
+                  (gnomon_select(some2, Real(1), Real(0)) + gnomon_select(some3, Real(1), Real(0)));
+        x.begin0 = starts.first;
+        x.end0 = stops.first;
+        x.begin1 = starts.second;
+        x.end1 = stops.second;
+        x.begin2 = starts.third;
+        x.end2 = stops.third;
+        x.begin3 = starts.fourth;
+        x.end3 = stops.fourth;
+    }
     return x;
 }
 

@@ -1,0 +1,78 @@
+// A rasterizer for motion on the CPU: what each texel of a shadow map sees of a moving scene while the shutter is open,
+// as lists of depth-time ranges, exact by edge functions in time (motion/moving_triangle.h). Parallel over tiles; its
+// results do not depend on the number of threads.
+//
+// Work grows with what is covered, not with bounding boxes of what moves: triangles are tested against tiles, against
+// blocks of 4 x 4 texels and then against texels, by one kernel in space and time (motion/edge_field.h), a pack at a
+// time. A tile counts its ranges before it lays out its lists, and resolves them early where they would take more
+// memory than it may have.
+#pragma once
+
+#include <gnomon/passes/range_map.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "moving_scene.hpp"
+#include "rasterizer.hpp"
+
+namespace gnomon::toolbox {
+
+struct range_options {
+    faces visible = faces::both;
+    bool resolved = false;                          // lists of what is in front, without overlaps
+    float depth_tolerance = 0;                      // a range whose depth is further from a line is split; 0: never
+    std::size_t tile_budget = std::size_t(1) << 20; // ranges that a tile may hold before it resolves its lists
+};
+
+// What rasterization took.
+struct range_counts {
+    std::size_t pairs = 0;          // of a texel and a triangle that covers it at some time, for either facing
+    std::size_t tested = 0;         // texels tested against triangles
+    std::size_t early_resolves = 0; // of tiles, since their budget was used up
+};
+
+struct range_lists {
+    int width = 0, height = 0;
+    std::vector<std::uint32_t> first; // as in range_map
+    std::vector<depth_time_range<float>> ranges;
+    range_counts counts;
+
+    range_map<float> map() const { return {std::size_t(width), std::size_t(height), first, ranges}; }
+    std::size_t bytes() const;
+};
+
+// Keeps its memory from picture to picture.
+class range_rasterizer {
+  public:
+    range_rasterizer();
+    ~range_rasterizer();
+
+    // Ids are the triangles' numbers, counted through all meshes. What is in front of the near plane is not there.
+    // The lists are those of the last call.
+    const range_lists& operator()(const moving_scene& world, const moving_camera& eye, int width, int height,
+                                  const range_options& how = {});
+
+  private:
+    struct scratch;
+    std::unique_ptr<scratch> scratch_;
+    range_lists lists_;
+};
+
+// The mesh and the triangle in it with this number.
+struct triangle_place {
+    std::uint32_t mesh, triangle;
+};
+class triangle_numbers {
+  public:
+    explicit triangle_numbers(const scene& world);
+    triangle_place operator[](std::uint32_t number) const;
+    std::uint32_t count() const { return begins_.back(); }
+
+  private:
+    std::vector<std::uint32_t> begins_; // of each mesh, and the end
+};
+
+} // namespace gnomon::toolbox

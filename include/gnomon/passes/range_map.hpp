@@ -1,0 +1,64 @@
+// A shadow map of depth-time ranges: a list for each texel, all of them one after the other in one array, in the order
+// of the texels, which a table of first entries divides. Nothing is chased from pointer to pointer, and nothing is
+// wasted on texels with short lists (the layout that Hong & Oh 2017 name as future work, after Vasilakis & Fudos 2012).
+#ifndef GNOMON_PASSES_RANGE_MAP_HPP
+#define GNOMON_PASSES_RANGE_MAP_HPP
+
+#include "../motion/range.h"
+#include "expects.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace gnomon {
+
+/// Texel (x, y) has the ranges first[i] to first[i + 1] - 1, i = y width + x.
+template <class T> struct range_map {
+    std::size_t width = 0, height = 0;
+    std::span<const std::uint32_t> first;
+    std::span<const depth_time_range<T>> ranges;
+
+    std::span<const depth_time_range<T>> operator()(std::size_t x, std::size_t y) const
+    {
+        const std::size_t i = y * width + x;
+        return ranges.subspan(first[i], first[i + 1] - first[i]);
+    }
+};
+
+/// From how many ranges each texel has to where they begin, in place: the last number becomes the sum of all counts.
+inline void begins_from_counts(std::span<std::uint32_t> counts_then_sum)
+{
+    std::uint32_t sum = 0;
+    for (std::uint32_t& x : counts_then_sum) {
+        const std::uint32_t count = x;
+        x = sum;
+        GNOMON_EXPECTS(sum <= ~count, mismatch("range map", "ranges", sum, "room for", ~count));
+        sum += count;
+    }
+}
+
+/// Ranges as they come, each with its texel, put into the lists of a map; each list keeps their order.
+/// first: one more than there are texels; sorted: as many as there are ranges.
+template <class T>
+void sort_into_lists(std::span<const std::uint32_t> texels, std::span<const depth_time_range<T>> ranges,
+                     std::span<std::uint32_t> first, std::span<depth_time_range<T>> sorted)
+{
+    GNOMON_EXPECTS(!first.empty(), mismatch("range map", "first.size()", 0, "texels", 1));
+    GNOMON_EXPECTS(texels.size() == ranges.size(),
+                   mismatch("range map", "texels.size()", texels.size(), "ranges.size()", ranges.size()));
+    GNOMON_EXPECTS(sorted.size() == ranges.size(),
+                   mismatch("range map", "sorted.size()", sorted.size(), "ranges.size()", ranges.size()));
+    for (const std::uint32_t texel : texels)
+        GNOMON_EXPECTS(std::size_t(texel) + 1 < first.size(),
+                       mismatch("range map", "a texel", texel, "first.size()", first.size()));
+    for (std::uint32_t& x : first) x = 0;
+    for (const std::uint32_t texel : texels) ++first[texel];
+    begins_from_counts(first);
+    for (std::size_t i = 0; i < ranges.size(); ++i) sorted[first[texels[i]]++] = ranges[i];
+    for (std::size_t i = first.size() - 1; i > 0; --i) first[i] = first[i - 1];
+    first[0] = 0;
+}
+
+} // namespace gnomon
+#endif

@@ -1,0 +1,106 @@
+// Edge functions over a tile: those of moving_triangle.h within the stated error, and blocks that contain what their
+// samples see.
+#include "../support/effort.hpp"
+#include "../support/moving_triangles.hpp"
+#include "coverage_check.hpp"
+
+#include <gnomon/motion/edge_field.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+using namespace gnomon;
+using namespace gnomon::test;
+
+namespace {
+
+template <class T> std::array<moving_edge<T>, 3> listed(const moving_edges<T>& e) { return {e.a, e.b, e.c}; }
+
+/// A scene of every kind, with an origin near its sample.
+template <class T, class F> void for_each_scene(std::int64_t scenes, F f)
+{
+    bit_source bits(51);
+    for (std::int64_t i = 0; i < effort(scenes); ++i) {
+        const moving_scene scene = draw_moving_scene(movement(std::size_t(i) % movement_count), bits);
+        const T o_x = T(scene.s_x + bits.uniform(-0.1, 0.1)), o_y = T(scene.s_y + bits.uniform(-0.1, 0.1));
+        f(rounded_triangle<T>(scene.triangle), o_x, o_y, bits);
+    }
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("moving_field_edges: the triangle's edge functions, within the stated error", T, float, double)
+{
+    for_each_scene<T>(100'000, [](const moving_triangle<T>& m, T o_x, T o_y, bit_source& bits) {
+        const T s_x = T(bits.uniform(-0.2, 0.2)), s_y = T(bits.uniform(-0.2, 0.2));
+        const auto found = listed(moving_field_edges(moving_field_of(m, o_x, o_y), s_x, s_y));
+        const std::array<moving_vertex<T>, 3> v{m.a, m.b, m.c};
+        struct seen {
+            exact x0, y0, x1, y1, size_x, size_y;
+        };
+        std::array<seen, 3> p;
+        const exact at_x = exact(o_x) + exact(s_x), at_y = exact(o_y) + exact(s_y);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const exact w0 = exact(v[k].w0), w1 = exact(v[k].w1);
+            const auto size = [&](T at0, T at1, T origin, T sample) {
+                const exact reach = exact(std::abs(origin)) + exact(std::abs(sample));
+                return std::max(exact(std::abs(at0)) + reach * std::abs(w0),
+                                exact(std::abs(at1)) + reach * std::abs(w1));
+            };
+            p[k] = {exact(v[k].x0) - at_x * w0, exact(v[k].y0) - at_y * w0,       exact(v[k].x1) - at_x * w1,
+                    exact(v[k].y1) - at_y * w1, size(v[k].x0, v[k].x1, o_x, s_x), size(v[k].y0, v[k].y1, o_y, s_y)};
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            const seen &i = p[(k + 1) % 3], &j = p[(k + 2) % 3];
+            const exact error = 64 * exact(u<T>) * (i.size_x * j.size_y + i.size_y * j.size_x);
+            REQUIRE(std::abs(exact(found[k].e0) - (i.x0 * j.y0 - i.y0 * j.x0)) <= error);
+            REQUIRE(std::abs(exact(found[k].e1) - (i.x0 * j.y1 - i.y0 * j.x1 + i.x1 * j.y0 - i.y1 * j.x0) / 2) <=
+                    error);
+            REQUIRE(std::abs(exact(found[k].e2) - (i.x1 * j.y1 - i.y1 * j.x1)) <= error);
+        }
+    });
+}
+
+TEST_CASE_TEMPLATE("edge fields of neighbours are opposite, bit for bit, at every sample", T, float, double)
+{
+    for_each_scene<T>(50'000, [](const moving_triangle<T>& m, T o_x, T o_y, bit_source& bits) {
+        const moving_field<T> one = moving_field_of(m, o_x, o_y);
+        const moving_field<T> other =
+            moving_field_of(moving_triangle<T>{m.b, m.a, m.c}, o_x, o_y); // edges b-a, a-c, c-b
+        const T s_x = T(bits.uniform(-1, 1)), s_y = T(bits.uniform(-1, 1));
+        const moving_edge<T> there = edge_field_at(one.c, s_x, s_y), back = edge_field_at(other.c, s_x, s_y);
+        REQUIRE(there.e0 == -back.e0);
+        REQUIRE(there.e1 == -back.e1);
+        REQUIRE(there.e2 == -back.e2);
+    });
+}
+
+TEST_CASE_TEMPLATE("moving_field_block: no sample of the block is covered at a time that the block is not", T, float,
+                   double)
+{
+    std::int64_t covered = 0, culled = 0;
+    for_each_scene<T>(100'000, [&](const moving_triangle<T>& m, T o_x, T o_y, bit_source& bits) {
+        const moving_field<T> field = moving_field_of(m, o_x, o_y);
+        const T facing = bits.chance(0.5) ? T(1) : T(-1), h = T(std::exp2(bits.uniform(-8, -2)));
+        const T x = T(bits.uniform(-0.5, 0.5)), y = T(bits.uniform(-0.5, 0.5));
+        const coverage_times<T> block =
+            moving_coverage(moving_field_block(field, x, y, h * T(1.01), h * T(1.01), facing), facing);
+        culled += block.count == 0;
+        for (int k = 0; k < 8; ++k) {
+            const T s_x = x + h * T(bits.uniform(-1, 1)), s_y = y + h * T(bits.uniform(-1, 1));
+            const coverage_times<T> sample = moving_coverage(moving_field_edges(field, s_x, s_y), facing);
+            for (std::size_t j = 0; j < std::size_t(sample.count); ++j) {
+                const interval seen = intervals_of(sample)[j];
+                const auto around = intervals_of(block);
+                REQUIRE(std::any_of(around.begin(), around.begin() + std::ptrdiff_t(block.count),
+                                    [&](const interval& i) { return i.begin <= seen.begin && seen.end <= i.end; }));
+                ++covered;
+            }
+        }
+    });
+    CHECK(covered > 0);
+    CHECK(culled > 0);
+}
