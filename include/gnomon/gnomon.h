@@ -22,7 +22,9 @@
 #include "filters/percentage_closer.h"
 #include "filters/variance.h"
 
+#include "motion/coverage_map.h"
 #include "motion/moving_triangle.h"
+#include "motion/prism.h"
 #include "motion/range.h"
 #include "motion/static_receiver.h"
 #endif
