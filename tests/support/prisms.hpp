@@ -26,6 +26,14 @@ template <class T> seen_prism_triangle<T> any_seen_prism_triangle(const moving_t
     return {triangle, mean(triangle.a.x, triangle.b.x, triangle.c.x), mean(triangle.a.y, triangle.b.y, triangle.c.y)};
 }
 
+/// All fragments of a prism at a sample.
+template <class T> prism_pair<T> pair_at(const prism<T>& p, T s_x, T s_y)
+{
+    prism_pair<T> pair = prism_pair_begin(T(7));
+    for (int k = 0; k < 14; ++k) pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_of(p, T(k)), s_x, s_y));
+    return pair;
+}
+
 /// Now and then at the shutter's ends.
 template <class T> prism_fragment<T> any_prism_fragment(bit_source& bits)
 {
