@@ -26,7 +26,7 @@ moving_vertex<double> lattice_vertex(bit_source& bits, std::size_t size)
 }
 
 /// A point between two, in extended precision.
-exact between(exact a, exact b, exact s) { return a + s * (b - a); }
+exact between(double a, double b, exact s) { return exact(a) + s * (exact(b) - exact(a)); }
 
 } // namespace
 
@@ -50,12 +50,12 @@ TEST_CASE("an edge crosses itself where both of its places do")
         REQUIRE(side.centre.t == 0.5);
         crossings += crosses;
         if (crosses) {
-            const exact s = exact(a0) / (exact(a0) - b0), v = exact(a1) / (exact(a1) - b1);
+            const exact s = exact(a0) / exact(a0 - b0), v = exact(a1) / exact(a1 - b1);
             const exact tolerance = 32 * exact(u<double>);
-            REQUIRE(std::abs(side.centre.x - between(a.x0, b.x0, s)) <= tolerance);
-            REQUIRE(std::abs(side.centre.y - between(a.y0, b.y0, s)) <= tolerance);
-            REQUIRE(std::abs(side.centre.x - between(a.x1, b.x1, v)) <= tolerance);
-            REQUIRE(std::abs(side.centre.y - between(a.y1, b.y1, v)) <= tolerance);
+            REQUIRE(std::abs(exact(side.centre.x) - between(a.x0, b.x0, s)) <= tolerance);
+            REQUIRE(std::abs(exact(side.centre.y) - between(a.y0, b.y0, s)) <= tolerance);
+            REQUIRE(std::abs(exact(side.centre.x) - between(a.x1, b.x1, v)) <= tolerance);
+            REQUIRE(std::abs(exact(side.centre.y) - between(a.y1, b.y1, v)) <= tolerance);
             REQUIRE(side.centre.z == (a.z0 + a.z1) / 2);
         } else {
             REQUIRE(side.centre.x == (a.x0 + b.x0 + a.x1 + b.x1) / 4);
@@ -145,12 +145,12 @@ TEST_CASE_TEMPLATE("fragments: time and depth are those of the plane, whatever t
         const auto f = prism_fragment_at(v, seen.s_x, seen.s_y);
         std::array<exact, 3> e;
         exact x = 0, y = 0, largest = 0;
+        const exact s_x = exact(seen.s_x), s_y = exact(seen.s_y);
         for (std::size_t k = 0; k < 3; ++k) {
             const auto &q = p[(k + 1) % 3], &r = p[(k + 2) % 3];
-            e[k] =
-                (exact(q.x) - seen.s_x) * (exact(r.y) - seen.s_y) - (exact(q.y) - seen.s_y) * (exact(r.x) - seen.s_x);
-            x = std::max(x, std::abs(exact(p[k].x) - seen.s_x));
-            y = std::max(y, std::abs(exact(p[k].y) - seen.s_y));
+            e[k] = (exact(q.x) - s_x) * (exact(r.y) - s_y) - (exact(q.y) - s_y) * (exact(r.x) - s_x);
+            x = std::max(x, std::abs(exact(p[k].x) - s_x));
+            y = std::max(y, std::abs(exact(p[k].y) - s_y));
             largest = std::max(largest, std::abs(exact(p[k].z)));
         }
         const exact tolerance = 8 * exact(u<T>) * x * y, sum = e[0] + e[1] + e[2];

@@ -8,9 +8,9 @@
 // open and at close: a cover. A fragment of another id in front of the cover takes it back. In front of what, hangs on
 // the depth buffer that their second pass writes with its depth test off: it has the cover's other end then, or
 // whichever end came last. Taken here is the farther end, whatever the order: who is in front of that for a moment may
-// be in front of the cover. And a fragment of the cover's own id between its ends takes it back as well, since the
-// triangle left and returned there; their rule lets it pass. So both are sound for ranges with these fragments for
-// their ends, and since neither minds the order, the second and the third pass are one:
+// be in front of the cover. A third fragment of the cover's own id takes it back as well, since the triangle left and
+// returned; their rule lets it pass. So a cover is in front at all times if depth goes linearly between the fragments.
+// Nothing depends on an order any more, and the second and the third pass are one:
 //     nearest = nearest_fragment_begin(1);                  nearest = nearest_fragment_add(nearest, f);   for all f
 //     state = fragment_cover_begin(nearest);                state = fragment_cover_add(state, f);         for all f
 //     cover = fragment_cover_end(state);
@@ -29,12 +29,12 @@ GNOMON_NAMESPACE_BEGIN
 /// Time in [0, 1], depth in [-1, 1] and a triangle's id, a whole number from 0.
 GNOMON_STRUCT moment_fragment { Real t, z, id; };
 
-/// The nearest fragment; farthest depth of its id, whether that id is there at both ends of the shutter and whether in
-/// between (1 or 0); nearest depth of all others.
+/// The nearest fragment; how many there are of its id, their farthest depth, and whether one is at the other end of the
+/// shutter (1 or 0); nearest depth of all others.
 GNOMON_STRUCT fragment_cover
 {
     GNOMON_T(moment_fragment) nearest;
-    Real far_depth, ends, between, front;
+    Real count, far_depth, ends, front;
 };
 
 /// The best cover so far, and the nearest depth of all others.
@@ -44,8 +44,7 @@ GNOMON_STRUCT range_cover
     Real front, far_plane;
 };
 
-/// What a cover says of a receiver: shadow intensity, 0 or 1, and whether that is all, 1, or the list has to be asked,
-/// 0.
+/// What a cover says of a receiver: shadow intensity, 0 or 1, and whether that is all (1) or the list has to be asked.
 GNOMON_STRUCT cover_answer { Real intensity, decided; };
 
 GNOMON_CONSTANT(cover_margin, 0.0000019073486328125); // 2^-19, 32 2^-p in float
@@ -79,9 +78,9 @@ GNOMON_KERNEL GNOMON_T(fragment_cover) fragment_cover_begin(GNOMON_T(moment_frag
 {
     GNOMON_T(fragment_cover) state;
     state.nearest = nearest;
+    state.count = Real(0);
     state.far_depth = nearest.z;
     state.ends = Real(0);
-    state.between = Real(0);
     state.front = Real(1);
     return state;
 }
@@ -92,11 +91,9 @@ GNOMON_KERNEL GNOMON_T(fragment_cover) fragment_cover_add(GNOMON_T(fragment_cove
     GNOMON_MASK known = Real(0) <= f.id && Real(0) <= f.t && f.t <= Real(1) && f.z == f.z;
     GNOMON_MASK same = known && f.id == state.nearest.id;
     GNOMON_MASK other = known && !(f.id == state.nearest.id);
-    Real apart = gnomon_abs(f.t - state.nearest.t);
-    GNOMON_MASK end = same && Real(1) <= apart;
-    GNOMON_MASK between = same && Real(0) < apart && apart < Real(1);
+    GNOMON_MASK end = same && Real(1) <= gnomon_abs(f.t - state.nearest.t);
+    state.count = state.count + gnomon_select(same, Real(1), Real(0));
     state.ends = gnomon_select(end, Real(1), state.ends);
-    state.between = gnomon_select(between, Real(1), state.between);
     state.far_depth = gnomon_select(same && state.far_depth < f.z, f.z, state.far_depth);
     state.front = gnomon_select(other && f.z < state.front, f.z, state.front);
     return state;
@@ -105,12 +102,11 @@ GNOMON_KERNEL GNOMON_T(fragment_cover) fragment_cover_add(GNOMON_T(fragment_cove
 /// The cover, or none.
 GNOMON_KERNEL GNOMON_T(depth_time_range) fragment_cover_end(GNOMON_T(fragment_cover) state)
 {
-    GNOMON_MASK alone = state.between == Real(0) && state.far_depth <= state.front;
+    GNOMON_MASK alone = state.count == Real(2) && state.far_depth <= state.front;
     GNOMON_MASK known = Real(0) <= state.nearest.id && Real(-1) <= state.nearest.z;
     GNOMON_MASK covers = known && Real(0) < state.ends && alone;
-    GNOMON_T(depth_time_range)
-    cover =
-        range_between(state.nearest.t, state.nearest.z, Real(1) - state.nearest.t, state.far_depth, state.nearest.id);
+    GNOMON_T(moment_fragment) n = state.nearest;
+    GNOMON_T(depth_time_range) cover = range_between(n.t, n.z, Real(1) - n.t, state.far_depth, n.id);
     return range_choice(gnomon_select(covers, Real(1), Real(0)), cover, range_empty(Real(-1)));
 }
 
@@ -124,17 +120,18 @@ GNOMON_KERNEL GNOMON_T(range_cover) range_cover_begin(Real far_plane)
     return state;
 }
 
-/// One range. The best of those from 0 to 1 is that with the least farthest depth: if any of them is in front of all
-/// others, that one is. On a tie that with the nearer end, then the lesser id. What is not the best counts among the
-/// others, whatever its id. A range that shadows nothing, for its times are not in order or a depth is NaN, counts as
-/// none; a cover needs depths within [-far_plane, far_plane] and an id from 0.
+/// One range, whole: a range is cut into pieces (moving_depth_piece) once it is known not to cover. The best of those
+/// from 0 to 1 is that with the least farthest depth: if any of them is in front of all others, that one is. On a tie
+/// that with the nearer end, then the lesser id. What is not the best counts among the others, whatever its id. A range
+/// that shadows nothing, for its times are not in order or a depth is NaN, counts as none; a cover needs depths within
+/// [-far_plane, far_plane] and an id from 0.
 GNOMON_KERNEL GNOMON_T(range_cover) range_cover_add(GNOMON_T(range_cover) state, GNOMON_T(depth_time_range) r)
 {
     Real near_depth = gnomon_min(r.z0, r.z1);
     Real far_depth = gnomon_max(r.z0, r.z1);
     Real best_near = gnomon_min(state.best.z0, state.best.z1);
     Real best_far = gnomon_max(state.best.z0, state.best.z1);
-    GNOMON_MASK some = r.t0 <= r.t1 && near_depth <= far_depth && r.z0 == r.z0;
+    GNOMON_MASK some = r.t0 <= r.t1 && r.z0 == r.z0 && r.z1 == r.z1;
     GNOMON_MASK within = gnomon_abs(r.z0) <= state.far_plane && gnomon_abs(r.z1) <= state.far_plane;
     GNOMON_MASK full = some && r.t0 <= Real(0) && Real(1) <= r.t1 && within && Real(0) <= r.id;
     GNOMON_MASK first = state.best.id < Real(0);
