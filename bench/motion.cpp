@@ -1,10 +1,15 @@
 // Moving triangles, a sample of the shadow map each, seen at some time three times in four: covered times from edges
 // on. The baseline is the usual way, without its list of intervals: six roots sorted, the middle of every two tried.
+// Prisms of Hong & Oh give about the same times; and a texel's ranges are searched for a cover, four of them, beside
+// their shadow tests.
 #include "measure.hpp"
 
 #include "../tests/support/moving_triangles.hpp"
+#include "../tests/support/prisms.hpp"
 
+#include <gnomon/motion/coverage_map.h>
 #include <gnomon/motion/moving_triangle.h>
+#include <gnomon/motion/prism.h>
 #include <gnomon/numerics/quadratic.h>
 
 namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {
@@ -92,6 +97,81 @@ struct depth : triangle_and_sample {
     }
 };
 
-[[maybe_unused]] const bool registered = add_kernels<sorted_roots, sorted_roots, coverage, depth>("motion");
+struct prism_pairs : triangle_and_sample {
+    static constexpr auto name = "covered time by a prism";
+    template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
+    {
+        using real = std::common_type_t<Reals...>;
+        const std::array<real, 26> x{operands...};
+        const prism<real> p = prism_of(triangle(x), real(1));
+        prism_pair<real> pair = prism_pair_begin(real(0));
+        for (int k = 0; k < 14; ++k)
+            pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_of(p, real(k)), x[24], x[25]));
+        const prism_ranges<real> ranges = prism_pair_end(pair);
+        return range_duration(ranges.first) + range_duration(ranges.second);
+    }
+};
+
+struct depth_pieces : triangle_and_sample {
+    static constexpr auto name = "first depth piece";
+    template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
+    {
+        using real = std::common_type_t<Reals...>;
+        const std::array<real, 26> x{operands...};
+        const moving_triangle<real> m = triangle(x);
+        const moving_edges<real> e = moving_triangle_edges(m, x[24], x[25]);
+        return moving_depth_piece(m, e, real(0), real(1), real(0), real(0), real(0.0078125)).passed;
+    }
+};
+
+struct texel_of_ranges : compilation {
+    static constexpr std::size_t inputs = 20;
+    static std::vector<std::array<double, inputs>> samples(std::size_t count, std::uint64_t seed)
+    {
+        test::bit_source bits(seed);
+        std::vector<std::array<double, inputs>> result(count);
+        for (auto& sample : result)
+            for (std::size_t k = 0; k < 4; ++k) {
+                const depth_time_range<double> r = test::any_cover_range<double>(bits);
+                std::copy_n(std::array{r.t0, r.t1, r.z0, r.z1, r.id}.begin(), 5, sample.begin() + 5 * k);
+            }
+        return result;
+    }
+
+    template <class Real>
+    static GNOMON_INLINE constexpr depth_time_range<Real> range(const std::array<Real, inputs>& x, std::size_t k)
+    {
+        return {x[5 * k], x[5 * k + 1], x[5 * k + 2], x[5 * k + 3], x[5 * k + 4]};
+    }
+};
+
+struct shadow_tests : texel_of_ranges {
+    static constexpr auto name = "shadow tests of four ranges";
+    template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
+    {
+        using real = std::common_type_t<Reals...>;
+        const std::array<real, inputs> x{operands...};
+        real intensity = real(0);
+        for (std::size_t k = 0; k < 4; ++k)
+            intensity = gnomon_max(intensity, range_intensity(range(x, k), real(0.5), real(0), real(9), real(0)));
+        return intensity;
+    }
+};
+
+struct cover_search : texel_of_ranges {
+    static constexpr auto name = "cover of four ranges";
+    template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
+    {
+        using real = std::common_type_t<Reals...>;
+        const std::array<real, inputs> x{operands...};
+        range_cover<real> state = range_cover_begin(real(1));
+        for (std::size_t k = 0; k < 4; ++k) state = range_cover_add(state, range(x, k));
+        return range_cover_end(state).id;
+    }
+};
+
+[[maybe_unused]] const bool registered =
+    add_kernels<sorted_roots, sorted_roots, coverage, depth, prism_pairs, depth_pieces>("motion") &&
+    add_kernels<shadow_tests, shadow_tests, cover_search>("motion");
 
 } // namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC

@@ -23,7 +23,9 @@
 #include "filters/variance.h"
 
 #include "motion/edge_field.h"
+#include "motion/coverage_map.h"
 #include "motion/moving_triangle.h"
+#include "motion/prism.h"
 #include "motion/range.h"
 #include "motion/static_receiver.h"
 #endif

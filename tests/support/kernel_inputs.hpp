@@ -11,6 +11,7 @@
 #include "hostile.hpp"
 #include "kernel_call.hpp"
 #include "moving_triangles.hpp"
+#include "prisms.hpp"
 
 #include <gnomon/filters/convolution.h>
 #include <gnomon/moments/stored.h>
@@ -239,6 +240,41 @@ inline constexpr input_family<T> input_families[] = {
     {"coverage_times", 9,
      [](auto put, const situation&, bit_source& bits) {
          put(moving_coverage(any_seen_triangle<T>(bits).edges, T(1)));
+     }},
+    // Prisms and covers.
+    {"part", 1, [](auto put, const situation&, bit_source& bits) { put(double(bits.below(14))); }},
+    {"prism", 39,
+     [](auto put, const situation&, bit_source& bits) {
+         put(prism_of(any_seen_triangle<T>(bits).triangle, T(bits.chance(0.5))));
+     }},
+    {"prism_vertex", 4,
+     [](auto put, const situation&, bit_source& bits) {
+         put(any_seen_prism_triangle(any_seen_triangle<T>(bits).triangle, bits).triangle.a);
+     }},
+    {"prism_triangle_and_sample", 14,
+     [](auto put, const situation&, bit_source& bits) {
+         put(any_seen_prism_triangle(any_seen_triangle<T>(bits).triangle, bits));
+     }},
+    {"prism_fragment", 3, [](auto put, const situation&, bit_source& bits) { put(any_prism_fragment<T>(bits)); }},
+    {"prism_pair", 20,
+     [](auto put, const situation&, bit_source& bits) {
+         prism_pair<T> state = prism_pair_begin(T(bits.below(4)));
+         for (std::size_t n = bits.below(6); n > 0; --n) state = prism_pair_add(state, any_prism_fragment<T>(bits));
+         put(state);
+     }},
+    {"moment_fragment", 3, [](auto put, const situation&, bit_source& bits) { put(any_moment_fragment<T>(bits)); }},
+    {"fragment_cover", 7,
+     [](auto put, const situation&, bit_source& bits) {
+         fragment_cover<T> state = fragment_cover_begin(any_moment_fragment<T>(bits));
+         for (std::size_t n = bits.below(3); n > 0; --n)
+             state = fragment_cover_add(state, any_moment_fragment<T>(bits));
+         put(state);
+     }},
+    {"range_cover", 7,
+     [](auto put, const situation&, bit_source& bits) {
+         range_cover<T> state = range_cover_begin(T(1));
+         for (std::size_t n = bits.below(3); n > 0; --n) state = range_cover_add(state, any_cover_range<T>(bits));
+         put(state);
      }},
 };
 

@@ -25,6 +25,32 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_between(Real time_a, Real z_a, Re
     return r;
 }
 
+/// One that shadows nothing.
+GNOMON_KERNEL GNOMON_T(depth_time_range) range_empty(Real id)
+{
+    GNOMON_T(depth_time_range) r;
+    r.t0 = Real(1);
+    r.t1 = Real(0);
+    r.z0 = Real(1);
+    r.z1 = Real(1);
+    r.id = id;
+    return r;
+}
+
+/// The second where chosen is 0, else the first.
+GNOMON_KERNEL GNOMON_T(depth_time_range)
+    range_choice(Real chosen, GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+{
+    GNOMON_MASK second = chosen == Real(0);
+    GNOMON_T(depth_time_range) r;
+    r.t0 = gnomon_select(second, b.t0, a.t0);
+    r.t1 = gnomon_select(second, b.t1, a.t1);
+    r.z0 = gnomon_select(second, b.z0, a.z0);
+    r.z1 = gnomon_select(second, b.z1, a.z1);
+    r.id = gnomon_select(second, b.id, a.id);
+    return r;
+}
+
 /// Depth at time t, outside that of the nearer end, z0 at the one time of a range of no duration; exact at both ends.
 /// Error: 5 (|z0| + |z1|) 2^-p, p the bits of the significand.
 GNOMON_KERNEL Real range_depth(GNOMON_T(depth_time_range) r, Real t)

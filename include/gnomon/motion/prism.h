@@ -1,0 +1,333 @@
+// The prism of Hong & Oh ("Motion blurred shadows utilizing a depth-time ranges shadow map", 4.1 and 4.3): what a
+// moving triangle sweeps, enclosed by triangles that any rasterizer draws. Each carries the time at its vertices, so
+// that the fragments of a texel say when the triangle comes and goes, and at which depth.
+//
+// Caps are the triangle at shutter open and close. An edge sweeps a side: four triangles around its midpoint halfway in
+// time. Where on the screen the edge's two places cross, the side is a bow tie: the centre is put at the crossing and
+// two of the four, which have no area then, are left out. With A B the edge at open, C D at close, and x the cross
+// product, A + s (B - A) = C + u (D - C) gives, times D - C and times B - A,
+//     s = (C - A) x (D - C) / (B - A) x (D - C),   u = (C - A) x (B - A) / (B - A) x (D - C)
+// (equation 1, whose printed terms have the factors in the other order and hence lack a sign). The paper does not say
+// what time and depth the crossing has. The edge is there twice, at time 0 and depth z_AB(s), at time 1 and depth
+// z_CD(u), and what is interpolated linearly there can be no more right than the mean of both: time 1/2, mean depth, at
+// most half a shutter and half their distance wrong, and with any other number more so on one of the two.
+//
+// Vertices are projected, and time and depth are interpolated along the screen, as hardware does without perspective
+// correction. So all of it is an approximation wherever a side is not plane, and in perspective, where time along a
+// straight path and depth linear in view distance do not go linearly along the screen; z / w does, on the caps. It is
+// exact in orthographic views for translations. Of triangles that turn or deform, 10 to 13 in 100 are there at wrong
+// times for more than 5% of the shutter (tests/unit/motion_prism_ranges.cpp). So this is what to compare
+// moving_triangle.h with, which is exact and the default. One triangle and texel at a time:
+//     prism p = prism_of(m, divided);
+//     prism_pair pair = prism_pair_begin(id);
+//     for (k = 0; k < 14; ++k) pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_of(p, k), s_x, s_y));
+//     prism_ranges ranges = prism_pair_end(pair);
+#ifndef GNOMON_MOTION_PRISM_H
+#define GNOMON_MOTION_PRISM_H
+#include "moving_triangle.h"
+#include "range.h"
+GNOMON_NAMESPACE_BEGIN
+
+/// On the screen, with depth and time.
+GNOMON_STRUCT prism_vertex { Real x, y, z, t; };
+
+GNOMON_STRUCT prism_triangle { GNOMON_T(prism_vertex) a, b, c; };
+
+/// The vertex in the middle of what an edge sweeps, and whether the edge's two places cross there, 1, or not, 0.
+GNOMON_STRUCT prism_side
+{
+    GNOMON_T(prism_vertex) centre;
+    Real crosses;
+};
+
+/// Corners at shutter open, 0, and close, 1, and the sides of the three edges.
+GNOMON_STRUCT prism
+{
+    GNOMON_T(prism_vertex) a0, b0, c0, a1, b1, c1;
+    GNOMON_T(prism_side) ab, bc, ca;
+};
+
+/// Covered is 1 or 0; time in [0, 1], depth in [-1, 1].
+GNOMON_STRUCT prism_fragment { Real covered, time, depth; };
+
+/// The fragments of one triangle id in one texel: how many, the earliest and the latest, and the four nearest in order.
+GNOMON_STRUCT prism_pair
+{
+    Real id, count;
+    GNOMON_T(prism_fragment) earliest, latest, first, second, third, fourth;
+};
+
+/// As many ranges as count says, 0 to 2; the others are empty.
+GNOMON_STRUCT prism_ranges
+{
+    GNOMON_T(depth_time_range) first, second;
+    Real count;
+};
+
+GNOMON_CONSTANT(prism_no_depth, 2.0); // behind every fragment
+
+/// A point of clip space at time t, on the screen. Divided as for moving_depth_at. Where w <= 0 or NaN no fragment
+/// comes of it.
+GNOMON_KERNEL GNOMON_T(prism_vertex) prism_vertex_of(Real x, Real y, Real z, Real w, Real t, GNOMON_SETTING divided)
+{
+    Real divisor = gnomon_max(w, Real(0));
+    GNOMON_T(prism_vertex) r;
+    r.x = x / divisor;
+    r.y = y / divisor;
+    r.z = gnomon_select(Real(0) < divided, z / divisor, z);
+    r.t = t;
+    return r;
+}
+
+/// Where a vertex is at shutter open.
+GNOMON_KERNEL GNOMON_T(prism_vertex) prism_vertex_open(GNOMON_T(moving_vertex) v, GNOMON_SETTING divided)
+{
+    return prism_vertex_of(v.x0, v.y0, v.z0, v.w0, Real(0), divided);
+}
+
+/// Where a vertex is at shutter close.
+GNOMON_KERNEL GNOMON_T(prism_vertex) prism_vertex_close(GNOMON_T(moving_vertex) v, GNOMON_SETTING divided)
+{
+    return prism_vertex_of(v.x1, v.y1, v.z1, v.w1, Real(1), divided);
+}
+
+/// What the edge from a to b sweeps; exchanging a and b leaves a centre without a crossing the same bit for bit.
+GNOMON_KERNEL GNOMON_T(prism_side)
+    prism_side_of(GNOMON_T(moving_vertex) a, GNOMON_T(moving_vertex) b, GNOMON_SETTING divided)
+{
+    GNOMON_T(prism_vertex) a0 = prism_vertex_open(a, divided);
+    GNOMON_T(prism_vertex) b0 = prism_vertex_open(b, divided);
+    GNOMON_T(prism_vertex) a1 = prism_vertex_close(a, divided);
+    GNOMON_T(prism_vertex) b1 = prism_vertex_close(b, divided);
+    Real open_x = b0.x - a0.x;
+    Real open_y = b0.y - a0.y;
+    Real close_x = b1.x - a1.x;
+    Real close_y = b1.y - a1.y;
+    Real between_x = a1.x - a0.x;
+    Real between_y = a1.y - a0.y;
+    Real area = sheared_cross(open_x, open_y, close_x, close_y);
+    Real s = sheared_cross(between_x, between_y, close_x, close_y) / area;
+    Real u = sheared_cross(between_x, between_y, open_x, open_y) / area;
+    GNOMON_MASK crosses = Real(0) <= s && s <= Real(1) && Real(0) <= u && u <= Real(1); // not where area is 0
+
+    // The mean in clip space, where the moving edge really has its midpoint.
+    Real x = Real(0.25) * ((a.x0 + b.x0) + (a.x1 + b.x1));
+    Real y = Real(0.25) * ((a.y0 + b.y0) + (a.y1 + b.y1));
+    Real z = Real(0.25) * ((a.z0 + b.z0) + (a.z1 + b.z1));
+    Real w = Real(0.25) * ((a.w0 + b.w0) + (a.w1 + b.w1));
+    GNOMON_T(prism_vertex) middle = prism_vertex_of(x, y, z, w, Real(0.5), divided);
+    Real depth_open = a0.z * (Real(1) - s) + b0.z * s;
+    Real depth_close = a1.z * (Real(1) - u) + b1.z * u;
+    GNOMON_T(prism_side) r;
+    r.centre.x = gnomon_select(crosses, a0.x * (Real(1) - s) + b0.x * s, middle.x);
+    r.centre.y = gnomon_select(crosses, a0.y * (Real(1) - s) + b0.y * s, middle.y);
+    r.centre.z = gnomon_select(crosses, Real(0.5) * (depth_open + depth_close), middle.z);
+    r.centre.t = Real(0.5);
+    r.crosses = gnomon_select(crosses, Real(1), Real(0));
+    return r;
+}
+
+/// The whole of a moving triangle. Domain: all w > 0 at both ends, else parts of it are missing.
+GNOMON_KERNEL GNOMON_T(prism) prism_of(GNOMON_T(moving_triangle) m, GNOMON_SETTING divided)
+{
+    GNOMON_T(prism) p;
+    p.a0 = prism_vertex_open(m.a, divided);
+    p.b0 = prism_vertex_open(m.b, divided);
+    p.c0 = prism_vertex_open(m.c, divided);
+    p.a1 = prism_vertex_close(m.a, divided);
+    p.b1 = prism_vertex_close(m.b, divided);
+    p.c1 = prism_vertex_close(m.c, divided);
+    p.ab = prism_side_of(m.a, m.b, divided);
+    p.bc = prism_side_of(m.b, m.c, divided);
+    p.ca = prism_side_of(m.c, m.a, divided);
+    return p;
+}
+
+/// The first where k is 0, or less, the second where it is 1, else the third.
+GNOMON_KERNEL GNOMON_T(prism_vertex)
+    prism_choice(Real k, GNOMON_T(prism_vertex) first, GNOMON_T(prism_vertex) second, GNOMON_T(prism_vertex) third)
+{
+    GNOMON_MASK is_first = k < Real(0.5);
+    GNOMON_MASK is_second = k < Real(1.5);
+    GNOMON_T(prism_vertex) r;
+    r.x = gnomon_select(is_first, first.x, gnomon_select(is_second, second.x, third.x));
+    r.y = gnomon_select(is_first, first.y, gnomon_select(is_second, second.y, third.y));
+    r.z = gnomon_select(is_first, first.z, gnomon_select(is_second, second.z, third.z));
+    r.t = gnomon_select(is_first, first.t, gnomon_select(is_second, second.t, third.t));
+    return r;
+}
+
+/// Triangle k of the 14: 0 to 3, 4 to 7, 8 to 11 around the centres of the sides, 12 and 13 the caps. Triangles 0 and 2
+/// of a side that crosses are points, as is any other k. Winding is not kept.
+GNOMON_KERNEL GNOMON_T(prism_triangle) prism_triangle_of(GNOMON_T(prism) p, Real k)
+{
+    Real side = gnomon_select(k < Real(3.5), Real(0), gnomon_select(k < Real(7.5), Real(1), Real(2)));
+    Real i = k - Real(4) * side;
+    GNOMON_T(prism_vertex) from0 = prism_choice(side, p.a0, p.b0, p.c0);
+    GNOMON_T(prism_vertex) to0 = prism_choice(side, p.b0, p.c0, p.a0);
+    GNOMON_T(prism_vertex) to1 = prism_choice(side, p.b1, p.c1, p.a1);
+    GNOMON_T(prism_vertex) from1 = prism_choice(side, p.a1, p.b1, p.c1);
+    Real crosses =
+        gnomon_select(side < Real(0.5), p.ab.crosses, gnomon_select(side < Real(1.5), p.bc.crosses, p.ca.crosses));
+
+    GNOMON_T(prism_triangle) r;
+    r.a = prism_choice(i, from0, to0, prism_choice(i - Real(2), to1, from1, from1));
+    r.b = prism_choice(i, to0, to1, prism_choice(i - Real(2), from1, from0, from0));
+    r.c = prism_choice(side, p.ab.centre, p.bc.centre, p.ca.centre);
+    Real cap = k - Real(11);
+    r.a = prism_choice(cap, r.a, p.a0, p.a1);
+    r.b = prism_choice(cap, r.b, p.b0, p.b1);
+    r.c = prism_choice(cap, r.c, p.c0, p.c1);
+
+    GNOMON_MASK odd = (Real(0.5) < i && i < Real(1.5)) || Real(2.5) < i;
+    GNOMON_MASK none = (Real(0) < crosses && k < Real(11.5) && !odd) || !(Real(-0.5) < k && k < Real(13.5));
+    Real dropped = gnomon_select(none, Real(0), Real(1));
+    r.b = prism_choice(dropped, r.a, r.b, r.b);
+    r.c = prism_choice(dropped, r.a, r.c, r.c);
+    return r;
+}
+
+/// The edge function of p and q around the sample.
+GNOMON_KERNEL Real prism_edge(GNOMON_T(prism_vertex) p, GNOMON_T(prism_vertex) q, Real s_x, Real s_y)
+{
+    return sheared_cross(p.x - s_x, p.y - s_y, q.x - s_x, q.y - s_y);
+}
+
+/// On which side of the edge the sample is, 1 or -1: where the edge function is 0, on which side it would be a little
+/// further on along x and, far less, along y. 0 for an edge without length.
+GNOMON_KERNEL Real prism_edge_side(GNOMON_T(prism_vertex) p, GNOMON_T(prism_vertex) q, Real e)
+{
+    Real level = gnomon_select(p.x < q.x, Real(1), gnomon_select(q.x < p.x, Real(-1), Real(0)));
+    Real tie = gnomon_select(q.y < p.y, Real(1), gnomon_select(p.y < q.y, Real(-1), level));
+    return gnomon_select(Real(0) < e, Real(1), gnomon_select(e < Real(0), Real(-1), tie));
+}
+
+/// The fragment of a triangle at a sample, in the units of x / w: covered where the sample is on the same side of all
+/// three edges. Exchanging the ends of an edge negates its side bit for bit, so triangles that share an edge agree on
+/// where the sample is, and where it is on edges or vertices all take it for the same sample nearby: the fill rule of
+/// rasterizers, for either winding. A surface that encloses a volume has an even number of fragments then. An odd
+/// number is left where an edge function has the wrong sign by rounding, and beside crossings, which sides and caps
+/// share only up to rounding. Coordinates that are NaN or edge functions beyond 2^60 are not covered, nor is a triangle
+/// without area. A cap's time is exactly 0 or 1. Error of time, and of depth in units of the largest |z|: (48 X Y /
+/// |sum_k e_k| + 8) 2^-p, X and Y the distances along each axis from the sample to the vertex that is farthest.
+GNOMON_KERNEL GNOMON_T(prism_fragment) prism_fragment_at(GNOMON_T(prism_triangle) v, Real s_x, Real s_y)
+{
+    Real a = prism_edge(v.b, v.c, s_x, s_y);
+    Real b = prism_edge(v.c, v.a, s_x, s_y);
+    Real c = prism_edge(v.a, v.b, s_x, s_y);
+    Real sides = (prism_edge_side(v.b, v.c, a) + prism_edge_side(v.c, v.a, b)) + prism_edge_side(v.a, v.b, c);
+    Real sum = (a + b) + c;
+    GNOMON_MASK known = (gnomon_abs(a) + gnomon_abs(b)) + gnomon_abs(c) < GNOMON_LITERAL(moving_edge_limit);
+    GNOMON_MASK inside = known && gnomon_abs(sides) == Real(3);
+    Real depth = ((a * v.a.z + b * v.b.z) + c * v.c.z) / sum;
+    GNOMON_T(prism_fragment) f;
+    f.covered = gnomon_select(inside && !(sum == Real(0)) && depth == depth, Real(1), Real(0));
+    f.time = saturate_or_zero(((a * v.a.t + b * v.b.t) + c * v.c.t) / sum);
+    f.depth = gnomon_max(gnomon_min(depth, Real(1)), Real(-1)); // a NaN becomes 1
+    return f;
+}
+
+/// The second where chosen is 0, else the first.
+GNOMON_KERNEL GNOMON_T(prism_fragment)
+    prism_fragment_choice(Real chosen, GNOMON_T(prism_fragment) a, GNOMON_T(prism_fragment) b)
+{
+    GNOMON_MASK second = chosen == Real(0);
+    GNOMON_T(prism_fragment) r;
+    r.covered = gnomon_select(second, b.covered, a.covered);
+    r.time = gnomon_select(second, b.time, a.time);
+    r.depth = gnomon_select(second, b.depth, a.depth);
+    return r;
+}
+
+/// 1 where a is in front of b, or as deep and earlier; else 0.
+GNOMON_KERNEL Real prism_fragment_before(GNOMON_T(prism_fragment) a, GNOMON_T(prism_fragment) b)
+{
+    return gnomon_select(a.depth < b.depth || (a.depth == b.depth && a.time < b.time), Real(1), Real(0));
+}
+
+/// No fragment yet of the triangle with this id.
+GNOMON_KERNEL GNOMON_T(prism_pair) prism_pair_begin(Real id)
+{
+    GNOMON_T(prism_fragment) none;
+    none.covered = Real(0);
+    none.time = Real(1);
+    none.depth = GNOMON_LITERAL(prism_no_depth);
+    GNOMON_T(prism_pair) state;
+    state.id = id;
+    state.count = Real(0);
+    state.earliest = none;
+    state.latest = none;
+    state.first = none;
+    state.second = none;
+    state.third = none;
+    state.fourth = none;
+    return state;
+}
+
+/// One fragment, in any order; one that is not covered or not within its limits is none.
+GNOMON_KERNEL GNOMON_T(prism_pair) prism_pair_add(GNOMON_T(prism_pair) state, GNOMON_T(prism_fragment) f)
+{
+    GNOMON_MASK known = Real(0) <= f.time && f.time <= Real(1) && Real(-1) <= f.depth && f.depth <= Real(1);
+    GNOMON_MASK some = Real(0) < f.covered && known;
+    GNOMON_MASK alone = state.count == Real(0);
+    GNOMON_MASK sooner =
+        f.time < state.earliest.time || (f.time == state.earliest.time && f.depth < state.earliest.depth);
+    GNOMON_MASK later = state.latest.time < f.time || (f.time == state.latest.time && state.latest.depth < f.depth);
+    Real is_earliest = gnomon_select(some && (alone || sooner), Real(1), Real(0));
+    Real is_latest = gnomon_select(some && (alone || later), Real(1), Real(0));
+    state.earliest = prism_fragment_choice(is_earliest, f, state.earliest);
+    state.latest = prism_fragment_choice(is_latest, f, state.latest);
+    state.count = state.count + gnomon_select(some, Real(1), Real(0));
+
+    // Down the sorted four; what is not nearer goes on, what is no fragment goes all the way.
+    f.depth = gnomon_select(some, f.depth, GNOMON_LITERAL(prism_no_depth));
+    f.time = gnomon_select(some, f.time, Real(1));
+    Real before = prism_fragment_before(f, state.first);
+    GNOMON_T(prism_fragment) next = prism_fragment_choice(before, state.first, f);
+    state.first = prism_fragment_choice(before, f, state.first);
+    before = prism_fragment_before(next, state.second);
+    f = prism_fragment_choice(before, state.second, next);
+    state.second = prism_fragment_choice(before, next, state.second);
+    before = prism_fragment_before(f, state.third);
+    next = prism_fragment_choice(before, state.third, f);
+    state.third = prism_fragment_choice(before, f, state.third);
+    before = prism_fragment_before(next, state.fourth);
+    state.fourth = prism_fragment_choice(before, next, state.fourth);
+    return state;
+}
+
+/// The range between two fragments, in any order.
+GNOMON_KERNEL GNOMON_T(depth_time_range)
+    prism_range_between(GNOMON_T(prism_fragment) a, GNOMON_T(prism_fragment) b, Real id)
+{
+    return range_between(a.time, a.depth, b.time, b.depth, id);
+}
+
+/// The ranges of these fragments (4.3): between two; of four the two in front and the two behind. The paper is silent
+/// on other numbers: six and more where sides fold, odd ones by rounding. One says nothing of how long the triangle
+/// stays: no range. Three, or more than four: one range from the earliest to the latest, so that no shadow is lost,
+/// though it may last too long.
+GNOMON_KERNEL GNOMON_T(prism_ranges) prism_pair_end(GNOMON_T(prism_pair) state)
+{
+    Real some = gnomon_select(Real(1) < state.count, Real(1), Real(0));
+    Real two = gnomon_select(state.count == Real(4), Real(1), Real(0));
+    GNOMON_T(depth_time_range) whole = prism_range_between(state.earliest, state.latest, state.id);
+    GNOMON_T(depth_time_range) front = prism_range_between(state.first, state.second, state.id);
+    GNOMON_T(depth_time_range) rear = prism_range_between(state.third, state.fourth, state.id);
+    GNOMON_T(prism_ranges) r;
+    r.first = range_choice(some, range_choice(two, front, whole), range_empty(state.id));
+    r.second = range_choice(two, rear, range_empty(state.id));
+    r.count = some + two;
+    return r;
+}
+
+/// What a shadow map of prisms takes (equation 2), in bytes: 16 for a fragment (depth, time, id, link), 24 for a range
+/// (two times, two depths, id, link), and for a texel the heads, 4 bytes each, of its two lists. Exact in float up to
+/// 2^27.
+GNOMON_KERNEL Real prism_map_bytes(Real fragments, Real ranges, Real texels)
+{
+    return (Real(16) * fragments + Real(24) * ranges) + Real(8) * texels;
+}
+
+GNOMON_NAMESPACE_END
+#endif
