@@ -84,6 +84,13 @@ glm::dvec3 project(const camera& eye, const glm::dvec3& point)
     return {0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y, linear_depth(eye, local.z)};
 }
 
+glm::dvec4 texel_space(const camera& eye, const glm::dvec2& size, const glm::dvec3& point)
+{
+    const glm::dvec3 local = to_axes(eye, point);
+    const double w = eye.perspective() ? local.z : 1;
+    return {0.5 * size * (glm::dvec2(local.x, -local.y) / eye.half_extent + w), linear_depth(eye, local.z), w};
+}
+
 glm::dvec3 direction_towards(const camera& eye, const glm::dvec3& point)
 {
     return eye.perspective() ? glm::normalize(eye.position - point) : -eye.forward;

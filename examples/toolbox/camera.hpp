@@ -5,6 +5,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,9 @@ double linear_depth(const camera& eye, double distance);
 
 // (u, v, linear depth); nothing is clamped. In perspective the point lies in front of the camera.
 glm::dvec3 project(const camera& eye, const glm::dvec3& point);
+
+// Homogeneous: (x w, y w, linear depth, w) in pixels of a picture of this size; linear in the point.
+glm::dvec4 texel_space(const camera& eye, const glm::dvec2& size, const glm::dvec3& point);
 
 // Unit vector from the point towards the camera or light.
 glm::dvec3 direction_towards(const camera& eye, const glm::dvec3& point);

@@ -61,6 +61,12 @@ class range_rasterizer {
     range_lists lists_;
 };
 
+// Stochastic rasterization: for each texel as many samples, each at one time, in a stratum of the shutter interval of
+// its own. Sample k of texel i is element i samples + k, a range of no duration with the depth and the id of the
+// nearest triangle at that time; depth 1 where there is none.
+std::vector<depth_time_range<float>> rasterize_instants(const moving_scene& world, const moving_camera& eye, int width,
+                                                        int height, int samples);
+
 // The mesh and the triangle in it with this number.
 struct triangle_place {
     std::uint32_t mesh, triangle;

@@ -1,0 +1,170 @@
+#include "moving_tiles.hpp"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <gnomon/passes/range_map.hpp>
+
+#include <bit>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <stdexcept>
+
+namespace gnomon::toolbox {
+
+namespace {
+
+constexpr int largest_extent = 1 << 14; // texels
+
+struct moving_view {
+    camera open, close;
+    glm::dvec2 size;
+
+    moving_vertex<double> vertex(const glm::vec3& opening, const glm::vec3& closing) const
+    {
+        const glm::dvec4 q = texel_space(open, size, opening), r = texel_space(close, size, closing);
+        return {q.x, q.y, q.z, q.w, r.x, r.y, r.z, r.w};
+    }
+};
+
+// Which sides of it are seen: the sign of the determinant of the corners' (x, y, w), a cubic in time, by its Bernstein
+// coefficients.
+void set_facing(moving_setup& s, faces visible)
+{
+    const auto column = [](const moving_vertex<double>& v, bool late) {
+        return late ? glm::dvec3(v.x1, v.y1, v.w1) : glm::dvec3(v.x0, v.y0, v.w0);
+    };
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (int late = 0; late <= 3; ++late) {
+        double sum = 0;
+        for (unsigned which = 0; which < 8; ++which)
+            if (std::popcount(which) == late)
+                sum += glm::determinant(glm::dmat3(column(s.corners.a, which & 1), column(s.corners.b, which & 2),
+                                                   column(s.corners.c, which & 4)));
+        least = std::min(least, sum), most = std::max(most, sum);
+    }
+    // Texels count rows downwards: what turns its front to the eye runs clockwise.
+    s.positive = most > 0 && visible != faces::front;
+    s.negative = least < 0 && visible != faces::back;
+}
+
+// Where its corners are seen at both ends, and hence in between; everywhere if one is ever behind the eye.
+bool set_extent(moving_setup& s, const moving_view& from)
+{
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    glm::dvec2 low(infinity), high(-infinity);
+    double nearest = infinity, farthest = -infinity, least_w = infinity;
+    for (const moving_vertex<double>* v : {&s.corners.a, &s.corners.b, &s.corners.c}) {
+        for (const glm::dvec2& at : {glm::dvec2(v->x0, v->y0) / v->w0, glm::dvec2(v->x1, v->y1) / v->w1})
+            low = glm::min(low, at), high = glm::max(high, at);
+        nearest = std::min({nearest, v->z0, v->z1}), farthest = std::max({farthest, v->z0, v->z1});
+        least_w = std::min({least_w, v->w0, v->w1});
+    }
+    if (!(nearest <= 1) || !(farthest >= -1)) return false;
+    if (!(least_w > 0)) low = glm::dvec2(0), high = from.size;
+    s.first = glm::ivec2(glm::clamp(glm::ceil(low - 0.5 - double(tile_triangle::margin)), glm::dvec2(0), from.size));
+    s.last =
+        glm::ivec2(glm::clamp(glm::floor(high - 0.5 + double(tile_triangle::margin)), glm::dvec2(-1), from.size - 1.0));
+    return s.first.x <= s.last.x && s.first.y <= s.last.y;
+}
+
+std::vector<moving_setup> set_up(const moving_scene& world, const moving_view& from, faces visible)
+{
+    std::vector<moving_setup> all;
+    std::uint32_t number = 0;
+    for (std::size_t m = 0; m < world.open.meshes.size(); ++m) {
+        const mesh& part = world.open.meshes[m];
+        std::vector<moving_vertex<double>> vertices(part.positions.size());
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            vertices[i] = from.vertex(part.positions[i], world.closing[m][i]);
+        for (const glm::uvec3& t : part.triangles) {
+            moving_setup s{};
+            s.corners = {vertices[t.x], vertices[t.y], vertices[t.z]};
+            s.number = number++;
+            if (!set_extent(s, from)) continue;
+            set_facing(s, visible);
+            if (s.positive || s.negative) all.push_back(s);
+        }
+    }
+    return all;
+}
+
+} // namespace
+
+tiled_triangles::tiled_triangles(const moving_scene& world, const moving_camera& eye, int width, int height,
+                                 faces visible)
+    : size_(width, height), grid_((size_ + moving_tile_size - 1) / moving_tile_size)
+{
+    if (width < 1 || height < 1 || width > largest_extent || height > largest_extent)
+        throw std::invalid_argument(fmt::format("moving rasterizer: {}x{} texels, 1 to {} per side are possible", width,
+                                                height, largest_extent));
+    setups_ = set_up(world, {eye.open, eye.at(1), size_}, visible);
+    sort_into_tiles();
+}
+
+moving_tile tiled_triangles::tile(std::size_t i) const
+{
+    const glm::ivec2 corner = moving_tile_size * glm::ivec2(int(i) % grid_.x, int(i) / grid_.x);
+    return {corner, glm::min(glm::ivec2(moving_tile_size), size_ - corner), size_.x};
+}
+
+void tiled_triangles::sort_into_tiles()
+{
+    struct member {
+        std::uint32_t tile, triangle;
+    };
+    constexpr float size = float(moving_tile_size);
+    tbb::enumerable_thread_specific<std::vector<member>> local;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, setups_.size(), 64), [&](const auto& some) {
+        std::vector<member>& found = local.local();
+        for (std::size_t i = some.begin(); i < some.end(); ++i) {
+            const moving_setup& s = setups_[i];
+            const glm::ivec2 low = s.first / moving_tile_size, high = s.last / moving_tile_size;
+            const auto add = [&](const glm::ivec2& tile) {
+                found.push_back({static_cast<std::uint32_t>(tile.y * grid_.x + tile.x), static_cast<std::uint32_t>(i)});
+            };
+            if (low == high) {
+                add(low);
+                continue;
+            }
+            const glm::vec2 origin = 0.5f * size * glm::vec2(low + high + 1);
+            for_each_touched(texel_field(s, origin), s, low, high, 0.5f * size - origin, size,
+                             0.5f * size + tile_triangle::margin, add);
+        }
+    });
+    first_.assign(static_cast<std::size_t>(grid_.x * grid_.y) + 1, 0);
+    for (const auto& found : local)
+        for (const member& m : found) ++first_[m.tile];
+    begins_from_counts(first_);
+    members_.resize(first_.back());
+    std::vector<std::uint32_t> next = first_;
+    for (const auto& found : local)
+        for (const member& m : found) members_[next[m.tile]++] = m.triangle;
+    // In one order, in whichever order threads have found them.
+    tbb::parallel_for(std::size_t(0), tiles(), [&](std::size_t i) {
+        std::sort(members_.begin() + first_[i], members_.begin() + first_[i + 1]);
+    });
+}
+
+moving_field<texel_pack> texel_field(const moving_setup& s, const glm::dvec2& origin)
+{
+    const auto exact = std::bit_cast<std::array<double, 27>>(moving_field_of(s.corners, origin.x, origin.y));
+    std::array<texel_pack, 27> rounded;
+    std::ranges::transform(exact, rounded.begin(), [](double x) { return texel_pack(static_cast<float>(x)); });
+    return std::bit_cast<moving_field<texel_pack>>(rounded);
+}
+
+tile_triangle::tile_triangle(const moving_setup& s, const moving_tile& where)
+    : setup_(s),
+      last_(glm::min(s.last - where.corner, where.size - 1)),
+      low_(glm::max(s.first - where.corner, 0) / moving_block_size),
+      high_(last_ / moving_block_size),
+      field_(texel_field(s, glm::dvec2(where.corner) + 0.5 * moving_tile_size))
+{}
+
+} // namespace gnomon::toolbox
