@@ -150,10 +150,10 @@ TEST_CASE("neighbours leave no crack: a texel sees one triangle of the ground up
     const moving_scene world = any_scene(3, 0);
     const moving_camera light{any_light(world, true).open, {0.7, 0.4, -0.3}};
     range_rasterizer rasterize;
-    const range_lists& lists = rasterize(world, light, 64, 64);
+    const range_lists& lists = rasterize(world, light, 256, 256);
     int shared = 0;
-    for (std::size_t i = 0; i < 64 * 64; ++i) {
-        const auto list = lists.map()(i % 64, i / 64);
+    for (std::size_t i = 0; i < 256 * 256; ++i) {
+        const auto list = lists.map()(i % 256, i / 256);
         REQUIRE(list.size() <= 2);
         if (list.size() < 2) continue;
         ++shared;
