@@ -22,7 +22,12 @@
 #include "filters/percentage_closer.h"
 #include "filters/variance.h"
 
+#include "motion/facing.h"
+#include "motion/moving_receiver.h"
 #include "motion/moving_triangle.h"
 #include "motion/range.h"
+#include "motion/receiver_path.h"
+#include "motion/shutter.h"
 #include "motion/static_receiver.h"
+#include "motion/texel_sweep.h"
 #endif
