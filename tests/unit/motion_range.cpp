@@ -54,7 +54,7 @@ TEST_CASE_TEMPLATE("range_depth: within the stated error, exact at the ends", T,
     for_each_range<T>(100'000, [](const depth_time_range<T>& r, bit_source& bits) {
         const T t = any_time<T>(bits);
         const double error = std::abs(double(wide(range_depth(r, t)) - depth(r, wide(t))));
-        REQUIRE(error <= 6 * u<T> * (std::abs(double(r.z0)) + std::abs(double(r.z1))));
+        REQUIRE(error <= 5 * u<T> * (std::abs(double(r.z0)) + std::abs(double(r.z1))));
         if (r.z0 == r.z1) REQUIRE(range_depth(r, t) == r.z0);
         REQUIRE(range_depth(r, r.t0) == r.z0);
         if (r.t0 < r.t1) REQUIRE(range_depth(r, r.t1) == r.z1);

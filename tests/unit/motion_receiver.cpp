@@ -79,7 +79,7 @@ TEST_CASE_TEMPLATE("static receiver: the order of the list and cuts in it change
         for (auto& r : list) r = range_clip(r, T(0), cut);
         for (const auto& r : whole) list.push_back(range_clip(r, cut, T(1)));
         const double again = double(intensity(list, z, T(9), shutter));
-        // A cut moves the depth line by 6 roundings of it, and so the meeting by as much over its slope: where the
+        // A cut moves the depth line by 5 roundings of it, and so the meeting by as much over its slope: where the
         // depth hardly changes, by any time, so not looked at here.
         const bool level = std::any_of(whole.begin(), whole.end(),
                                        [](const auto& r) { return std::abs(double(r.z1) - double(r.z0)) < 0.01; });

@@ -32,11 +32,12 @@ GNOMON_KERNEL Real range_passed(GNOMON_T(depth_time_range) r, Real t)
 }
 
 /// Depth at time t, outside that of the nearer end, z0 at the one time of a range of no duration; exact at both ends,
-/// and throughout where the range is level. Error: 6 (|z0| + |z1|) 2^-p, p the bits of the significand.
+/// and throughout where the range is level. NaN where one end's is. Error: 5 (|z0| + |z1|) 2^-p, p the bits of the
+/// significand.
 GNOMON_KERNEL Real range_depth(GNOMON_T(depth_time_range) r, Real t)
 {
     Real passed = range_passed(r, t);
-    return gnomon_select(passed < Real(1), r.z0 + (r.z1 - r.z0) * passed, r.z1);
+    return gnomon_select(r.z0 == r.z1, r.z0, r.z0 * (Real(1) - passed) + r.z1 * passed);
 }
 
 /// How long it lasts, 0 where it is empty.

@@ -115,8 +115,8 @@ GNOMON_KERNEL GNOMON_T(sampled_receiver) sampled_receiver_add(GNOMON_T(sampled_r
     return state;
 }
 
-/// Shadow intensity in [0, 1]: the mean. An error of sampling remains, at most (k + 1) / n of n samples for a shadow
-/// that comes and goes k times.
+/// Shadow intensity in [0, 1]: the mean. An error of sampling remains: up to 1 / n of n samples for each time at which
+/// the shadow comes or goes, half of that with samples in the middle.
 GNOMON_KERNEL Real sampled_receiver_end(GNOMON_T(sampled_receiver) state)
 {
     return saturate_or_zero(state.shadowed / state.samples);
