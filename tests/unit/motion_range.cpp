@@ -129,10 +129,10 @@ TEST_CASE_TEMPLATE("range_in_front: the times at which it shadows a receiver, at
         if (!(from < to) || wide(begin) < wide(course.t0) || wide(end) > wide(course.t1)) return;
         const auto ahead = [&](wide t) { return depth(course, t) - depth(r, t); };
         // Where the two are this close, rounding decides, and so it does this close to where they meet.
-        const wide slack = 26 * largest * u<T>, speed = std::abs(ahead(to) - ahead(from)) / (to - from);
+        const wide slack = wide(26 * largest * u<T>), speed = std::abs(ahead(to) - ahead(from)) / (to - from);
         for (int i = 0; i <= 32; ++i) {
             const T t = T(i) / T(32);
-            if (wide(t) < from || wide(t) > to || std::abs(ahead(wide(t))) <= slack + speed * 8 * u<T>) continue;
+            if (wide(t) < from || wide(t) > to || std::abs(ahead(wide(t))) <= slack + speed * wide(8 * u<T>)) continue;
             CAPTURE(double(t));
             REQUIRE((front.t0 <= t && t <= front.t1) == (ahead(wide(t)) > 0));
             REQUIRE(double(range_intensity(r, t, range_depth(course, t), T(9), T(0))) == double(ahead(wide(t)) > 0));

@@ -97,7 +97,7 @@ TEST_CASE_TEMPLATE("sweep: where the path is", T, float, double)
         const receiver_path<T> p = any_path<T>(bits, 12);
         for_each_texel(p, [&](const texel_sweep<T>& s) {
             if (!(s.t_begin < s.t_end)) return;
-            const wide t = wide(s.t_begin) + bits.uniform(0, 1) * (wide(s.t_end) - wide(s.t_begin));
+            const wide t = wide(s.t_begin) + wide(bits.uniform(0, 1)) * (wide(s.t_end) - wide(s.t_begin));
             const exact_position at = exact_path_at(p, t);
             // The comment's error of a border time, times speed, is one of position: 4 2^-p (2 12 w) twice over w, and
             // rounding times moves it by 4 2^-p of up to 12 r, r = 4 the ratio of both w.

@@ -15,7 +15,7 @@
 namespace gnomon::test {
 
 using wide = long double;
-template <class T> constexpr double rounding = double(std::numeric_limits<T>::epsilon()) / 2;
+template <class T> constexpr wide rounding = wide(std::numeric_limits<T>::epsilon()) / 2;
 
 /// Ranges one after the other, some of them touching, in any order of ids.
 template <class T> std::vector<depth_time_range<T>> resolved_list(bit_source& bits)
@@ -119,7 +119,7 @@ loss exact_loss(const depth_time_range<T>& r, const depth_time_range<T>& course,
     const wide to = ahead1 > 0 ? late : ahead0 > 0 ? meeting : early;
     const double largest = std::max(
         {std::abs(double(r.z0)), std::abs(double(r.z1)), std::abs(double(course.z0)), std::abs(double(course.z1))});
-    const wide slack = 26 * largest * rounding<T>;
+    const wide slack = 26 * wide(largest) * rounding<T>;
     const wide undecided = level ? wide(std::abs(ahead0) <= slack) : std::abs(passes(slack) - passes(-slack));
     const wide error = (undecided * (late - early) + 32 * rounding<T>) / (wide(shutter.end) - wide(shutter.begin));
     return {from < to ? shutter.let_in(to) - shutter.let_in(from) : 0, shutter.largest() * error};

@@ -15,7 +15,8 @@ GNOMON_NAMESPACE_BEGIN
 GNOMON_STRUCT moving_vector { Real x0, y0, z0, x1, y1, z1; };
 
 /// f as an edge, for moving_edge_inside with facing 1. Error of a coefficient: 4 2^-p |n| |d|, the larger lengths of
-/// both ends; the facing times are exact for coefficients that differ by 20 2^-p |n| |d|. A NaN gives no facing time.
+/// both ends; the facing times are exact for coefficients that differ by 20 2^-p |n| |d|. With a NaN, or beyond
+/// moving_edge_limit, f is 0 throughout: a surface of which nothing is known faces the light.
 GNOMON_KERNEL GNOMON_T(moving_edge) facing_edge(GNOMON_T(moving_vector) n, GNOMON_T(moving_vector) d)
 {
     Real n0_d1 = (n.x0 * d.x1 + n.y0 * d.y1) + n.z0 * d.z1;
@@ -24,6 +25,10 @@ GNOMON_KERNEL GNOMON_T(moving_edge) facing_edge(GNOMON_T(moving_vector) n, GNOMO
     f.e0 = (n.x0 * d.x0 + n.y0 * d.y0) + n.z0 * d.z0;
     f.e1 = Real(0.5) * (n0_d1 + n1_d0);
     f.e2 = (n.x1 * d.x1 + n.y1 * d.y1) + n.z1 * d.z1;
+    GNOMON_MASK known = moving_edge_size(f) < GNOMON_LITERAL(moving_edge_limit);
+    f.e0 = gnomon_select(known, f.e0, Real(0));
+    f.e1 = gnomon_select(known, f.e1, Real(0));
+    f.e2 = gnomon_select(known, f.e2, Real(0));
     return f;
 }
 

@@ -113,7 +113,7 @@ GNOMON_KERNEL GNOMON_T(moving_receiver)
 /// What is lost while a range hides the receiver, in a part of the exposure in which the shutter's response is a line:
 /// response + slope x at the share x of the exposure, from share start to share stop; by the weights of
 /// moving_receiver_tap. With P and Q lines from a to b, the mean of P Q is (2 P_a Q_a + P_a Q_b + P_b Q_a + 2 P_b Q_b)
-/// / 6, and the mean of three lines alike; nothing cancels. Error: 40 2^-p of the largest response.
+/// / 6, and the mean of three lines alike; nothing cancels.
 GNOMON_KERNEL Real moving_receiver_part(GNOMON_T(moving_receiver) state, GNOMON_T(depth_time_range) hidden,
                                         GNOMON_SETTING start, GNOMON_SETTING stop, Real response, Real slope)
 {
@@ -174,7 +174,9 @@ GNOMON_KERNEL GNOMON_T(moving_receiver)
     return state;
 }
 
-/// Shadow intensity in [0, 1] over the whole shutter. A NaN hides nothing.
+/// Shadow intensity in [0, 1] over the whole shutter. A NaN hides nothing. Error for each range as for a receiver at
+/// rest (static_receiver_end), filtered 96 2^-p instead of 32; further those of when texels are entered and left
+/// (texel_border_passed), or of weights (receiver_path_at, and moving_receiver_tap in perspective).
 GNOMON_KERNEL Real moving_receiver_end(GNOMON_T(moving_receiver) state) { return saturate_or_zero(state.shadowed); }
 
 GNOMON_NAMESPACE_END

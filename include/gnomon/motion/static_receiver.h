@@ -104,9 +104,9 @@ GNOMON_KERNEL GNOMON_T(static_receiver)
     return state;
 }
 
-/// Shadow intensity in [0, 1] over the whole shutter. A NaN hides nothing. Error for each range: its weight times 16
-/// 2^-p over the duration of the shutter, and the share of time at which it is within 26 z 2^-p of the receiver (see
-/// range_in_front). Twice that for a tent, up to eight times for given weights.
+/// Shadow intensity in [0, 1] over the whole shutter. A NaN hides nothing. Error for each range: its weight times the
+/// largest response (1 for a box, 2 for a tent, 8 times the largest given weight) times 32 2^-p and the time for which
+/// the range is within 26 z 2^-p of the receiver (range_in_front), over the duration of the shutter.
 GNOMON_KERNEL Real static_receiver_end(GNOMON_T(static_receiver) state) { return saturate_or_zero(state.shadowed); }
 
 GNOMON_NAMESPACE_END
