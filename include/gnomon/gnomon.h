@@ -24,8 +24,13 @@
 
 #include "motion/edge_field.h"
 #include "motion/coverage_map.h"
+#include "motion/facing.h"
+#include "motion/moving_receiver.h"
 #include "motion/moving_triangle.h"
 #include "motion/prism.h"
 #include "motion/range.h"
+#include "motion/receiver_path.h"
+#include "motion/shutter.h"
 #include "motion/static_receiver.h"
+#include "motion/texel_sweep.h"
 #endif

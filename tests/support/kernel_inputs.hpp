@@ -16,6 +16,7 @@
 #include <gnomon/filters/convolution.h>
 #include <gnomon/moments/stored.h>
 #include <gnomon/motion/edge_field.h>
+#include <gnomon/motion/moving_receiver.h>
 
 #include <array>
 #include <cmath>
@@ -135,6 +136,32 @@ template <class T> moving_field<T> any_moving_field(bit_source& bits)
     return moving_field_of(any_seen_triangle<T>(bits).triangle, T(bits.uniform(-1, 1)), T(bits.uniform(-1, 1)));
 }
 
+/// A receiver on its way over some texels, by an orthographic light or by one in perspective, and as it leaves some
+/// texel of its sweep, half of the time by bilinear weights.
+template <class T> struct seen_receiver {
+    receiver_path<T> path;
+    texel_sweep<T> sweep;
+    moving_receiver<T> state;
+};
+
+template <class T> seen_receiver<T> any_seen_receiver(const situation& s, bit_source& bits)
+{
+    seen_receiver<T> r{};
+    const double begin = bits.uniform(0, 1), end = bits.uniform(0, 1);
+    r.path.depth = range_between(T(begin), T(s.receiver), T(end), T(bits.uniform(-1, 1)), T(bits.below(4)));
+    const bool perspective = bits.chance(0.5);
+    r.path.w0 = perspective ? T(bits.uniform(0.5, 4)) : T(1);
+    r.path.w1 = perspective ? T(bits.uniform(0.5, 4)) : T(1);
+    r.path.x0 = T(bits.uniform(-4, 4)) * r.path.w0, r.path.y0 = T(bits.uniform(-4, 4)) * r.path.w0;
+    r.path.x1 = T(bits.uniform(-4, 4)) * r.path.w1, r.path.y1 = T(bits.uniform(-4, 4)) * r.path.w1;
+    r.sweep = texel_sweep_begin(r.path);
+    for (std::size_t k = bits.below(6); k > 0; --k) r.sweep = texel_sweep_next(r.sweep);
+    r.state = moving_receiver_texel(moving_receiver_begin(r.path, T(0), T(1)), r.sweep);
+    if (bits.chance(0.5))
+        r.state = moving_receiver_tap(r.state, r.sweep, T(bits.below(2)), T(bits.below(2)), T(1 + bits.below(2)));
+    return r;
+}
+
 template <class T> struct input_family {
     std::string_view name;
     std::size_t numbers;
@@ -210,6 +237,27 @@ inline constexpr input_family<T> input_families[] = {
          const double a = bits.uniform(0, 1), b = bits.chance(0.1) ? a : bits.uniform(0, 1);
          put(std::min(a, b)), put(std::max(a, b)), put(s.texel), put(bits.chance(0.3) ? s.texel : s.receiver);
          put(double(bits.below(4)));
+     }},
+    {"shutter_weights", 8,
+     [](auto put, const situation&, bit_source& bits) {
+         for (int k = 0; k < 8; ++k) put(bits.chance(0.2) ? 0 : bits.uniform(0, 1));
+     }},
+    // Receivers.
+    {"static_receiver", 6,
+     [](auto put, const situation& s, bit_source& bits) {
+         const double begin = bits.uniform(0, 1), end = bits.uniform(0, 1);
+         put(s.receiver), put(double(bits.below(4))), put(std::min(begin, end)), put(std::max(begin, end));
+         put(bits.chance(0.5) ? 1 : bits.uniform(0, 1)), put(bits.uniform(0, 1));
+     }},
+    {"receiver_path", 11,
+     [](auto put, const situation& s, bit_source& bits) { put(any_seen_receiver<T>(s, bits).path); }},
+    {"texel_sweep", 19,
+     [](auto put, const situation& s, bit_source& bits) { put(any_seen_receiver<T>(s, bits).sweep); }},
+    {"moving_receiver", 14,
+     [](auto put, const situation& s, bit_source& bits) { put(any_seen_receiver<T>(s, bits).state); }},
+    {"moving_vector", 6,
+     [](auto put, const situation&, bit_source& bits) {
+         for (int k = 0; k < 6; ++k) put(bits.uniform(-1, 1));
      }},
     // The Fourier series: settings, and a phase.
     {"series", 4,

@@ -55,6 +55,7 @@ TEST_CASE_TEMPLATE("range_depth: within the stated error, exact at the ends", T,
         const T t = any_time<T>(bits);
         const double error = std::abs(double(wide(range_depth(r, t)) - depth(r, wide(t))));
         REQUIRE(error <= 5 * u<T> * (std::abs(double(r.z0)) + std::abs(double(r.z1))));
+        if (r.z0 == r.z1) REQUIRE(range_depth(r, t) == r.z0);
         REQUIRE(range_depth(r, r.t0) == r.z0);
         if (r.t0 < r.t1) REQUIRE(range_depth(r, r.t1) == r.z1);
     });
@@ -111,22 +112,30 @@ TEST_CASE_TEMPLATE("range_crossing: within the stated error, and an order on eit
     });
 }
 
-TEST_CASE_TEMPLATE("range_in_front: the times at which it shadows a receiver at rest", T, float, double)
+TEST_CASE_TEMPLATE("range_in_front: the times at which it shadows a receiver, at rest or not", T, float, double)
 {
     for_each_range<T>(20'000, [](const depth_time_range<T>& r, bit_source& bits) {
-        const T z = bits.chance(0.1) ? r.z0 : T(bits.uniform(-1.2, 1.2));
-        const auto front = range_in_front(r, z);
-        // Where the depths are within this of one another, rounding decides.
-        const double slack = 16 * u<T>;
+        depth_time_range<T> course = any_range<T>(bits);
+        if (bits.chance(0.3)) course = {T(0), T(1), course.z0, course.z0, T(9)};
+        if (bits.chance(0.1)) course.z0 = r.z0;
+        const T a = any_time<T>(bits), b = any_time<T>(bits), begin = std::min(a, b), end = std::max(a, b);
+        const auto front = range_in_front(r, course, begin, end);
+        const double largest = std::max(
+            {std::abs(double(r.z0)), std::abs(double(r.z1)), std::abs(double(course.z0)), std::abs(double(course.z1))});
+        if (front.t0 < front.t1)
+            REQUIRE((begin <= front.t0 && r.t0 <= front.t0 && front.t1 <= end && front.t1 <= r.t1));
+        // Both are one line each between these two.
+        const wide from = wide(std::max({begin, r.t0, course.t0})), to = wide(std::min({end, r.t1, course.t1}));
+        if (!(from < to) || wide(begin) < wide(course.t0) || wide(end) > wide(course.t1)) return;
+        const auto ahead = [&](wide t) { return depth(course, t) - depth(r, t); };
+        // Where the two are this close, rounding decides, and so it does this close to where they meet.
+        const wide slack = wide(26 * largest * u<T>), speed = std::abs(ahead(to) - ahead(from)) / (to - from);
         for (int i = 0; i <= 32; ++i) {
             const T t = T(i) / T(32);
-            const wide ahead = wide(z) - depth(r, wide(t));
-            if (t < r.t0 || t > r.t1 || r.t0 == r.t1 || std::abs(double(ahead)) <= slack) continue;
-            const double slope = std::abs(double(r.z1) - double(r.z0)) / (double(r.t1) - double(r.t0));
-            if (std::abs(double(ahead)) <= slope * 8 * u<T>) continue;
+            if (wide(t) < from || wide(t) > to || std::abs(ahead(wide(t))) <= slack + speed * wide(8 * u<T>)) continue;
             CAPTURE(double(t));
-            REQUIRE((front.t0 <= t && t <= front.t1) == (ahead > 0));
-            REQUIRE(double(range_intensity(r, t, z, T(9), T(0))) == double(ahead > 0));
+            REQUIRE((front.t0 <= t && t <= front.t1) == (ahead(wide(t)) > 0));
+            REQUIRE(double(range_intensity(r, t, range_depth(course, t), T(9), T(0))) == double(ahead(wide(t)) > 0));
         }
     });
 }
@@ -150,7 +159,15 @@ TEST_CASE_TEMPLATE("range_intensity: its own surface, its ends, bias, NaN", T, f
         depth_time_range<T> broken = r;
         broken.*member = nan;
         CHECK(range_intensity(broken, T(0.5), T(1), T(1), T(0)) == 0);
-        CHECK(range_duration(range_in_front(broken, T(1))) == 0);
+        const depth_time_range<T> level{T(0), T(1), T(1), T(1), T(1)};
+        CHECK(range_duration(range_in_front(broken, level, T(0), T(1))) == 0);
+    }
+    const depth_time_range<T> near{T(0), T(1), T(-1), T(-1), T(1)};
+    CHECK(range_duration(range_in_front(near, r, T(0), T(1))) == 1);
+    for (const auto member : {&depth_time_range<T>::z0, &depth_time_range<T>::z1}) {
+        depth_time_range<T> broken = r;
+        broken.*member = nan;
+        CHECK(range_duration(range_in_front(near, broken, T(0), T(1))) == 0);
     }
     CHECK(range_duration(range_between(T(0.5), T(0), T(0.5), T(0), T(0))) == 0);
     CHECK(range_duration(depth_time_range<T>{T(1), T(0), T(0), T(0), T(0)}) == 0);
@@ -168,24 +185,5 @@ TEST_CASE_TEMPLATE("a surface that moves along z does not shadow itself or its n
         const T t = any_time<T>(bits), z = range_depth(own, t);
         CHECK(range_intensity(own, t, z, T(1), T(0)) == 0);
         CHECK(range_intensity(neighbour, t, z, T(1), T(0)) == 0);
-    }
-}
-
-TEST_CASE_TEMPLATE("shutters: from 0 to 1, never back, their density as said", T, float, double)
-{
-    for (const auto shutter : {shutter_box<T>, shutter_tent<T>}) {
-        CHECK(shutter(T(0.25), T(0.25), T(0.75)) == 0);
-        CHECK(shutter(T(0.5), T(0.25), T(0.75)) == T(0.5));
-        CHECK(shutter(T(0.75), T(0.25), T(0.75)) == 1);
-        CHECK(shutter(T(0), T(0.25), T(0.75)) == 0);
-        CHECK(shutter(T(1), T(0.25), T(0.75)) == 1);
-        CHECK(shutter(T(nan_value), T(0), T(1)) == 0);
-        for (int i = 0; i < 1024; ++i) CHECK(shutter(T(i) / 1024, T(0), T(1)) <= shutter(T(i + 1) / 1024, T(0), T(1)));
-    }
-    // The tent opens as t: by time t < 1/2 it has let in 2 t^2.
-    for (int i = 0; i <= 32; ++i) {
-        const T t = T(i) / 64;
-        CHECK(shutter_tent(t, T(0), T(1)) == 2 * t * t);
-        CHECK(shutter_tent(1 - t, T(0), T(1)) == 1 - 2 * t * t);
     }
 }

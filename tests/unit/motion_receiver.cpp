@@ -1,63 +1,20 @@
 // A receiver at rest under resolved lists of depth-time ranges: the closed form against a hundred thousand times, and
 // what a list must not mind.
 #include "../support/effort.hpp"
-#include "../support/hostile.hpp"
-
-#include <gnomon/motion/static_receiver.h>
+#include "receiver_cases.hpp"
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <vector>
-
 using namespace gnomon;
-using gnomon::test::bit_source;
+using namespace gnomon::test;
 
 namespace {
 
-/// Ranges one after the other, some of them touching, in any order of ids.
-template <class T> std::vector<depth_time_range<T>> resolved_list(bit_source& bits)
+template <class T> T intensity(const std::vector<depth_time_range<T>>& list, T z, T id, const test_shutter<T>& shutter)
 {
-    std::vector<double> times(2 * (1 + bits.below(4)));
-    for (double& t : times) t = bits.chance(0.2) ? double(bits.below(5)) / 4 : bits.uniform(0, 1);
-    std::sort(times.begin(), times.end());
-    std::vector<depth_time_range<T>> list;
-    for (std::size_t i = 0; i + 1 < times.size(); i += bits.chance(0.5) ? 1 : 2)
-        list.push_back(
-            {T(times[i]), T(times[i + 1]), T(bits.uniform(-1, 1)), T(bits.uniform(-1, 1)), T(bits.below(3))});
-    return list;
-}
-
-template <class T> T intensity(const std::vector<depth_time_range<T>>& list, T z, T id, T begin, T end, bool tent)
-{
-    static_receiver<T> state = static_receiver_begin(z, id, begin, end);
-    for (const auto& r : list) state = tent ? static_receiver_add_tent(state, r) : static_receiver_add_box(state, r);
+    static_receiver<T> state = static_receiver_begin(z, id, shutter.begin, shutter.end);
+    for (const auto& r : list) state = shutter.add(state, r);
     return static_receiver_end(state);
-}
-
-/// What it loses to one range, box or tent, in extended precision, and how far off the comment lets the kernel be.
-struct loss {
-    double share, error;
-};
-template <class T> loss exact_loss(const depth_time_range<T>& r, T z, T begin, T end, bool tent)
-{
-    using wide = long double;
-    constexpr double u = double(std::numeric_limits<T>::epsilon()) / 2;
-    const wide before0 = wide(z) - wide(r.z0), before1 = wide(z) - wide(r.z1);
-    const bool meets = (before0 > 0) != (before1 > 0);
-    const wide meeting = meets ? wide(r.t0) + before0 / (before0 - before1) * (wide(r.t1) - wide(r.t0)) : 0;
-    const wide from = before0 > 0 ? wide(r.t0) : before1 > 0 ? meeting : 1;
-    const wide to = before1 > 0 ? wide(r.t1) : before0 > 0 ? meeting : 0;
-    const auto let_in = [&](wide t) {
-        const wide x = std::clamp((t - wide(begin)) / (wide(end) - wide(begin)), 0.0L, 1.0L);
-        return !tent ? x : x < 0.5L ? 2 * x * x : 1 - 2 * (1 - x) * (1 - x);
-    };
-    const double largest = std::max({std::abs(double(z)), std::abs(double(r.z0)), std::abs(double(r.z1))});
-    const double change = std::abs(double(r.z1) - double(r.z0));
-    const double once = meets ? (6 * largest / change + 14) * u / (double(end) - double(begin)) : 8 * u;
-    return {from < to ? double(let_in(to) - let_in(from)) : 0.0, tent ? 2 * once : once};
 }
 
 } // namespace
@@ -65,17 +22,17 @@ template <class T> loss exact_loss(const depth_time_range<T>& r, T z, T begin, T
 TEST_CASE_TEMPLATE("static receiver: within the stated error", T, float, double)
 {
     bit_source bits(13);
-    for (std::int64_t i = 0; i < test::effort(100'000); ++i) {
+    for (std::int64_t i = 0; i < effort(100'000); ++i) {
         const auto list = resolved_list<T>(bits);
         const T z = T(bits.uniform(-1, 1)), begin = T(bits.uniform(0, 0.5)), end = T(bits.uniform(0.5, 1));
-        const bool tent = i % 2 == 1;
+        const auto shutter = any_shutter(responses[std::size_t(i) % 3], begin, end, bits);
         if (!(begin < end)) continue;
         loss all{0, 0};
         for (const auto& r : list) {
-            const loss one = exact_loss(r, z, begin, end, tent);
+            const loss one = exact_loss(r, depth_time_range<T>{begin, end, z, z, T(9)}, begin, end, shutter);
             all = {all.share + one.share, all.error + one.error};
         }
-        REQUIRE(std::abs(double(intensity(list, z, T(9), begin, end, tent)) - all.share) <= all.error);
+        REQUIRE(std::abs(wide(intensity(list, z, T(9), shutter)) - all.share) <= all.error);
     }
 }
 
@@ -83,29 +40,27 @@ TEST_CASE_TEMPLATE("static receiver: the closed form is what a hundred thousand 
 {
     constexpr int times = 100'000;
     bit_source bits(11);
-    for (std::int64_t i = 0; i < test::effort(200); ++i) {
+    for (std::int64_t i = 0; i < effort(200); ++i) {
         const auto list = resolved_list<T>(bits);
         const T z = T(bits.uniform(-1, 1)), id = T(bits.below(3));
         const T a = T(bits.uniform(0, 1)), b = T(bits.uniform(0, 1));
         const T begin = i % 2 ? T(0) : std::min(a, b), end = i % 2 ? T(1) : std::max(a, b);
         if (double(end) - double(begin) < 0.01) continue;
-        double box = 0, tent = 0;
+        std::array<test_shutter<T>, 3> shutters;
+        for (std::size_t k = 0; k < 3; ++k) shutters[k] = any_shutter(responses[k], begin, end, bits);
+        std::array<wide, 3> sums{};
         for (int k = 0; k < times; ++k) {
-            const double x = (k + 0.5) / times;
-            const double t = double(begin) + x * (double(end) - double(begin));
+            const wide x = (k + 0.5L) / times, t = wide(begin) + x * (wide(end) - wide(begin));
             const auto hides = [&](const depth_time_range<T>& r) {
-                const double depth =
-                    double(r.z0) + (t - double(r.t0)) / (double(r.t1) - double(r.t0)) * (double(r.z1) - double(r.z0));
-                return double(r.t0) <= t && t < double(r.t1) && depth < double(z) && r.id != id;
+                return wide(r.t0) <= t && t < wide(r.t1) && exact_depth(r, t) < wide(z) && r.id != id;
             };
-            if (std::any_of(list.begin(), list.end(), hides)) {
-                box += 1.0 / times;
-                tent += (x < 0.5 ? 4 * x : 4 - 4 * x) / times;
-            }
+            if (std::any_of(list.begin(), list.end(), hides))
+                for (std::size_t j = 0; j < 3; ++j) sums[j] += shutters[j].density(x) / times;
         }
-        // Each of up to 7 ranges begins and ends within one of the times; the tent's density is 2 at most.
-        CHECK(std::abs(double(intensity(list, z, id, begin, end, false)) - box) <= 14.0 / times + 1e-5);
-        CHECK(std::abs(double(intensity(list, z, id, begin, end, true)) - tent) <= 28.0 / times + 1e-5);
+        // Each of up to 7 ranges begins and ends within one of the times.
+        for (std::size_t j = 0; j < 3; ++j)
+            CHECK(std::abs(wide(intensity(list, z, id, shutters[j])) - sums[j]) <=
+                  shutters[j].largest() * (14.0L / times + 1e-5L));
     }
 }
 
@@ -116,13 +71,14 @@ TEST_CASE_TEMPLATE("static receiver: the order of the list and cuts in it change
     for (int i = 0; i < 2000; ++i) {
         auto list = resolved_list<T>(bits);
         const T z = T(bits.uniform(-1, 1));
-        const double first = double(intensity(list, z, T(9), T(0), T(1), i % 2 == 1));
+        const auto shutter = any_shutter(i % 2 == 1 ? response::tent : response::box, T(0), T(1), bits);
+        const double first = double(intensity(list, z, T(9), shutter));
         std::reverse(list.begin(), list.end());
         const T cut = T(bits.uniform(0, 1));
         const auto whole = list;
         for (auto& r : list) r = range_clip(r, T(0), cut);
         for (const auto& r : whole) list.push_back(range_clip(r, cut, T(1)));
-        const double again = double(intensity(list, z, T(9), T(0), T(1), i % 2 == 1));
+        const double again = double(intensity(list, z, T(9), shutter));
         // A cut moves the depth line by 5 roundings of it, and so the meeting by as much over its slope: where the
         // depth hardly changes, by any time, so not looked at here.
         const bool level = std::any_of(whole.begin(), whole.end(),
@@ -131,18 +87,57 @@ TEST_CASE_TEMPLATE("static receiver: the order of the list and cuts in it change
     }
 }
 
-TEST_CASE_TEMPLATE("static receiver: nothing, everything, its own surface, half, NaN", T, float, double)
+TEST_CASE_TEMPLATE("static receiver: nothing, everything, its own surface, half, one depth, NaN", T, float, double)
 {
     const T nan = std::numeric_limits<T>::quiet_NaN();
     const depth_time_range<T> all{T(0), T(1), T(-0.5), T(0.5), T(1)};
-    for (const bool tent : {false, true}) {
-        CHECK(intensity<T>({}, T(0), T(2), T(0), T(1), tent) == 0);
-        CHECK(intensity<T>({all}, T(0.75), T(2), T(0), T(1), tent) == 1);
-        CHECK(intensity<T>({all}, T(-0.75), T(2), T(0), T(1), tent) == 0);
-        CHECK(intensity<T>({all}, T(0.75), T(1), T(0), T(1), tent) == 0);
-        CHECK(intensity<T>({all}, T(0), T(2), T(0), T(1), tent) == T(0.5));
-        CHECK(intensity<T>({all}, nan, T(2), T(0), T(1), tent) == 0);
-        CHECK(intensity<T>({all}, T(0.75), T(2), nan, T(1), tent) == 0);
-        CHECK(intensity<T>({{T(0), nan, T(-1), T(-1), T(1)}}, T(0.75), T(2), T(0), T(1), tent) == 0);
+    bit_source bits(14);
+    for (const response kind : responses) {
+        test_shutter<T> s = any_shutter(kind, T(0), T(1), bits);
+        s.weights = {T(0.25), T(0.25), T(0), T(0), T(0), T(0), T(0.5), T(0)};
+        CHECK(intensity<T>({}, T(0), T(2), s) == 0);
+        CHECK(intensity<T>({all}, T(0.75), T(2), s) == 1);
+        CHECK(intensity<T>({all}, T(-0.75), T(2), s) == 0);
+        CHECK(intensity<T>({all}, T(0.75), T(1), s) == 0);
+        CHECK(intensity<T>({all}, T(0), T(2), s) == T(0.5));
+        CHECK(intensity<T>({all}, nan, T(2), s) == 0);
+        CHECK(intensity<T>({{T(0), nan, T(-1), T(-1), T(1)}}, T(0.75), T(2), s) == 0);
+        s.begin = nan;
+        CHECK(intensity<T>({all}, T(0.75), T(2), s) == 0);
+        // Half of a ground at rest does not shadow the other half, whenever the shutter opens.
+        for (int i = 0; i < 1000; ++i) {
+            const T z = T(bits.uniform(-1, 1));
+            s.begin = T(bits.uniform(0, 0.5)), s.end = T(bits.uniform(0.5, 1));
+            CHECK(intensity<T>({{T(bits.uniform(0, 0.6)), T(bits.uniform(0.6, 1)), z, z, T(1)}}, z, T(2), s) == 0);
+        }
+    }
+}
+
+TEST_CASE_TEMPLATE("static receiver: filtered, it is the weighted mean of its texels", T, float, double)
+{
+    bit_source bits(15);
+    for (std::int64_t i = 0; i < effort(20'000); ++i) {
+        const auto s = any_shutter(responses[std::size_t(i) % 3], T(0), T(1), bits);
+        const T z = T(bits.uniform(-1, 1)), u = T(bits.uniform(0, 1)), v = T(bits.uniform(0, 1));
+        const std::size_t look_ups = 1 + bits.below(3);
+        static_receiver<T> state = static_receiver_begin(z, T(9), s.begin, s.end);
+        wide expected = 0, weights = 0;
+        for (std::size_t k = 0; k < (look_ups + 1) * (look_ups + 1); ++k) {
+            const std::size_t x = k % (look_ups + 1), y = k / (look_ups + 1);
+            const auto list = resolved_list<T>(bits);
+            // The mean of look-ups by definition: each has texel x with its u, texel x - 1 with what is left.
+            const auto by_definition = [&](std::size_t n, wide share) {
+                return ((n < look_ups ? 1 - share : 0) + (n > 0 ? share : 0)) / wide(look_ups);
+            };
+            const wide weight = by_definition(x, wide(u)) * by_definition(y, wide(v));
+            weights += weight;
+            expected += weight * wide(intensity(list, z, T(9), s));
+            state =
+                static_receiver_weigh(state, texel_weight(u, T(x), T(look_ups)) * texel_weight(v, T(y), T(look_ups)));
+            for (const auto& r : list) state = s.add(state, r);
+        }
+        REQUIRE(std::abs(weights - 1) < 1e-15L);
+        // Each weight has 5 roundings, each of up to 7 ranges one more for its product and one for the sum so far.
+        REQUIRE(std::abs(wide(static_receiver_end(state)) - expected) <= (5 + 7 * 16 + 7) * rounding<T>);
     }
 }

@@ -51,12 +51,19 @@ GNOMON_KERNEL GNOMON_T(depth_time_range)
     return r;
 }
 
-/// Depth at time t, outside that of the nearer end, z0 at the one time of a range of no duration; exact at both ends.
-/// Error: 5 (|z0| + |z1|) 2^-p, p the bits of the significand.
+/// How far through it time t is: 0 until t0, 1 from t1 on; 0 at the one time of a range of no duration, or for NaN.
+GNOMON_KERNEL Real range_passed(GNOMON_T(depth_time_range) r, Real t)
+{
+    return saturate_or_zero((t - r.t0) / (r.t1 - r.t0));
+}
+
+/// Depth at time t, outside that of the nearer end, z0 at the one time of a range of no duration; exact at both ends,
+/// and throughout where the range is level. NaN where one end's is. Error: 5 (|z0| + |z1|) 2^-p, p the bits of the
+/// significand.
 GNOMON_KERNEL Real range_depth(GNOMON_T(depth_time_range) r, Real t)
 {
-    Real passed = saturate_or_zero((t - r.t0) / (r.t1 - r.t0));
-    return r.z0 * (Real(1) - passed) + r.z1 * passed;
+    Real passed = range_passed(r, t);
+    return gnomon_select(r.z0 == r.z1, r.z0, r.z0 * (Real(1) - passed) + r.z1 * passed);
 }
 
 /// How long it lasts, 0 where it is empty.
@@ -87,17 +94,22 @@ GNOMON_KERNEL Real range_crossing(GNOMON_T(depth_time_range) a, GNOMON_T(depth_t
     return begin * (Real(1) - passed) + end * passed;
 }
 
-/// What of it is in front of depth z, a receiver's that does not move; empty where nothing is.
-GNOMON_KERNEL GNOMON_T(depth_time_range) range_in_front(GNOMON_T(depth_time_range) r, Real z)
+/// What of it is in front of a receiver between two times; empty where nothing is. The course of the receiver's
+/// depth is a range, too, level where it is at rest. A NaN depth is in front of nothing.
+/// Error: the times at which the two are within 26 z 2^-p of one another, z the largest depth; and 8 2^-p.
+GNOMON_KERNEL GNOMON_T(depth_time_range)
+    range_in_front(GNOMON_T(depth_time_range) r, GNOMON_T(depth_time_range) course, Real begin, Real end)
 {
-    Real before0 = z - r.z0;
-    Real before1 = z - r.z1;
-    Real passed = clamp_or_nan(before0 / (before0 - before1), Real(0), Real(1));
-    Real meeting = r.t0 * (Real(1) - passed) + r.t1 * passed;
-    Real begin = gnomon_select(Real(0) < before0, r.t0, gnomon_select(Real(0) < before1, meeting, Real(1)));
-    Real end = gnomon_select(Real(0) < before1, r.t1, gnomon_select(Real(0) < before0, meeting, Real(0)));
-    GNOMON_MASK ever = begin < end; // false for NaN
-    return range_clip(r, gnomon_select(ever, begin, Real(1)), gnomon_select(ever, end, Real(0)));
+    Real early = gnomon_max(begin, r.t0);
+    Real late = gnomon_min(end, r.t1);
+    Real before0 = range_depth(course, early) - range_depth(r, early);
+    Real before1 = range_depth(course, late) - range_depth(r, late);
+    Real passed = before0 / (before0 - before1); // in [0, 1] where their signs differ
+    Real meeting = clamp_or_nan(early * (Real(1) - passed) + late * passed, early, late);
+    Real front = gnomon_select(Real(0) < before0, early, gnomon_select(Real(0) < before1, meeting, Real(1)));
+    Real back = gnomon_select(Real(0) < before1, late, gnomon_select(Real(0) < before0, meeting, Real(0)));
+    GNOMON_MASK ever = front < back; // false for NaN
+    return range_clip(r, gnomon_select(ever, front, Real(1)), gnomon_select(ever, back, Real(0)));
 }
 
 /// Shadow intensity, 0 or 1, at time t and depth z on the surface with the given id: 1 where the range is there at that
@@ -107,18 +119,6 @@ GNOMON_KERNEL Real range_intensity(GNOMON_T(depth_time_range) r, Real t, Real z,
     GNOMON_MASK during = r.t0 <= t && t <= r.t1;
     GNOMON_MASK hides = range_depth(r, t) + bias < z && !(id == r.id);
     return gnomon_select(during && hides, Real(1), Real(0));
-}
-
-/// Share of the light that an open shutter has let in by time t, of what it does from begin to end: a shutter that
-/// opens and closes at once. The share between two times is the difference. In [0, 1]; 0 where anything is NaN.
-GNOMON_KERNEL Real shutter_box(Real t, Real begin, Real end) { return saturate_or_zero((t - begin) / (end - begin)); }
-
-/// The same for a shutter that opens and closes evenly, wide open halfway.
-GNOMON_KERNEL Real shutter_tent(Real t, Real begin, Real end)
-{
-    Real x = shutter_box(t, begin, end);
-    Real left = Real(1) - x;
-    return gnomon_select(x < Real(0.5), Real(2) * (x * x), Real(1) - Real(2) * (left * left));
 }
 
 GNOMON_NAMESPACE_END

@@ -4,15 +4,22 @@
 // (Hong & Oh's shadow test, integrated; Palmer 2011, chapter 4.)
 //
 //     state = static_receiver_begin(z_f, id, begin, end);
-//     state = static_receiver_add_box(state, range);        or _add_tent; for every range of the texel
+//     state = static_receiver_add_box(state, range);        or _add_tent, _add_given; for every range of the texel
 //     intensity = static_receiver_end(state);
+//
+// Percentage-closer filtering of K x K bilinear look-ups around texel position (x, y) reads K + 1 texels along either
+// axis. With x - K / 2 = column + u, column a whole number and u in [0, 1), before the ranges of texel (column + i,
+// row + j), i and j from 0 to K:
+//     state = static_receiver_weigh(state, texel_weight(u, i, K) * texel_weight(v, j, K));
 #ifndef GNOMON_MOTION_STATIC_RECEIVER_H
 #define GNOMON_MOTION_STATIC_RECEIVER_H
 #include "range.h"
+#include "shutter.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// Depth and id of the receiver, when the shutter opens and closes, and the share of its light that is gone so far.
-GNOMON_STRUCT static_receiver { Real depth, id, begin, end, shadowed; };
+/// Depth and id of the receiver, when the shutter opens and closes, what the next ranges weigh, and the share of its
+/// light that is gone so far.
+GNOMON_STRUCT static_receiver { Real depth, id, begin, end, weight, shadowed; };
 
 /// No range yet. Any z_f; whatever needs a depth bias takes it off z_f first.
 GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_begin(Real z_f, Real id, Real begin, Real end)
@@ -22,39 +29,84 @@ GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_begin(Real z_f, Real id,
     r.id = id;
     r.begin = begin;
     r.end = end;
+    r.weight = Real(1);
     r.shadowed = Real(0);
     return r;
 }
 
-/// Adds a share of light, if it is not negative, NaN or the surface's own doing.
-GNOMON_KERNEL GNOMON_T(static_receiver)
-    static_receiver_lose(GNOMON_T(static_receiver) state, GNOMON_T(depth_time_range) hidden, Real share)
+/// What texel i of K + 1 weighs, along one axis, in the mean of K bilinear look-ups side by side: u is the first one's
+/// distance from the centre of texel 0. In [0, 1]; over the K + 1 texels they sum to 1, within K + 2 roundings.
+GNOMON_KERNEL Real texel_weight(Real u, GNOMON_SETTING i, GNOMON_SETTING look_ups)
 {
-    state.shadowed = state.shadowed + gnomon_select(hidden.id == state.id, Real(0), saturate_or_zero(share));
+    Real share = saturate_or_zero(u);
+    share = gnomon_select(i < Real(1), Real(1) - share, gnomon_select(i < look_ups, Real(1), share));
+    return saturate_or_zero(share / look_ups);
+}
+
+/// The weight of the ranges to come, in [0, 1]; those of all texels sum to 1.
+GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_weigh(GNOMON_T(static_receiver) state, Real weight)
+{
+    state.weight = saturate_or_zero(weight);
     return state;
+}
+
+/// When the range hides it while the shutter is open.
+GNOMON_KERNEL GNOMON_T(depth_time_range)
+    static_receiver_hidden(GNOMON_T(static_receiver) state, GNOMON_T(depth_time_range) r)
+{
+    GNOMON_T(depth_time_range) level;
+    level.t0 = state.begin;
+    level.t1 = state.end;
+    level.z0 = state.depth;
+    level.z1 = state.depth;
+    level.id = state.id;
+    return range_in_front(r, level, state.begin, state.end);
+}
+
+/// The light lost between two shares of what the shutter lets in, where the range that hides it has another id; 0 for
+/// NaN.
+GNOMON_KERNEL Real receiver_loss(GNOMON_T(depth_time_range) hidden, Real id, Real share0, Real share1)
+{
+    return gnomon_select(hidden.id == id, Real(0), saturate_or_zero(share1 - share0));
 }
 
 /// One range, for a shutter that opens and closes at once.
 GNOMON_KERNEL GNOMON_T(static_receiver)
     static_receiver_add_box(GNOMON_T(static_receiver) state, GNOMON_T(depth_time_range) r)
 {
-    GNOMON_T(depth_time_range) hidden = range_in_front(r, state.depth);
-    Real share = shutter_box(hidden.t1, state.begin, state.end) - shutter_box(hidden.t0, state.begin, state.end);
-    return static_receiver_lose(state, hidden, share);
+    GNOMON_T(depth_time_range) hidden = static_receiver_hidden(state, r);
+    Real share0 = shutter_box(hidden.t0, state.begin, state.end);
+    Real share1 = shutter_box(hidden.t1, state.begin, state.end);
+    state.shadowed = state.shadowed + state.weight * receiver_loss(hidden, state.id, share0, share1);
+    return state;
 }
 
 /// One range, for a shutter that opens and closes evenly.
 GNOMON_KERNEL GNOMON_T(static_receiver)
     static_receiver_add_tent(GNOMON_T(static_receiver) state, GNOMON_T(depth_time_range) r)
 {
-    GNOMON_T(depth_time_range) hidden = range_in_front(r, state.depth);
-    Real share = shutter_tent(hidden.t1, state.begin, state.end) - shutter_tent(hidden.t0, state.begin, state.end);
-    return static_receiver_lose(state, hidden, share);
+    GNOMON_T(depth_time_range) hidden = static_receiver_hidden(state, r);
+    Real share0 = shutter_tent(hidden.t0, state.begin, state.end);
+    Real share1 = shutter_tent(hidden.t1, state.begin, state.end);
+    state.shadowed = state.shadowed + state.weight * receiver_loss(hidden, state.id, share0, share1);
+    return state;
 }
 
-/// Shadow intensity in [0, 1] over the whole shutter. A NaN hides nothing. Error for each range 8 2^-p; for one that
-/// meets the receiver's depth (6 z / d + 14) 2^-p over the duration of the shutter, z the largest depth, the receiver's
-/// included, and d how far its own changes. Twice that for a tent.
+/// One range, for a shutter with given weights.
+GNOMON_KERNEL GNOMON_T(static_receiver)
+    static_receiver_add_given(GNOMON_T(static_receiver) state, GNOMON_T(depth_time_range) r,
+                              GNOMON_T(shutter_weights) w)
+{
+    GNOMON_T(depth_time_range) hidden = static_receiver_hidden(state, r);
+    Real share0 = shutter_given(hidden.t0, state.begin, state.end, w);
+    Real share1 = shutter_given(hidden.t1, state.begin, state.end, w);
+    state.shadowed = state.shadowed + state.weight * receiver_loss(hidden, state.id, share0, share1);
+    return state;
+}
+
+/// Shadow intensity in [0, 1] over the whole shutter. A NaN hides nothing. Error for each range: its weight times the
+/// largest response (1 for a box, 2 for a tent, 8 times the largest given weight) times 32 2^-p and the time for which
+/// the range is within 26 z 2^-p of the receiver (range_in_front), over the duration of the shutter.
 GNOMON_KERNEL Real static_receiver_end(GNOMON_T(static_receiver) state) { return saturate_or_zero(state.shadowed); }
 
 GNOMON_NAMESPACE_END

@@ -1,0 +1,128 @@
+// What tests of receivers share: lists of ranges that do not overlap, shutters by their definition, and what one range
+// takes from a receiver in extended precision, with the error that the comments in motion/ allow.
+#pragma once
+
+#include "../support/hostile.hpp"
+
+#include <gnomon/motion/moving_receiver.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace gnomon::test {
+
+using wide = long double;
+template <class T> constexpr wide rounding = wide(std::numeric_limits<T>::epsilon()) / 2;
+
+/// Ranges one after the other, some of them touching, in any order of ids.
+template <class T> std::vector<depth_time_range<T>> resolved_list(bit_source& bits)
+{
+    std::vector<double> times(2 * (1 + bits.below(4)));
+    for (double& t : times) t = bits.chance(0.2) ? double(bits.below(5)) / 4 : bits.uniform(0, 1);
+    std::sort(times.begin(), times.end());
+    std::vector<depth_time_range<T>> list;
+    for (std::size_t i = 0; i + 1 < times.size(); i += bits.chance(0.5) ? 1 : 2)
+        list.push_back(
+            {T(times[i]), T(times[i + 1]), T(bits.uniform(-1, 1)), T(bits.uniform(-1, 1)), T(bits.below(3))});
+    return list;
+}
+
+enum class response { box, tent, given };
+inline constexpr std::array responses{response::box, response::tent, response::given};
+
+/// A shutter as kernels have it and as it is defined.
+template <class T> struct test_shutter {
+    response kind;
+    T begin, end;
+    shutter_weights<T> weights;
+
+    std::array<wide, 8> eighths() const
+    {
+        const auto& w = weights;
+        return {wide(w.w0), wide(w.w1), wide(w.w2), wide(w.w3), wide(w.w4), wide(w.w5), wide(w.w6), wide(w.w7)};
+    }
+    /// At a share x of the exposure; 1 on average.
+    wide density(wide x) const
+    {
+        if (x < 0 || x >= 1) return 0;
+        if (kind == response::box) return 1;
+        if (kind == response::tent) return x < 0.5L ? 4 * x : 4 - 4 * x;
+        return 8 * eighths()[std::size_t(8 * x)];
+    }
+    wide largest() const
+    {
+        const auto e = eighths();
+        return kind == response::box ? 1 : kind == response::tent ? 2 : 8 * *std::max_element(e.begin(), e.end());
+    }
+    wide let_in(wide t) const
+    {
+        const wide x = std::clamp((t - wide(begin)) / (wide(end) - wide(begin)), 0.0L, 1.0L);
+        if (kind == response::box) return x;
+        if (kind == response::tent) return x < 0.5L ? 2 * x * x : 1 - 2 * (1 - x) * (1 - x);
+        wide sum = 0;
+        for (std::size_t k = 0; k < 8; ++k) sum += eighths()[k] * std::clamp(8 * x - wide(k), 0.0L, 1.0L);
+        return sum;
+    }
+    auto add(const static_receiver<T>& state, const depth_time_range<T>& r) const
+    {
+        return kind == response::box    ? static_receiver_add_box(state, r)
+               : kind == response::tent ? static_receiver_add_tent(state, r)
+                                        : static_receiver_add_given(state, r, weights);
+    }
+    auto add(const moving_receiver<T>& state, const depth_time_range<T>& r) const
+    {
+        return kind == response::box    ? moving_receiver_add_box(state, r)
+               : kind == response::tent ? moving_receiver_add_tent(state, r)
+                                        : moving_receiver_add_given(state, r, weights);
+    }
+    auto filter(const moving_receiver<T>& state, const depth_time_range<T>& r) const
+    {
+        return kind == response::box    ? moving_receiver_filter_box(state, r)
+               : kind == response::tent ? moving_receiver_filter_tent(state, r)
+                                        : moving_receiver_filter_given(state, r, weights);
+    }
+};
+
+template <class T> test_shutter<T> any_shutter(response kind, T begin, T end, bit_source& bits)
+{
+    const auto w = [&] { return T(bits.chance(0.3) ? 0 : bits.uniform(0, 1)); };
+    return {kind, begin, end, shutter_weights_of(shutter_weights<T>{w(), w(), w(), w(), w(), w(), w(), w()})};
+}
+
+template <class T> wide exact_depth(const depth_time_range<T>& r, wide t)
+{
+    return wide(r.z0) + (t - wide(r.t0)) / (wide(r.t1) - wide(r.t0)) * (wide(r.z1) - wide(r.z0));
+}
+
+/// What a receiver with this course of depth, which lasts from begin to end or longer, loses meanwhile to one range,
+/// and how far off a kernel may be.
+struct loss {
+    wide share, error;
+};
+template <class T>
+loss exact_loss(const depth_time_range<T>& r, const depth_time_range<T>& course, T begin, T end,
+                const test_shutter<T>& shutter)
+{
+    const wide early = std::max(wide(begin), wide(r.t0)), late = std::min(wide(end), wide(r.t1));
+    if (r.id == course.id || !(early < late)) return {0, 0};
+    const wide ahead0 = exact_depth(course, early) - exact_depth(r, early);
+    const wide ahead1 = exact_depth(course, late) - exact_depth(r, late);
+    const auto passes = [&](wide level) { // when it is so far ahead, as a share
+        return std::clamp((ahead0 - level) / (ahead0 - ahead1), 0.0L, 1.0L);
+    };
+    const bool level = ahead0 == ahead1;
+    const wide meeting = level ? early : early + passes(0) * (late - early);
+    const wide from = ahead0 > 0 ? early : ahead1 > 0 ? meeting : late;
+    const wide to = ahead1 > 0 ? late : ahead0 > 0 ? meeting : early;
+    const double largest = std::max(
+        {std::abs(double(r.z0)), std::abs(double(r.z1)), std::abs(double(course.z0)), std::abs(double(course.z1))});
+    const wide slack = 26 * wide(largest) * rounding<T>;
+    const wide undecided = level ? wide(std::abs(ahead0) <= slack) : std::abs(passes(slack) - passes(-slack));
+    const wide error = (undecided * (late - early) + 32 * rounding<T>) / (wide(shutter.end) - wide(shutter.begin));
+    return {from < to ? shutter.let_in(to) - shutter.let_in(from) : 0, shutter.largest() * error};
+}
+
+} // namespace gnomon::test
