@@ -24,5 +24,6 @@
 
 #include "motion/moving_triangle.h"
 #include "motion/range.h"
+#include "motion/range_list.h"
 #include "motion/static_receiver.h"
 #endif
