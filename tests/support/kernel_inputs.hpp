@@ -14,6 +14,7 @@
 
 #include <gnomon/filters/convolution.h>
 #include <gnomon/moments/stored.h>
+#include <gnomon/motion/range_list.h>
 
 #include <array>
 #include <cmath>
@@ -128,6 +129,19 @@ template <class T> seen_triangle<T> any_seen_triangle(bit_source& bits)
     return {triangle, moving_triangle_edges(triangle, T(scene.s_x), T(scene.s_y))};
 }
 
+/// A full list now and then, of few depths, so that ranges hide and meet one another.
+template <class T> range_list<T> any_range_list(const situation& s, bit_source& bits)
+{
+    range_list<T> list = range_list_of(depth_time_range<T>{});
+    for (std::size_t i = bits.below(16); i > 0; --i) {
+        const T z = T(bits.chance(0.2) ? s.texel : s.receiver + bits.uniform(-0.5, 0.5));
+        const T other = bits.chance(0.3) ? z : T(bits.uniform(-1, 1));
+        list = range_list_insert(
+            list, range_between(T(bits.uniform(0, 1)), z, T(double(bits.below(9)) / 8), other, T(bits.below(4))));
+    }
+    return list;
+}
+
 template <class T> struct input_family {
     std::string_view name;
     std::size_t numbers;
@@ -204,6 +218,7 @@ inline constexpr input_family<T> input_families[] = {
          put(std::min(a, b)), put(std::max(a, b)), put(s.texel), put(bits.chance(0.3) ? s.texel : s.receiver);
          put(double(bits.below(4)));
      }},
+    {"range_list", 42, [](auto put, const situation& s, bit_source& bits) { put(any_range_list<T>(s, bits)); }},
     // The Fourier series: settings, and a phase.
     {"series", 4,
      [](auto put, const situation&, bit_source& bits) {

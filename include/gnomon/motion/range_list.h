@@ -1,16 +1,17 @@
 // What a texel keeps of the surfaces that pass it while the shutter is open: a list of few depth-time ranges (Gribel et
 // al. 2010; Hong & Oh 2017), and its lower envelope, what the light sees when (the resolve of Palmer 2011, 2.4).
 //
-//     list = range_list_of(range);                  then range_list_insert(list, range) for every other one
-//     resolved = range_list_resolve(list);          or span by span: t = 0; span = range_list_front(list, t); t =
-//     span.t1
+//     list = range_list_of(range);                  list = range_list_insert(list, range) for every other one
+//     resolved = range_list_resolve(list);          or span by span, t = 0; span = range_list_front(list, t);
+//                                                   t = span.t1 as long as t < 1
 //
 // A list holds ranges as they were inserted, less those that another one hides by mere comparison (range_hides). Hence,
 // as long as they fit, neither the order of insertion nor rounding has a say in what it holds, nor in the resolve. When
 // one too many comes, first whatever several others hide together goes, then the two most similar ranges become one
 // in front of both (range_merge.h): what is in shadow stays in shadow, and what was lit and is not is counted.
 //
-// Capacity: GNOMON_RANGE_CAPACITY, to be set before inclusion; in C++ a template parameter, of which it is the default.
+// The capacity is GNOMON_RANGE_CAPACITY, if that is defined before inclusion, else 8; in C++ it is a template parameter
+// with this default.
 #ifndef GNOMON_MOTION_RANGE_LIST_H
 #define GNOMON_MOTION_RANGE_LIST_H
 #include "range_merge.h"
@@ -22,9 +23,8 @@ GNOMON_NAMESPACE_BEGIN
 #define GNOMON_RANGE_CAPACITY 8
 #endif
 
-/// In the order of range_is_before, with empty ranges between them. What merging has cost is bounded from above:
-/// time_added is how long it is dark though nothing is there, and nowhere does the front come nearer by more than
-/// depth_added.
+/// In the order of range_is_before, with empty ranges between them. What merging has cost is bounded from above: for all
+/// but a time of time_added there is something where something was, in front of it by depth_added at most.
 GNOMON_LIST_STRUCT range_list
 {
     GNOMON_T(depth_time_range) ranges[GNOMON_CAPACITY];
@@ -215,7 +215,8 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_resolve(GNOMON_LIST_T(ra
     for (int k = 0; k < (GNOMON_CAPACITY + 1) * (GNOMON_CAPACITY + 2) / 2; ++k) {
         if (gnomon_any(t < Real(1))) {
             GNOMON_T(depth_time_range) span = range_list_front(list, t);
-            resolved = range_list_append(resolved, range_or_nothing(span));
+            GNOMON_MASK some = GNOMON_LITERAL(range_nothing) < span.id;
+            resolved = range_list_append(resolved, range_kept(some, span));
             t = span.t1;
         }
     }
