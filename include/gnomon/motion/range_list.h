@@ -23,8 +23,8 @@ GNOMON_NAMESPACE_BEGIN
 #define GNOMON_RANGE_CAPACITY 8
 #endif
 
-/// In the order of range_is_before, with empty ranges between them. What merging has cost is bounded from above: for all
-/// but a time of time_added there is something where something was, in front of it by depth_added at most.
+/// In the order of range_is_before, with empty ranges between them. What merging has cost is bounded from above: for
+/// all but a time of time_added there is something where something was, in front of it by depth_added at most.
 GNOMON_LIST_STRUCT range_list
 {
     GNOMON_T(depth_time_range) ranges[GNOMON_CAPACITY];
@@ -79,12 +79,14 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list)
 }
 
 /// One more range; times outside of [0, 1] are cut off. NaN, or a depth beyond 2^60, inserts nothing. Without an
-/// overflow the ranges of the list depend on no order. With one no receiver leaves the shadow at any time, as long as
-/// depths are in [-1, 1] and the capacity is not above 16.
+/// overflow the ranges of the list depend on no order, bit for bit but for the sign of a zero. With one they do, but at
+/// no time is the front farther than that of all ranges inserted: strictly, as long as depths are in [-1, 1] and the
+/// capacity is not above 16.
 GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list)
     range_list_insert(GNOMON_LIST_T(range_list) list, GNOMON_T(depth_time_range) r)
 {
     r = range_or_nothing(range_clip(r, Real(0), Real(1)));
+    list = range_list_pay(list, range_pair_none(r)); // counts that are NaN become 0
     Real room = Real(0);
     for (int i = 0; i < GNOMON_CAPACITY; ++i) {
         GNOMON_T(depth_time_range) s = range_or_nothing(list.ranges[i]);
@@ -156,18 +158,28 @@ GNOMON_LIST_KERNEL GNOMON_T(depth_time_range) range_list_front(GNOMON_LIST_T(ran
 {
     Real begin = saturate_or_zero(t);
     GNOMON_T(depth_time_range) front = range_kept(begin < begin, list.ranges[0]);
+    Real unchanged = Real(1); // until when all comparisons of this loop come out the same
     for (int i = 0; i < GNOMON_CAPACITY; ++i) {
         GNOMON_T(depth_time_range) r = range_or_nothing(list.ranges[i]);
         GNOMON_T(depth_time_range) ahead = range_ahead_of(r, front);
-        GNOMON_MASK alone = front.t1 <= front.t0 && r.t0 <= begin && begin < r.t1;
-        front = range_select(alone || (ahead.t0 <= begin && begin < ahead.t1), r, front);
+        GNOMON_MASK during = r.t0 <= begin && begin < r.t1;
+        GNOMON_MASK alone = front.t1 <= front.t0;
+        GNOMON_MASK nearer = ahead.t0 <= begin && begin < ahead.t1;
+        Real change = gnomon_select(begin < ahead.t0, ahead.t0, gnomon_select(nearer, ahead.t1, Real(1)));
+        change = gnomon_min(change, gnomon_min(front.t1, r.t1));
+        unchanged = gnomon_select(during && !alone, gnomon_min(unchanged, change), unchanged);
+        front = range_select(nearer || (during && alone), r, front);
     }
     GNOMON_MASK some = front.t0 < front.t1;
     Real end = gnomon_select(some, front.t1, Real(1));
     for (int k = 0; k < GNOMON_CAPACITY; ++k) {
         GNOMON_T(depth_time_range) r = range_or_nothing(list.ranges[k]);
-        Real next = gnomon_select(some, range_ahead_of(r, front).t0, r.t0);
+        GNOMON_T(depth_time_range) ahead = range_ahead_of(r, front);
+        Real next = gnomon_select(some, ahead.t0, r.t0);
         end = gnomon_select(begin < next, gnomon_min(end, next), end);
+        // Where three meet, rounding may have each in front of the next. That all are as near lasts as long as it does.
+        GNOMON_MASK circle = ahead.t0 <= begin && begin < ahead.t1;
+        end = gnomon_select(circle, gnomon_min(end, unchanged), end);
     }
     GNOMON_T(depth_time_range) span = range_clip(front, begin, end);
     span.t0 = begin;
