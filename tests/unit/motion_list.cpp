@@ -63,8 +63,9 @@ template <class T, int capacity> bool equal(const range_list<T, capacity>& a, co
 /// Depth without rounding, near enough: in extended precision.
 template <class T> double depth_at(const range<T>& r, double t)
 {
-    const long double passed = (static_cast<long double>(t) - r.t0) / (static_cast<long double>(r.t1) - r.t0);
-    return double(r.z0 + passed * (static_cast<long double>(r.z1) - r.z0));
+    using wide = long double;
+    const wide passed = (wide(t) - wide(r.t0)) / (wide(r.t1) - wide(r.t0));
+    return double(wide(r.z0) + passed * (wide(r.z1) - wide(r.z0)));
 }
 
 constexpr double nowhere = 9;
