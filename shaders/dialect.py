@@ -12,7 +12,8 @@ PRELUDE = re.compile(HEAD + r"(?P<rest>.*)#endif\n", re.DOTALL)
 MACRO = re.compile(r"#define (GNOMON_\w+|Real)(?:\(([^)]*)\))?(?: (.*))?")
 NUMBER = r"-?\d+(?:\.\d*)?(?:e[+-]?\d+)?"
 CONSTANT = re.compile(r"^GNOMON_CONSTANT\((\w+),.*\n", re.MULTILINE)
-DEFINED = re.compile(r"^GNOMON_(?:KERNEL\s+(?:GNOMON_T\(\w+\)|\w+)\s+|STRUCT |CONSTANT\()(\w+)", re.MULTILINE)
+DEFINED = re.compile(r"^GNOMON_(?:(?:LIST_)?KERNEL\s+(?:GNOMON_(?:LIST_)?T\(\w+\)|\w+)\s+|(?:LIST_)?STRUCT |CONSTANT\()(\w+)",
+                     re.MULTILINE)
 DECIDED = re.compile(r"^( *)if \((?:(true|false)|(\d+) > (\d+))\) \{\n(.*?)^\1\}(?: else \{\n(.*?)^\1\})?\n",
                      re.DOTALL | re.MULTILINE)
 

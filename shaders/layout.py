@@ -4,7 +4,7 @@ import re
 WIDTH = 120
 TEMPLATE = re.compile(r"(template <(?:[^<>]|<[^<>]*>)*>) (.*)")
 FUNCTION = re.compile(r"(\w.*\)) \{ (.*;) \}")
-PLACE = re.compile(r", |(?<= [+\-*/=]) |(?<= &&) ")
+PLACE = re.compile(r"(?<!<Real), |(?<= [+\-*/=]) |(?<= &&) ")
 ONE_STATEMENT = re.compile(r"^(\w.*\))\n\{\n    (return [^;]*;)\n\}\n", re.MULTILINE)
 
 

@@ -15,9 +15,10 @@ LANGUAGE = Path(__file__).with_name("portable.wgsl")
 TYPES = {"float": "f32", "int": "i32"}
 PRELUDE = re.compile(r"(?<=^// the language )(-+\n).*?(?=^// \S+ -+\n)", re.MULTILINE | re.DOTALL)
 GUARDS = re.compile(r"^#ifndef \w+\n#define \w+\n|\n#endif\n", re.MULTILINE)
+CAPACITY = re.compile(r"^#ifndef (\w+)\n#define \1 (\d+)\n#endif$", re.MULTILINE)
 CONSTANT = re.compile(r"^const float (\w+) = (\S+);(?: +// (.*))?", re.MULTILINE)
 STRUCT = re.compile(r"^struct (\w+)(\s+\{)(.*?)\};", re.MULTILINE | re.DOTALL)
-MEMBERS = re.compile(r"\b(\w+) (\w+(?:,\s+\w+)*);")
+MEMBERS = re.compile(r"\b(\w+) (\w+(?:,\s+\w+)*)(?:\[(\w+)\])?;")
 FUNCTION = re.compile(r"^(\w+) (\w+)\(([^()]*)\)( \{[^\n]*\}$|\n\{.*?^\})", re.MULTILINE | re.DOTALL)
 DECLARATION = re.compile(r"^( *)(?!return\b)(\w+) (\w+)(;| =)", re.MULTILINE)
 STATEMENTS = [(re.compile(pattern, re.MULTILINE), replacement) for pattern, replacement in [
@@ -26,7 +27,7 @@ STATEMENTS = [(re.compile(pattern, re.MULTILINE), replacement) for pattern, repl
     (r"\bfor \(int (\w+) = (.*); \+\+\1\)", r"for (var \1 = \2; \1++)"),
     (r"^( *(?:for|if) \(.*\)) ([^{;]*;)$", r"\1 { \2 }"),
 ]]
-NOT_WGSL = re.compile(r"^#.*|.*(?:\?|\+\+\w|\[|\b(?:bool|float|int) \w|\b(?:do|while)\b|\belse [^{i]).*", re.MULTILINE)
+NOT_WGSL = re.compile(r"^#.*|.*(?:\?|\+\+\w|[^.\w]\w+\[|\b(?:bool|float|int) \w|\b(?:do|while)\b|\belse [^{i]).*", re.MULTILINE)
 
 
 def type_of(word):
@@ -47,14 +48,19 @@ def constant(found):
 
 def structure(found):
     name, opening, text = found.groups()
-    members = MEMBERS.sub(lambda some: re.sub(r"\w+", lambda word: f"{word[0]}: {type_of(some[1])}", some[2]) + ",", text)
+
+    def typed(some):
+        type_ = type_of(some[1]) if not some[3] else f"array<{type_of(some[1])}, {some[3]}>"
+        return re.sub(r"\w+", lambda word: f"{word[0]}: {type_}", some[2]) + ","
+
+    members = MEMBERS.sub(typed, text)
     return "\n".join(wrapped(f"struct {name}{opening}{re.sub(', $', ' ', members)}}}"))
 
 
 def function(found):
     result, name, parameters, body = found.groups()
     parameters = [parameter.split() for parameter in re.split(r",\s*", parameters)]
-    assigned = set(re.findall(r"(?:^ *|\) )(\w+)(?:\.\w+)* = ", body, re.MULTILINE))
+    assigned = set(re.findall(r"(?:^ *|\) )(\w+)(?:\.\w+|\[[^\]]*\])* = ", body, re.MULTILINE))
 
     def declaration(found):
         indent, kind, word, rest = found.groups()
@@ -73,6 +79,8 @@ def function(found):
 
 
 def translated(glsl):
+    for name in dict(CAPACITY.findall(glsl)): # a constant, to be changed where it stands
+        glsl = CAPACITY.sub(r"const \1: i32 = \2;", glsl, 1).replace(name, name.lower())
     text = GUARDS.sub("", PRELUDE.sub(lambda rule: f"{rule[1]}{LANGUAGE.read_text()}\n", glsl))
     text = text.replace(" in GLSL,", " in WGSL,", 1).replace(".glsl:", ".wgsl:", 1)
     text = STRUCT.sub(structure, laid_out(FUNCTION.sub(function, CONSTANT.sub(constant, text))))

@@ -29,6 +29,7 @@
 #include "motion/moving_triangle.h"
 #include "motion/prism.h"
 #include "motion/range.h"
+#include "motion/range_list.h"
 #include "motion/receiver_path.h"
 #include "motion/shutter.h"
 #include "motion/static_receiver.h"

@@ -19,6 +19,9 @@ TRANSLATIONS = [
     ("const float a = -0.7;\n", "const a: f32 = -0x1.666666p-1; // -0.7\n"),
     ("struct s { float a, b; t c; };\n", "struct s { a: f32, b: f32, c: t }\n"),
     ("struct s\n{\n    float a; // first\n    t b;\n};\n", "struct s\n{\n    a: f32, // first\n    b: t,\n}\n"),
+    ("#ifndef N\n#define N 8\n#endif\nstruct s { t c[N]; float a; };\n", "const n: i32 = 8;\nstruct s { c: array<t, n>, a: f32 }\n"),
+    ("s f(s x)\n{\n    for (int i = 0; i < 4; ++i) x.c[i].a = x.c[i + 1].a;\n    return x;\n}\n",
+     "fn f(given_x: s) -> s\n{\n    var x = given_x;\n    for (var i = 0; i < 4; i++) { x.c[i].a = x.c[i + 1].a; }\n    return x;\n}\n"),
     ("float f(float x) { return x; }\n", "fn f(x: f32) -> f32 { return x; }\n"),
     # Declared once, assigned later, a struct filled; a parameter that is assigned.
     ("s f(float x)\n{\n    float y = x * 2.0;\n    float z = y;\n    z = y;\n    s r;\n    r.a = z;\n    return r;\n}\n",

@@ -5,7 +5,7 @@ import re
 
 TOKEN = re.compile(r"\s*(\w[\w.]*(?:(?<=\de)[+-]\d+)?|[<>=!]=|&&|\|\||.)")
 LEVELS = [["||"], ["&&"], ["==", "!="], ["<", "<=", ">", ">="], ["+", "-"], ["*", "/"]]
-EXPRESSION = re.compile(r"(^ +(?:\w+ )?\w+(?: \w+)?(?:\.\w+)* = |\breturn )([^;]*)(?=;)", re.MULTILINE)
+EXPRESSION = re.compile(r"(^ +(?:\w+ )?\w+(?: \w+)?(?:\.\w+|\[[^\]]*\])* = |\breturn )([^;]*)(?=;)", re.MULTILINE)
 KERNELS = re.compile(r"^// \w+/", re.MULTILINE)
 
 
@@ -36,8 +36,10 @@ class Parser:
 
     def members(self):
         members = ""
-        while self.tokens[0] == ".":
+        while self.tokens[0] in (".", "["):
             members += self.take() + self.take()
+            while members.count("[") > members.count("]"): # whole numbers stay as they are
+                members += self.take()
         return members
 
     def bracketed(self):

@@ -17,6 +17,7 @@
 #include <gnomon/moments/stored.h>
 #include <gnomon/motion/edge_field.h>
 #include <gnomon/motion/moving_receiver.h>
+#include <gnomon/motion/range_list.h>
 
 #include <array>
 #include <cmath>
@@ -162,6 +163,19 @@ template <class T> seen_receiver<T> any_seen_receiver(const situation& s, bit_so
     return r;
 }
 
+/// A full list now and then, of few depths, so that ranges hide and meet one another.
+template <class T> range_list<T> any_range_list(const situation& s, bit_source& bits)
+{
+    range_list<T> list = range_list_of(depth_time_range<T>{});
+    for (std::size_t i = bits.below(16); i > 0; --i) {
+        const T z = T(bits.chance(0.2) ? s.texel : s.receiver + bits.uniform(-0.5, 0.5));
+        const T other = bits.chance(0.3) ? z : T(bits.uniform(-1, 1));
+        list = range_list_insert(
+            list, range_between(T(bits.uniform(0, 1)), z, T(double(bits.below(9)) / 8), other, T(bits.below(4))));
+    }
+    return list;
+}
+
 template <class T> struct input_family {
     std::string_view name;
     std::size_t numbers;
@@ -259,6 +273,7 @@ inline constexpr input_family<T> input_families[] = {
      [](auto put, const situation&, bit_source& bits) {
          for (int k = 0; k < 6; ++k) put(bits.uniform(-1, 1));
      }},
+    {"range_list", 42, [](auto put, const situation& s, bit_source& bits) { put(any_range_list<T>(s, bits)); }},
     // The Fourier series: settings, and a phase.
     {"series", 4,
      [](auto put, const situation&, bit_source& bits) {

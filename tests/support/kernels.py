@@ -10,7 +10,8 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-TYPE = r"(?:GNOMON_T\(\w+\)|\w+)"
+TYPE = r"(?:GNOMON_(?:LIST_)?T\(\w+\)|\w+)"
+CAPACITY = r"^#define GNOMON_\w+_CAPACITY (\d+)"
 
 
 class Kernel(NamedTuple):
@@ -34,16 +35,19 @@ class Headers:
         for header in sorted(headers):
             text = re.sub(r"//.*", "", Path(header).read_text())
             name = re.fullmatch(r".*/(gnomon/.*)", Path(header).as_posix())[1] # the clone may be in a folder gnomon, too
-            for struct, body in re.findall(r"^GNOMON_STRUCT\s+(\w+)\s*\{([^}]*)\}", text, re.MULTILINE):
-                self.structs[struct] = [(type_name(member_type), member.strip())
-                                        for member_type, members in re.findall(rf"({TYPE})\s+([\w\s,]+);", body)
-                                        for member in members.split(",")]
-            found = re.findall(rf"^GNOMON_KERNEL\s+({TYPE})\s+(\w+)\(((?:[^()]|\(\w+\))*)\)", text, re.MULTILINE)
-            if len(found) != len(re.findall(r"^GNOMON_KERNEL\b", text, re.MULTILINE)):
+            for struct, body in re.findall(r"^GNOMON_(?:LIST_)?STRUCT\s+(\w+)\s*\{([^}]*)\}", text, re.MULTILINE):
+                capacity = re.search(CAPACITY, text, re.MULTILINE)
+                self.structs[struct] = [(type_name(member_type), element)
+                                        for member_type, members in re.findall(rf"({TYPE})\s+([\w\s,\[\]]+);", body)
+                                        for member in members.split(",")
+                                        for element in elements(member.strip(), capacity)]
+            found = re.findall(rf"^GNOMON_(?:LIST_)?KERNEL\s+({TYPE})\s+(\w+)\(((?:[^()]|\(\w+\))*)\)", text, re.MULTILINE)
+            if len(found) != len(re.findall(r"^GNOMON_(?:LIST_)?KERNEL\b", text, re.MULTILINE)):
                 raise ValueError(f"{header}: a kernel's head that is not understood")
             for result, kernel, parameters in found:
                 types = [type_name(parameter.split()[0]) for parameter in parameters.split(",")]
-                self.kernels.append(Kernel(kernel, name, type_name(result), types))
+                if "GNOMON_MASK" not in [result, *types]: # a part of kernels: a mask is no number
+                    self.kernels.append(Kernel(kernel, name, type_name(result), types))
 
     def numbers(self, type_):
         """The numbers of a type as member accesses, such as .phase.cosine; of a Real, the value itself."""
@@ -55,8 +59,14 @@ class Headers:
         return sum(len(self.numbers(parameter)) for parameter in kernel.parameters)
 
 
+def elements(member, capacity):
+    """A member's name, or of an array those of its elements, as many as unless a user sets another number."""
+    name = member.removesuffix("[GNOMON_CAPACITY]")
+    return [member] if name == member else [f"{name}[{i}]" for i in range(int(capacity[1]))]
+
+
 def type_name(text):
-    name = re.sub(r"GNOMON_T\((\w+)\)", r"\1", text)
+    name = re.sub(r"GNOMON_(?:LIST_)?T\((\w+)\)", r"\1", text)
     return "Real" if name == "GNOMON_SETTING" else name
 
 

@@ -107,7 +107,7 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) fragment_cover_end(GNOMON_T(fragment_co
     GNOMON_MASK covers = known && Real(0) < state.ends && alone;
     GNOMON_T(moment_fragment) n = state.nearest;
     GNOMON_T(depth_time_range) cover = range_between(n.t, n.z, Real(1) - n.t, state.far_depth, n.id);
-    return range_choice(gnomon_select(covers, Real(1), Real(0)), cover, range_empty(Real(-1)));
+    return range_select(covers, cover, range_empty(Real(-1)));
 }
 
 /// The depth that covers must not be behind, 1.
@@ -141,7 +141,7 @@ GNOMON_KERNEL GNOMON_T(range_cover) range_cover_add(GNOMON_T(range_cover) state,
 
     Real other = gnomon_select(better, gnomon_select(first, state.far_plane, best_near), near_depth);
     state.front = gnomon_select(some && other < state.front, other, state.front);
-    state.best = range_choice(gnomon_select(better, Real(1), Real(0)), r, state.best);
+    state.best = range_select(better, r, state.best);
     return state;
 }
 
@@ -149,7 +149,7 @@ GNOMON_KERNEL GNOMON_T(range_cover) range_cover_add(GNOMON_T(range_cover) state,
 GNOMON_KERNEL GNOMON_T(depth_time_range) range_cover_end(GNOMON_T(range_cover) state)
 {
     GNOMON_MASK covers = gnomon_max(state.best.z0, state.best.z1) <= state.front;
-    return range_choice(gnomon_select(covers, Real(1), Real(0)), state.best, range_empty(Real(-1)));
+    return range_select(covers, state.best, range_empty(Real(-1)));
 }
 
 /// 1 where a range may be left out of a list that keeps the cover, since no test of a receiver changes by it: one that

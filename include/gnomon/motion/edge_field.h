@@ -62,8 +62,8 @@ GNOMON_KERNEL GNOMON_T(moving_vertex) moving_vertex_from(GNOMON_T(moving_vertex)
 }
 
 /// Samples are then given relative to the origin, best one near them. Error of a coefficient at sample s, like that of
-/// the covered times: 64 2^-p (X_i Y_j + Y_i X_j), X = max(|x| + (|origin_x| + |s_x|) |w|) over the shutter's ends and Y
-/// alike, p the bits of the significand.
+/// the covered times: 64 2^-p (X_i Y_j + Y_i X_j), X = max(|x| + (|origin_x| + |s_x|) |w|) over the shutter's ends and
+/// Y alike, p the bits of the significand.
 GNOMON_KERNEL GNOMON_T(moving_field) moving_field_of(GNOMON_T(moving_triangle) m, Real origin_x, Real origin_y)
 {
     GNOMON_T(moving_vertex) a = moving_vertex_from(m.a, origin_x, origin_y);

@@ -309,15 +309,15 @@ GNOMON_KERNEL GNOMON_T(depth_time_range)
 /// though it may last too long.
 GNOMON_KERNEL GNOMON_T(prism_ranges) prism_pair_end(GNOMON_T(prism_pair) state)
 {
-    Real some = gnomon_select(Real(1) < state.count, Real(1), Real(0));
-    Real two = gnomon_select(state.count == Real(4), Real(1), Real(0));
+    GNOMON_MASK some = Real(1) < state.count;
+    GNOMON_MASK two = state.count == Real(4);
     GNOMON_T(depth_time_range) whole = prism_range_between(state.earliest, state.latest, state.id);
     GNOMON_T(depth_time_range) front = prism_range_between(state.first, state.second, state.id);
     GNOMON_T(depth_time_range) rear = prism_range_between(state.third, state.fourth, state.id);
     GNOMON_T(prism_ranges) r;
-    r.first = range_choice(some, range_choice(two, front, whole), range_empty(state.id));
-    r.second = range_choice(two, rear, range_empty(state.id));
-    r.count = some + two;
+    r.first = range_select(some, range_select(two, front, whole), range_empty(state.id));
+    r.second = range_select(two, rear, range_empty(state.id));
+    r.count = gnomon_select(some, gnomon_select(two, Real(2), Real(1)), Real(0));
     return r;
 }
 

@@ -12,6 +12,10 @@ GNOMON_NAMESPACE_BEGIN
 /// Times in [0, 1], signed depths, and a whole number that floats hold, such as a triangle's index below 2^24.
 GNOMON_STRUCT depth_time_range { Real t0, t1, z0, z1, id; };
 
+GNOMON_CONSTANT(range_mixed, -1.0);                // the id of what belongs to several surfaces: it shadows them all
+GNOMON_CONSTANT(range_nothing, -2.0);              // the id of a time without any surface
+GNOMON_CONSTANT(range_far, 1152921504606846976.0); // 2^60: products of two depths are finite in float
+
 /// The range between two points of time and depth, in any order.
 GNOMON_KERNEL GNOMON_T(depth_time_range) range_between(Real time_a, Real z_a, Real time_b, Real z_b, Real id)
 {
@@ -34,20 +38,6 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_empty(Real id)
     r.z0 = Real(1);
     r.z1 = Real(1);
     r.id = id;
-    return r;
-}
-
-/// The second where chosen is 0, else the first.
-GNOMON_KERNEL GNOMON_T(depth_time_range)
-    range_choice(Real chosen, GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
-{
-    GNOMON_MASK second = chosen == Real(0);
-    GNOMON_T(depth_time_range) r;
-    r.t0 = gnomon_select(second, b.t0, a.t0);
-    r.t1 = gnomon_select(second, b.t1, a.t1);
-    r.z0 = gnomon_select(second, b.z0, a.z0);
-    r.z1 = gnomon_select(second, b.z1, a.z1);
-    r.id = gnomon_select(second, b.id, a.id);
     return r;
 }
 
@@ -81,17 +71,99 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_clip(GNOMON_T(depth_time_range) r
     return c;
 }
 
+/// a where the mask is set, b elsewhere.
+GNOMON_KERNEL GNOMON_T(depth_time_range)
+    range_select(GNOMON_MASK mask, GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+{
+    GNOMON_T(depth_time_range) r;
+    r.t0 = gnomon_select(mask, a.t0, b.t0);
+    r.t1 = gnomon_select(mask, a.t1, b.t1);
+    r.z0 = gnomon_select(mask, a.z0, b.z0);
+    r.z1 = gnomon_select(mask, a.z1, b.z1);
+    r.id = gnomon_select(mask, a.id, b.id);
+    return r;
+}
+
+/// r where the mask is set, elsewhere nothing: an empty range that begins after all others.
+GNOMON_KERNEL GNOMON_T(depth_time_range) range_kept(GNOMON_MASK mask, GNOMON_T(depth_time_range) r)
+{
+    return range_select(mask, r, range_empty(GNOMON_LITERAL(range_nothing)));
+}
+
+/// A total order: by begin, end, depth at begin and at end, id. Which argument comes first cannot change it.
+GNOMON_KERNEL GNOMON_MASK range_is_before(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+{
+    GNOMON_MASK by_id = a.id < b.id;
+    GNOMON_MASK by_z1 = a.z1 < b.z1 || (a.z1 == b.z1 && by_id);
+    GNOMON_MASK by_z0 = a.z0 < b.z0 || (a.z0 == b.z0 && by_z1);
+    GNOMON_MASK by_t1 = a.t1 < b.t1 || (a.t1 == b.t1 && by_z0);
+    return a.t0 < b.t0 || (a.t0 == b.t0 && by_t1);
+}
+
+/// Whether a hides b for as long as b lasts, as far as comparisons tell: all of a is in front of all of b, or both have
+/// the same times and a has the nearer ends. Equal ones the lower id hides. Nothing is rounded, so what hides b hides
+/// all that b hides: what is left of many ranges when the hidden ones go depends on no order.
+GNOMON_KERNEL GNOMON_MASK range_hides(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+{
+    GNOMON_MASK during = a.t0 <= b.t0 && b.t1 <= a.t1;
+    GNOMON_MASK apart = gnomon_max(a.z0, a.z1) <= gnomon_min(b.z0, b.z1);
+    GNOMON_MASK nearer = a.t0 == b.t0 && a.t1 == b.t1 && a.z0 <= b.z0 && a.z1 <= b.z1;
+    GNOMON_MASK equal = nearer && a.z0 == b.z0 && a.z1 == b.z1;
+    return during && (apart || nearer) && !(equal && b.id < a.id);
+}
+
+/// What of a falls into the time of b, exactly; empty where nothing does.
+GNOMON_KERNEL GNOMON_T(depth_time_range) range_intersect(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+{
+    return range_clip(a, b.t0, b.t1);
+}
+
+/// When two ranges of the same times are at the same depth; one of these times where they never are.
+GNOMON_KERNEL Real range_meeting(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+{
+    Real distance0 = a.z0 - b.z0;
+    Real distance1 = a.z1 - b.z1;
+    Real passed = saturate_or_zero(distance0 / (distance0 - distance1));
+    return a.t0 * (Real(1) - passed) + a.t1 * passed;
+}
+
 /// When both are at the same depth; an end of the time that they have in common where they never are, so that cutting
 /// both there (range_clip) leaves them in one order on either side. Error: (80 z / d + 4) 2^-p, z the largest depth and
 /// d the change of their distance.
 GNOMON_KERNEL Real range_crossing(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
 {
-    Real begin = gnomon_max(a.t0, b.t0);
-    Real end = gnomon_min(a.t1, b.t1);
-    Real distance0 = range_depth(a, begin) - range_depth(b, begin);
-    Real distance1 = range_depth(a, end) - range_depth(b, end);
-    Real passed = saturate_or_zero(distance0 / (distance0 - distance1));
-    return begin * (Real(1) - passed) + end * passed;
+    return range_meeting(range_intersect(a, b), range_intersect(b, a));
+}
+
+/// What of a is in front of b; empty where nothing is. Where depths are equal throughout, the lower id is in front.
+/// With what of b is in front of a it fills the time that both have, bit for bit, unless both depths and ids are equal.
+/// Error: the change of front is that of range_crossing.
+GNOMON_KERNEL GNOMON_T(depth_time_range) range_ahead_of(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+{
+    GNOMON_T(depth_time_range) near_a = range_intersect(a, b);
+    GNOMON_T(depth_time_range) near_b = range_intersect(b, a);
+    Real before0 = near_b.z0 - near_a.z0;
+    Real before1 = near_b.z1 - near_a.z1;
+    GNOMON_MASK tie = before0 == Real(0) && before1 == Real(0) && a.id < b.id;
+    GNOMON_MASK first = Real(0) < before0 || (before0 == Real(0) && Real(0) < before1) || tie;
+    GNOMON_MASK last = Real(0) < before1 || (before1 == Real(0) && Real(0) < before0) || tie;
+    Real crossing = clamp_or_nan(range_meeting(near_a, near_b), near_a.t0, near_a.t1);
+    Real begin = gnomon_select(first, near_a.t0, gnomon_select(last, crossing, Real(1)));
+    Real end = gnomon_select(last, near_a.t1, gnomon_select(first, crossing, Real(0)));
+    GNOMON_MASK ever = begin < end;
+    return range_clip(a, gnomon_select(ever, begin, Real(1)), gnomon_select(ever, end, Real(0)));
+}
+
+/// What remains of it where the other one hides its begin, its end or all of it. A range cannot have a hole: where only
+/// its middle is hidden it stays whole. It is cut at times at which the other one is there, so that no time is without
+/// either; the depth line moves by the error of range_depth.
+GNOMON_KERNEL GNOMON_T(depth_time_range) range_trim(GNOMON_T(depth_time_range) r, GNOMON_T(depth_time_range) other)
+{
+    GNOMON_T(depth_time_range) hiding = range_ahead_of(other, r);
+    GNOMON_MASK some = hiding.t0 < hiding.t1;
+    Real begin = gnomon_select(some && hiding.t0 <= r.t0, hiding.t1, r.t0);
+    Real end = gnomon_select(some && r.t1 <= hiding.t1, hiding.t0, r.t1);
+    return range_clip(r, begin, end);
 }
 
 /// What of it is in front of a receiver between two times; empty where nothing is. The course of the receiver's

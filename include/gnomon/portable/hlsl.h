@@ -9,6 +9,10 @@
 #define GNOMON_KERNEL
 #define GNOMON_STRUCT struct
 #define GNOMON_T(name) name
+#define GNOMON_LIST_KERNEL
+#define GNOMON_LIST_STRUCT struct
+#define GNOMON_LIST_T(name) name
+#define GNOMON_CAPACITY GNOMON_RANGE_CAPACITY
 #define GNOMON_MASK bool
 #define GNOMON_SETTING Real
 #define GNOMON_CONSTANT(name, value) static const Real name = Real(value)

@@ -10,6 +10,10 @@
 #define GNOMON_KERNEL template <class Real> inline
 #define GNOMON_STRUCT template <class Real> struct
 #define GNOMON_T(name) name<Real>
+#define GNOMON_LIST_KERNEL template <class Real, int capacity = GNOMON_RANGE_CAPACITY> inline
+#define GNOMON_LIST_STRUCT template <class Real, int capacity = GNOMON_RANGE_CAPACITY> struct
+#define GNOMON_LIST_T(name) name<Real, capacity>
+#define GNOMON_CAPACITY capacity
 #define GNOMON_MASK bool
 #define GNOMON_SETTING gnomon::same_t<Real>
 #define GNOMON_CONSTANT(name, value) constant constexpr float name = float(value)

@@ -21,6 +21,10 @@ typedef float Real;
 #define GNOMON_KERNEL static inline
 #define GNOMON_STRUCT struct
 #define GNOMON_T(name) struct name
+#define GNOMON_LIST_KERNEL static inline
+#define GNOMON_LIST_STRUCT struct
+#define GNOMON_LIST_T(name) struct name
+#define GNOMON_CAPACITY GNOMON_RANGE_CAPACITY
 #define GNOMON_MASK bool
 #define GNOMON_SETTING Real
 #define GNOMON_CONSTANT(name, value) __constant float name = (float)(value)

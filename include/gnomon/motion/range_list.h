@@ -1,0 +1,265 @@
+// What a texel keeps of the surfaces that pass it while the shutter is open: a list of few depth-time ranges (Gribel et
+// al. 2010; Hong & Oh 2017), and its lower envelope, what the light sees when (the resolve of Palmer 2011, 2.4).
+//
+//     list = range_list_of(range);                  list = range_list_insert(list, range) for every other one
+//     resolved = range_list_resolve(list);          or span by span, t = 0; span = range_list_front(list, t);
+//                                                   t = span.t1 as long as t < 1
+//
+// A list holds ranges as they were inserted, less those that another one hides by mere comparison (range_hides). Hence,
+// as long as they fit, neither the order of insertion nor rounding has a say in what it holds, nor in the resolve. When
+// one too many comes, first whatever several others hide together goes, then the two most similar ranges become one
+// in front of both (range_merge.h): what is in shadow stays in shadow, and what was lit and is not is counted.
+//
+// The capacity is GNOMON_RANGE_CAPACITY, if that is defined before inclusion, else 8; in C++ it is a template parameter
+// with this default.
+#ifndef GNOMON_MOTION_RANGE_LIST_H
+#define GNOMON_MOTION_RANGE_LIST_H
+#include "range_merge.h"
+
+#include "static_receiver.h"
+GNOMON_NAMESPACE_BEGIN
+
+#ifndef GNOMON_RANGE_CAPACITY
+#define GNOMON_RANGE_CAPACITY 8
+#endif
+
+/// In the order of range_is_before, with empty ranges between them. What merging has cost is bounded from above: for
+/// all but a time of time_added there is something where something was, in front of it by depth_added at most.
+GNOMON_LIST_STRUCT range_list
+{
+    GNOMON_T(depth_time_range) ranges[GNOMON_CAPACITY];
+    Real time_added, depth_added;
+};
+
+/// It as lists hold it; nothing where it is empty, not within [0, 1], NaN or beyond 2^60.
+GNOMON_KERNEL GNOMON_T(depth_time_range) range_or_nothing(GNOMON_T(depth_time_range) r)
+{
+    r.id = gnomon_max(r.id, GNOMON_LITERAL(range_mixed));
+    GNOMON_MASK known = gnomon_abs(r.z0) + gnomon_abs(r.z1) < GNOMON_LITERAL(range_far);
+    return range_kept(Real(0) <= r.t0 && r.t0 < r.t1 && r.t1 <= Real(1) && known, r);
+}
+
+/// It, moved to the front by 2^-16: by more than roundings of up to 18 cuts and of where they are, 268 2^-24, amount
+/// to.
+GNOMON_KERNEL GNOMON_T(depth_time_range) range_nearer(GNOMON_T(depth_time_range) r)
+{
+    r.z0 = r.z0 - Real(0.0000152587890625);
+    r.z1 = r.z1 - Real(0.0000152587890625);
+    return r;
+}
+
+/// Counts what a merge has cost.
+GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_pay(GNOMON_LIST_T(range_list) list, GNOMON_T(range_pair) p)
+{
+    list.time_added = saturate_or_zero(list.time_added + p.gap);
+    list.depth_added = gnomon_max(list.depth_added + p.shift, Real(0));
+    return list;
+}
+
+/// One more range, at its place among the others, into a list with an empty one, which range_list_insert sees to.
+GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list)
+    range_list_place(GNOMON_LIST_T(range_list) list, GNOMON_T(depth_time_range) r)
+{
+    for (int i = 0; i + 1 < GNOMON_CAPACITY; ++i) { // the first empty one goes to the end
+        GNOMON_T(depth_time_range) s = list.ranges[i];
+        GNOMON_T(depth_time_range) next = list.ranges[i + 1];
+        GNOMON_MASK empty = s.t1 <= s.t0 && r.t0 < r.t1;
+        list.ranges[i] = range_select(empty, next, s);
+        list.ranges[i + 1] = range_select(empty, s, next);
+    }
+    for (int k = 0; k + 1 < GNOMON_CAPACITY; ++k) {
+        GNOMON_T(depth_time_range) s = list.ranges[k];
+        GNOMON_MASK here = s.t0 < s.t1 && range_is_before(r, s);
+        list.ranges[k] = range_select(here, r, s);
+        r = range_select(here, s, r);
+    }
+    GNOMON_T(depth_time_range) last = list.ranges[GNOMON_CAPACITY - 1];
+    list.ranges[GNOMON_CAPACITY - 1] = range_select(r.t0 < r.t1, r, last);
+    return list;
+}
+
+/// One more range; times outside of [0, 1] are cut off. NaN, or a depth beyond 2^60, inserts nothing. Without an
+/// overflow the ranges of the list depend on no order, bit for bit but for the sign of a zero. With one they do, but at
+/// no time is the front farther than that of all ranges inserted: strictly, as long as depths are in [-1, 1] and the
+/// capacity is not above 16.
+GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list)
+    range_list_insert(GNOMON_LIST_T(range_list) list, GNOMON_T(depth_time_range) r)
+{
+    r = range_or_nothing(range_clip(r, Real(0), Real(1)));
+    list = range_list_pay(list, range_pair_none(r)); // counts that are NaN become 0
+    Real room = Real(0);
+    for (int i = 0; i < GNOMON_CAPACITY; ++i) {
+        GNOMON_T(depth_time_range) s = range_or_nothing(list.ranges[i]);
+        r = range_kept(!range_hides(s, r), r);
+        s = range_kept(!range_hides(r, s), s);
+        list.ranges[i] = s;
+        room = gnomon_select(s.t0 < s.t1, room, Real(1));
+    }
+    GNOMON_MASK full = r.t0 < r.t1 && room < Real(1);
+    if (gnomon_any(full)) {
+        // Whatever the others hide together, even if it were a margin nearer.
+        for (int j = 0; j < GNOMON_CAPACITY; ++j) {
+            GNOMON_T(depth_time_range) s = range_trim(range_nearer(list.ranges[j]), r);
+            for (int k = 0; k < GNOMON_CAPACITY; ++k) s = range_trim(s, list.ranges[k]);
+            list.ranges[j] = range_kept(!full || s.t0 < s.t1, list.ranges[j]);
+        }
+        GNOMON_T(depth_time_range) left = range_nearer(r);
+        for (int m = 0; m < GNOMON_CAPACITY; ++m) left = range_trim(left, list.ranges[m]);
+        r = range_kept(!full || left.t0 < left.t1, r);
+
+        // The most similar pair, the new one's place being -1. Where there is room now, one of the pair is empty.
+        GNOMON_T(range_pair) best = range_pair_none(r);
+        Real first = Real(-1);
+        Real second = Real(-1);
+        Real place = Real(0);
+        for (int a = 0; a < GNOMON_CAPACITY; ++a) {
+            GNOMON_T(depth_time_range) other = r;
+            Real other_place = Real(-1);
+            for (int b = 0; b <= a; ++b) {
+                GNOMON_T(range_pair) pair = range_pair_of(list.ranges[a], other);
+                first = gnomon_select(pair.cost < best.cost, place, first);
+                second = gnomon_select(pair.cost < best.cost, other_place, second);
+                best = range_pair_cheaper(best, pair);
+                other = list.ranges[b];
+                other_place = other_place + Real(1);
+            }
+            place = place + Real(1);
+        }
+        place = Real(0);
+        for (int n = 0; n < GNOMON_CAPACITY; ++n) {
+            GNOMON_MASK merged = full && (place == first || place == second);
+            list.ranges[n] = range_kept(!merged, list.ranges[n]);
+            place = place + Real(1);
+        }
+        r = range_kept(!(full && second < Real(0)), r);
+        best.merged = range_kept(full, best.merged);
+        best.gap = gnomon_select(full, best.gap, Real(0));
+        best.shift = gnomon_select(full, best.shift, Real(0));
+        list = range_list_place(range_list_pay(list, best), best.merged);
+    }
+    return range_list_place(list, r);
+}
+
+/// The list of one range; of none where it is empty.
+GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_of(GNOMON_T(depth_time_range) r)
+{
+    GNOMON_LIST_T(range_list) list;
+    for (int i = 0; i < GNOMON_CAPACITY; ++i) list.ranges[i] = range_kept(r.t0 < r.t0, r);
+    list.time_added = Real(0);
+    list.depth_added = Real(0);
+    return range_list_insert(list, r);
+}
+
+/// The span that the light sees from time t on: of the range that is in front just after t, what lasts until it ends or
+/// another one gets in front. Where there is none, until the next begins, range_nothing at the far plane. It ends after
+/// t, but for t = 1, whatever the list holds: by begins, ends and crossings there are at most (N + 1) (N + 2) / 2 spans
+/// from 0 to 1, N the capacity. A t outside of [0, 1] is moved there, NaN to 0.
+GNOMON_LIST_KERNEL GNOMON_T(depth_time_range) range_list_front(GNOMON_LIST_T(range_list) list, Real t)
+{
+    Real begin = saturate_or_zero(t);
+    GNOMON_T(depth_time_range) front = range_kept(begin < begin, list.ranges[0]);
+    Real unchanged = Real(1); // until when all comparisons of this loop come out the same
+    for (int i = 0; i < GNOMON_CAPACITY; ++i) {
+        GNOMON_T(depth_time_range) r = range_or_nothing(list.ranges[i]);
+        GNOMON_T(depth_time_range) ahead = range_ahead_of(r, front);
+        GNOMON_MASK during = r.t0 <= begin && begin < r.t1;
+        GNOMON_MASK alone = front.t1 <= front.t0;
+        GNOMON_MASK nearer = ahead.t0 <= begin && begin < ahead.t1;
+        Real change = gnomon_select(begin < ahead.t0, ahead.t0, gnomon_select(nearer, ahead.t1, Real(1)));
+        change = gnomon_min(change, gnomon_min(front.t1, r.t1));
+        unchanged = gnomon_select(during && !alone, gnomon_min(unchanged, change), unchanged);
+        front = range_select(nearer || (during && alone), r, front);
+    }
+    GNOMON_MASK some = front.t0 < front.t1;
+    Real end = gnomon_select(some, front.t1, Real(1));
+    for (int k = 0; k < GNOMON_CAPACITY; ++k) {
+        GNOMON_T(depth_time_range) r = range_or_nothing(list.ranges[k]);
+        GNOMON_T(depth_time_range) ahead = range_ahead_of(r, front);
+        Real next = gnomon_select(some, ahead.t0, r.t0);
+        end = gnomon_select(begin < next, gnomon_min(end, next), end);
+        // Where three meet, rounding may have each in front of the next. That all are as near lasts as long as it does.
+        GNOMON_MASK circle = ahead.t0 <= begin && begin < ahead.t1;
+        end = gnomon_select(circle, gnomon_min(end, unchanged), end);
+    }
+    GNOMON_T(depth_time_range) span = range_clip(front, begin, end);
+    span.t0 = begin;
+    span.t1 = end;
+    return span;
+}
+
+/// One more range, after all of the others, which are apart and in order of time. Where there is no room two neighbours
+/// become one.
+GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list)
+    range_list_append(GNOMON_LIST_T(range_list) list, GNOMON_T(depth_time_range) r)
+{
+    // The last and r are neighbours, too. Places count from the end; two of which one is empty come first.
+    GNOMON_T(range_pair) best = range_pair_none(r);
+    Real at = Real(0);
+    Real place = Real(0);
+    GNOMON_T(depth_time_range) next = r;
+    for (int i = 0; i < GNOMON_CAPACITY; ++i) {
+        GNOMON_T(depth_time_range) s = list.ranges[GNOMON_CAPACITY - 1 - i];
+        GNOMON_T(range_pair) pair = range_pair_of(s, next);
+        at = gnomon_select(pair.cost < best.cost, place, at);
+        best = range_pair_cheaper(best, pair);
+        next = s;
+        place = place + Real(1);
+    }
+    place = Real(0);
+    next = r;
+    for (int k = 0; k < GNOMON_CAPACITY; ++k) {
+        GNOMON_T(depth_time_range) s = list.ranges[GNOMON_CAPACITY - 1 - k];
+        GNOMON_T(depth_time_range) here = range_select(place == at, best.merged, s);
+        list.ranges[GNOMON_CAPACITY - 1 - k] = range_select(place < at, next, here);
+        next = s;
+        place = place + Real(1);
+    }
+    return range_list_pay(list, best);
+}
+
+/// What the light sees: ranges apart from one another, in order of time, so that static_receiver.h may add them up.
+/// What does not fit is merged with its neighbour, and counted. Empty ones at the end.
+GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_resolve(GNOMON_LIST_T(range_list) list)
+{
+    Real t = Real(0);
+    GNOMON_LIST_T(range_list) resolved = list;
+    for (int i = 0; i < GNOMON_CAPACITY; ++i) resolved.ranges[i] = range_kept(t < t, list.ranges[i]);
+    for (int k = 0; k < (GNOMON_CAPACITY + 1) * (GNOMON_CAPACITY + 2) / 2; ++k) {
+        if (gnomon_any(t < Real(1))) {
+            GNOMON_T(depth_time_range) span = range_list_front(list, t);
+            GNOMON_MASK some = GNOMON_LITERAL(range_nothing) < span.id;
+            resolved = range_list_append(resolved, range_kept(some, span));
+            t = span.t1;
+        }
+    }
+    return resolved;
+}
+
+/// Shadow intensity, 0 or 1, at time t and depth z on the surface with the given id; see range_intensity.
+GNOMON_LIST_KERNEL Real range_list_intensity(GNOMON_LIST_T(range_list) list, Real t, Real z, Real id,
+                                             GNOMON_SETTING bias)
+{
+    Real intensity = Real(0);
+    for (int i = 0; i < GNOMON_CAPACITY; ++i)
+        intensity = gnomon_max(intensity, range_intensity(list.ranges[i], t, z, id, bias));
+    return intensity;
+}
+
+/// All ranges of a resolved list, for a shutter that opens and closes at once.
+GNOMON_LIST_KERNEL GNOMON_T(static_receiver)
+    static_receiver_add_list_box(GNOMON_T(static_receiver) state, GNOMON_LIST_T(range_list) resolved)
+{
+    for (int i = 0; i < GNOMON_CAPACITY; ++i) state = static_receiver_add_box(state, resolved.ranges[i]);
+    return state;
+}
+
+/// All ranges of a resolved list, for a shutter that opens and closes evenly.
+GNOMON_LIST_KERNEL GNOMON_T(static_receiver)
+    static_receiver_add_list_tent(GNOMON_T(static_receiver) state, GNOMON_LIST_T(range_list) resolved)
+{
+    for (int i = 0; i < GNOMON_CAPACITY; ++i) state = static_receiver_add_tent(state, resolved.ranges[i]);
+    return state;
+}
+
+GNOMON_NAMESPACE_END
+#endif
