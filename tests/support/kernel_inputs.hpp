@@ -7,17 +7,11 @@
 //     one           every number special, or all of any bits
 #pragma once
 
-#include "distributions.hpp"
-#include "hostile.hpp"
 #include "kernel_call.hpp"
-#include "moving_triangles.hpp"
 #include "prisms.hpp"
+#include "situations.hpp"
 
 #include <gnomon/filters/convolution.h>
-#include <gnomon/moments/stored.h>
-#include <gnomon/motion/edge_field.h>
-#include <gnomon/motion/moving_receiver.h>
-#include <gnomon/motion/range_list.h>
 
 #include <array>
 #include <cmath>
@@ -30,29 +24,6 @@
 #include <vector>
 
 namespace gnomon::test {
-
-/// What one row sees: six moments of a distribution, its receiver and one of its depths.
-struct situation {
-    std::array<double, 6> b;
-    double receiver, texel;
-};
-
-inline std::vector<situation> draw_situations(std::size_t count, std::uint64_t seed)
-{
-    distribution_source source(seed);
-    std::vector<situation> result(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const distribution d = source.draw(family(i % family_count));
-        situation& s = result[i];
-        for (std::size_t k = 0; k < d.depths.size(); ++k) {
-            double power = d.weights[k];
-            for (double& b : s.b) b += power *= d.depths[k];
-        }
-        s.receiver = source.receiver(d);
-        s.texel = d.depths[i / family_count % d.depths.size()];
-    }
-    return result;
-}
 
 /// Writes structs and scalars, one number after the other.
 template <class T> class row_writer {
@@ -70,111 +41,6 @@ template <class T> class row_writer {
   private:
     T* at_;
 };
-
-template <class T> moments4<T> moments4_in(const situation& s) { return {T(s.b[0]), T(s.b[1]), T(s.b[2]), T(s.b[3])}; }
-template <class T> moments6<T> moments6_in(const situation& s)
-{
-    return {T(s.b[0]), T(s.b[1]), T(s.b[2]), T(s.b[3]), T(s.b[4]), T(s.b[5])};
-}
-
-template <class T> double any_number(bit_source& bits)
-{
-    if (bits.chance(0.1)) return double(bits.below(9)) - 4;
-    return std::ldexp(bits.uniform(-1, 1), int(bits.below(61)) - 30);
-}
-
-/// Leading coefficient 1 and three real roots, near one another now and then.
-inline std::array<double, 3> monic_cubic(bit_source& bits)
-{
-    const double r = bits.uniform(-2, 2), s = bits.chance(0.3) ? r * (1 + bits.uniform(0, 1e-3)) : bits.uniform(-2, 2);
-    const double t = bits.uniform(-2, 2);
-    return {-(r + s + t), r * s + s * t + t * r, -r * s * t};
-}
-
-template <class T> hankel4<T> any_hankel4(const situation& s, bit_source& bits)
-{
-    const moments4<T> b = moments4_in<T>(s);
-    switch (bits.below(4)) {
-        case 0:
-            return hankel4_fast(b);
-        case 1:
-            return hankel4_from_half(b);
-        case 2:
-            return hankel4_biased(b, T(bias4_raw_b2), T(bias4_raw_b4), T(stored4_float_weight));
-        default:
-            return hankel4_from_float(b);
-    }
-}
-
-template <class T> hankel6<T> any_hankel6(const situation& s, bit_source& bits)
-{
-    const moments6<T> b = moments6_in<T>(s);
-    switch (bits.below(3)) {
-        case 0:
-            return hankel6_fast(b);
-        case 1:
-            return hankel6_biased(b, T(bias6_raw_b2), T(bias6_raw_b4), T(bias6_raw_b6), T(stored6_float_weight));
-        default:
-            return hankel6_from_float(b);
-    }
-}
-
-/// A moving triangle and a sample, as T, and the edge functions between them.
-template <class T> struct seen_triangle {
-    moving_triangle<T> triangle;
-    moving_edges<T> edges;
-};
-
-template <class T> seen_triangle<T> any_seen_triangle(bit_source& bits)
-{
-    const moving_scene scene = draw_moving_scene(movement(bits.below(movement_count)), bits);
-    const moving_triangle<T> triangle = rounded_triangle<T>(scene.triangle);
-    return {triangle, moving_triangle_edges(triangle, T(scene.s_x), T(scene.s_y))};
-}
-
-template <class T> moving_field<T> any_moving_field(bit_source& bits)
-{
-    return moving_field_of(any_seen_triangle<T>(bits).triangle, T(bits.uniform(-1, 1)), T(bits.uniform(-1, 1)));
-}
-
-/// A receiver on its way over some texels, by an orthographic light or by one in perspective, and as it leaves some
-/// texel of its sweep, half of the time by bilinear weights.
-template <class T> struct seen_receiver {
-    receiver_path<T> path;
-    texel_sweep<T> sweep;
-    moving_receiver<T> state;
-};
-
-template <class T> seen_receiver<T> any_seen_receiver(const situation& s, bit_source& bits)
-{
-    seen_receiver<T> r{};
-    const double begin = bits.uniform(0, 1), end = bits.uniform(0, 1);
-    r.path.depth = range_between(T(begin), T(s.receiver), T(end), T(bits.uniform(-1, 1)), T(bits.below(4)));
-    const bool perspective = bits.chance(0.5);
-    r.path.w0 = perspective ? T(bits.uniform(0.5, 4)) : T(1);
-    r.path.w1 = perspective ? T(bits.uniform(0.5, 4)) : T(1);
-    r.path.x0 = T(bits.uniform(-4, 4)) * r.path.w0, r.path.y0 = T(bits.uniform(-4, 4)) * r.path.w0;
-    r.path.x1 = T(bits.uniform(-4, 4)) * r.path.w1, r.path.y1 = T(bits.uniform(-4, 4)) * r.path.w1;
-    r.sweep = texel_sweep_begin(r.path);
-    for (std::size_t k = bits.below(6); k > 0; --k) r.sweep = texel_sweep_next(r.sweep);
-    r.state = moving_receiver_texel(moving_receiver_begin(r.path, T(0), T(1)), r.sweep);
-    if (bits.chance(0.5))
-        r.state = moving_receiver_tap(r.state, r.sweep, T(bits.below(2)), T(bits.below(2)), T(1 + bits.below(2)));
-    return r;
-}
-
-/// A full list now and then, of few depths, so that ranges hide and meet one another.
-template <class T> range_list<T> any_range_list(const situation& s, bit_source& bits)
-{
-    range_list<T> list = range_list_of(depth_time_range<T>{});
-    for (std::size_t i = bits.below(16); i > 0; --i) {
-        const T z = T(bits.chance(0.2) ? s.texel : s.receiver + bits.uniform(-0.5, 0.5));
-        const T other = bits.chance(0.3) ? z : T(bits.uniform(-1, 1));
-        list = range_list_insert(
-            list, range_between(T(bits.uniform(0, 1)), z, T(double(bits.below(9)) / 8), other, T(bits.below(4))));
-    }
-    return list;
-}
 
 template <class T> struct input_family {
     std::string_view name;
