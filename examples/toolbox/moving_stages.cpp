@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
+#include <limits>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -79,21 +81,6 @@ std::vector<glm::vec3> positions_at(const moving_scene& world, bool closing)
     return result;
 }
 
-// Where the shadows on y = 0 end. One of light and caster stands still in each scene, so that a corner's shadow is on
-// a straight line, and that of the first and the last moment bound all between.
-bounds shadows(const moving_scene& casters, const glm::dvec3& open, const glm::dvec3& closing)
-{
-    bounds result;
-    for (const bool last : {false, true}) {
-        const glm::dvec3& light = last ? closing : open;
-        for (const glm::dvec3 position : positions_at(casters, last)) {
-            if (!(position.y < light.y)) throw std::invalid_argument("spot light: a caster is not below it");
-            result.include(glm::vec3(light + light.y / (light.y - position.y) * (position - light)));
-        }
-    }
-    return result;
-}
-
 struct lamp {
     glm::dvec3 open, closing;
 };
@@ -103,25 +90,35 @@ struct view {
     double degrees;
 };
 
-moving_stage staged(const moving_scene& casters, moving_scene world, const lamp& light, const view& eye, double aspect)
+const glm::vec3 green(0.05f, 0.6f, 0.1f), cyan(0.02f, 0.6f, 0.7f);
+
+using interests = std::vector<point_of_interest>;
+
+moving_stage staged(const moving_scene& casters, moving_scene world, const lamp& light, const view& eye, double aspect,
+                    interests places)
 {
-    moving_stage result{std::move(world), {}, {}, {}};
+    moving_stage result{std::move(world), {}, {}, std::move(places)};
     result.eye = perspective_view_from(eye.position, eye.target, bounds_of(result.world).corners(),
                                        glm::radians(eye.degrees), aspect);
     result.light = spot_light(casters, result.world, light.open, light.closing);
     return result;
 }
 
-// The ground holds all casters and shadows, and half as much again around them.
-moving_stage on_ground(const moving_scene& casters, const lamp& light, const view& eye, double aspect)
+// The ground holds all casters and shadows, and a quarter as much again on each side. One of light and caster stands
+// still in each scene, so that the shadow of a corner moves on a straight line, and its ends bound it.
+moving_stage on_ground(const moving_scene& casters, const lamp& light, const view& eye, double aspect, interests places)
 {
-    bounds covered = shadows(casters, light.open, light.closing);
-    for (const glm::vec3& corner : bounds_of(casters).corners()) covered.include(corner);
+    bounds covered = bounds_of(casters);
+    for (const bool last : {false, true}) {
+        const glm::dvec3& from = last ? light.closing : light.open;
+        for (const glm::dvec3 corner : positions_at(casters, last))
+            covered.include(glm::vec3(from + from.y / (from.y - corner.y) * (corner - from)));
+    }
     const glm::vec3 centre = covered.centre(), extent = covered.extent();
-    const float margin = std::max(extent.x, extent.z);
+    const float margin = 0.5f * std::max(extent.x, extent.z);
     moving_scene world = casters;
     add(world, ground({centre.x, 0, centre.z}, extent.x + margin, extent.z + margin, stone), glm::vec3(0));
-    return staged(casters, std::move(world), light, eye, aspect);
+    return staged(casters, std::move(world), light, eye, aspect, std::move(places));
 }
 
 // std::uniform_real_distribution is not the same everywhere.
@@ -142,7 +139,11 @@ class uniform {
 moving_camera spot_light(const moving_scene& casters, const moving_scene& world, const glm::dvec3& open,
                          const glm::dvec3& closing)
 {
-    const glm::dvec3 direction = glm::dvec3(shadows(casters, open, closing).centre()) - 0.5 * (open + closing);
+    bounds directions; // unit vectors
+    for (const bool last : {false, true})
+        for (const glm::dvec3 corner : positions_at(casters, last))
+            directions.include(glm::vec3(glm::normalize(corner - (last ? closing : open))));
+    const glm::dvec3 direction(directions.centre());
     moving_camera light{{}, closing - open};
     double half_extent = 0, nearest = std::numeric_limits<double>::infinity(), farthest = 0;
     for (const bool last : {false, true}) {
@@ -173,7 +174,8 @@ moving_stage pillars(double aspect)
         for (int z = -1; z <= 1; ++z) add_box(boxes, upright({x, 0.5f, z}, {0.24f, 1, 0.24f}));
     moving_scene casters{{"pillars", {}}, {}};
     add(casters, boxes, glm::vec3(0));
-    return on_ground(casters, {{-3, 2.5, -0.5}, {-3, 5, -0.5}}, {{1, 5.5, 6}, {0.6, 0, 0}, 40}, aspect);
+    return on_ground(casters, {{-3, 2.5, -0.5}, {-3, 5, -0.5}}, {{1, 5.5, 6}, {0.6, 0, 0}, 40}, aspect,
+                     {{"tips of shadows", {2.8f, 0, 1.7f}, green}});
 }
 
 moving_stage crossed_quads(double aspect)
@@ -181,7 +183,8 @@ moving_stage crossed_quads(double aspect)
     moving_scene casters{{"crossed quads", {}}, {}};
     add(casters, level_quad("upper", clay, {-2, 2, 0}, 0.25f, 2), {4, 0, 0});
     add(casters, level_quad("lower", moss, {0, 1, -2}, 2, 0.25f), {0, 0, 4});
-    return on_ground(casters, {{0, 8, 0}, {0, 8, 0}}, {{0, 7, 7}, {0, 0.5, 0}, 45}, aspect);
+    return on_ground(casters, {{0, 8, 0}, {0, 8, 0}}, {{0, 7, 7}, {0, 0.5, 0}, 45}, aspect,
+                     {{"lower quad", {0, 1, 0}, green}, {"ground", {0.3f, 0, 2.1f}, cyan}});
 }
 
 moving_stage toward_and_away(double aspect)
@@ -189,7 +192,8 @@ moving_stage toward_and_away(double aspect)
     moving_scene casters{{"toward and away", {}}, {}};
     add(casters, level_quad("toward", clay, {-1.2f, 0.3f, 0}, 0.5f, 0.5f), {0, 2.2f, 0});
     add(casters, level_quad("away", moss, {1.2f, 2.5f, 0}, 0.5f, 0.5f), {0, -2.2f, 0});
-    return on_ground(casters, {{0, 6, 0}, {0, 6, 0}}, {{0, 5, 7}, {0, 0.6, 0}, 45}, aspect);
+    return on_ground(casters, {{0, 6, 0}, {0, 6, 0}}, {{0, 5, 7}, {0, 0.6, 0}, 45}, aspect,
+                     {{"toward", {-2, 0, 0.3f}, green}, {"away", {2, 0, 0.3f}, cyan}});
 }
 
 moving_stage cubes_to_the_light(double aspect)
@@ -198,7 +202,8 @@ moving_stage cubes_to_the_light(double aspect)
     for (const float x : {-1.f, 1.f}) add_fine_cube(cubes, {x, 0.6f, 0}, 0.5f, 22);
     moving_scene casters{{"cubes to the light", {}}, {}};
     add(casters, cubes, {0, 1.5f, 0});
-    return on_ground(casters, {{0, 7, 0}, {0, 7, 0}}, {{0, 4, 6}, {0, 0.9, 0}, 45}, aspect);
+    return on_ground(casters, {{0, 7, 0}, {0, 7, 0}}, {{0, 4, 6}, {0, 0.9, 0}, 45}, aspect,
+                     {{"ground", {-1.8f, 0, 0.6f}, green}, {"face", {1, 1.3f, 0.5f}, cyan}});
 }
 
 moving_stage random_cubes(double aspect, int count, float longest)
@@ -215,7 +220,8 @@ moving_stage random_cubes(double aspect, int count, float longest)
     }
     moving_scene casters{{"random cubes", {}}, {}};
     add(casters, open, closing);
-    return on_ground(casters, {{3, 10, 3}, {3, 10, 3}}, {{0, 8, 11}, {0, 1.5, 0}, 45}, aspect);
+    return on_ground(casters, {{3, 10, 3}, {3, 10, 3}}, {{0, 8, 11}, {0, 1.5, 0}, 45}, aspect,
+                     {{"ground", {-3, 0, 2}, green}, {"cubes", {1, 2, 1}, cyan}});
 }
 
 moving_stage cube_over_plane(double aspect, float degrees, float height, float z)
@@ -230,9 +236,11 @@ moving_stage cube_over_plane(double aspect, float degrees, float height, float z
         add_quad(result, glm::vec3(-3, 0, 0) - 3.f * away, {6, 0, 0}, 6.f * away);
         return result;
     };
+    const float reach = 6 / (6 - height); // of the shadow, over that of the cube from the light
     moving_scene world = casters;
     add(world, plane(-glm::radians(degrees)), plane(glm::radians(degrees)));
-    return staged(casters, std::move(world), {{2, 6, 1}, {2, 6, 1}}, {{0, 5, 7}, {0, 0.4, 0}, 45}, aspect);
+    return staged(casters, std::move(world), {{2, 6, 1}, {2, 6, 1}}, {{0, 5, 7}, {0, 0.4, 0}, 45}, aspect,
+                  {{"shadow", {2 - 2 * reach, 0, 1 + reach * (z - 1)}, green}});
 }
 
 moving_stage fan(double aspect)
@@ -252,7 +260,8 @@ moving_stage fan(double aspect)
     };
     moving_scene casters{{"fan", {}}, {}};
     add(casters, blades(0), blades(glm::half_pi<float>()));
-    return on_ground(casters, {{0, 8, 0}, {0, 8, 0}}, {{0, 6, 6}, {0, 0.6, 0}, 45}, aspect);
+    return on_ground(casters, {{0, 8, 0}, {0, 8, 0}}, {{0, 6, 6}, {0, 0.6, 0}, 45}, aspect,
+                     {{"rim", {0, 0, 1.8f}, green}, {"hub", {0, 0, 0.3f}, cyan}});
 }
 
 moving_stage lit_ramp(double aspect)
@@ -262,14 +271,16 @@ moving_stage lit_ramp(double aspect)
     add_quad(ramp, glm::vec3(0, -0.2f, 0) - uphill - away, 2.f * uphill, 2.f * away);
     moving_scene world{{"lit ramp", {}}, {}};
     add(world, ramp, {0, 2, 0});
-    return staged(world, world, {{0, 7, 0}, {0, 7, 0}}, {{0, 5, 6}, {0, 0.8, 0}, 45}, aspect);
+    return staged(world, world, {{0, 7, 0}, {0, 7, 0}}, {{0, 5, 6}, {0, 0.8, 0}, 45}, aspect,
+                  {{"ramp", {0, 0.8f, 0}, green}});
 }
 
 moving_stage trapezoid(double aspect)
 {
     moving_scene casters{{"trapezoid", {}}, {}};
     add(casters, level_quad("bar", clay, {-1, 2, 0}, 0.25f, 1.5f), {2, 0, 0});
-    return on_ground(casters, {{0, 2000, 0}, {0, 2000, 0}}, {{0, 6, 6}, {0, 0.5, 0}, 45}, aspect);
+    return on_ground(casters, {{0, 2000, 0}, {0, 2000, 0}}, {{0, 6, 6}, {0, 0.5, 0}, 45}, aspect,
+                     {{"slope", {1, 0, 0.8f}, green}});
 }
 
 double trapezoid_visibility(const glm::dvec3& ground_point)
@@ -279,6 +290,16 @@ double trapezoid_visibility(const glm::dvec3& ground_point)
     const double x = std::abs(to_height * ground_point.x), z = std::abs(to_height * ground_point.z);
     if (!(z < 1.5)) return 1;
     return 1 - 0.5 * std::max(std::min(x + 0.25, 1.0) - (x - 0.25), 0.0);
+}
+
+moving_stage animated_model_stage(moving_scene model, double aspect)
+{
+    const auto corners = bounds_of(model).corners();
+    mesh everywhere;
+    everywhere.positions.assign(corners.begin(), corners.end());
+    const stage framed = model_stage({"", {everywhere}}, aspect);
+    add(model, framed.world.meshes.back(), glm::vec3(0));
+    return {std::move(model), framed.eye, {framed.light, glm::dvec3(0)}, {}};
 }
 
 std::span<const listed_stage> moving_stages()

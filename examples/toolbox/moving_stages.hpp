@@ -9,9 +9,9 @@
 
 namespace gnomon::toolbox {
 
-// A spot light on a straight way that looks down at the middle of the shadows that the casters throw on y = 0. Its
-// picture is the least square one that holds the casters, and so their shadows, at all times; its planes enclose the
-// whole world at all times. Throws std::invalid_argument where a caster is not below the light.
+// A spot light on a straight way that looks at the middle of the casters. Its picture is square and just holds them,
+// and so their shadows, at all times; its planes enclose the whole world at all times. Throws std::invalid_argument
+// where a caster is not in front of it, or where there is none.
 moving_camera spot_light(const moving_scene& casters, const moving_scene& world, const glm::dvec3& open,
                          const glm::dvec3& closing);
 
@@ -48,7 +48,10 @@ moving_stage trapezoid(double aspect);
 // The share of time for which a point of the trapezoid's ground sees the light, exactly.
 double trapezoid_visibility(const glm::dvec3& ground_point);
 
-// All of them; a key names files.
+// A moving model of unit size (see model.hpp) on a ground plane, camera and sun framed by all places where it ever is.
+moving_stage animated_model_stage(moving_scene model, double aspect);
+
+// The scenes of the papers and the known ones; a key names files.
 struct listed_stage {
     std::string_view key, title;
     moving_stage (*make)(double aspect);
