@@ -220,7 +220,8 @@ void tracer::visibility(const moving_camera& light, std::span<const receiver> re
                         std::span<float> result) const
 {
     check_room(receivers.size(), result.size());
-    check_room(receivers.size(), times.size());
+    if (receivers.size() != times.size())
+        throw std::invalid_argument(fmt::format("tracer: {} receivers, times for {}", receivers.size(), times.size()));
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, receivers.size(), 1024), [&](const auto& range) {
         alignas(64) RTCRay16 rays{};
         for (std::size_t first = range.begin(); first < range.end(); first += packet) {
