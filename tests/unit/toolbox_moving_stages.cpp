@@ -66,7 +66,7 @@ TEST_CASE("the light sees all casters at all times, and everything lies between 
         CAPTURE(listed.key);
         const moving_stage stage = listed.make(aspect);
         for (const float t : {0.f, 0.25f, 0.5f, 1.f}) {
-            const camera light = stage.light.at(double{t});
+            const camera light = stage.light.at(double(t));
             const scene now = scene_at(stage.world, t);
             for (std::size_t m = 0; m < now.meshes.size(); ++m) {
                 const bool caster = m == 0 || m + 1 < now.meshes.size();
@@ -92,7 +92,7 @@ TEST_CASE("the light's picture is not wider than the casters need")
             for (std::size_t m = 0; m == 0 || m + 1 < now.meshes.size(); ++m)
                 for (const glm::vec3& corner : now.meshes[m].positions) {
                     const glm::dvec2 seen =
-                        glm::abs(2.0 * glm::dvec2(project(stage.light.at(double{t}), corner)) - 1.0);
+                        glm::abs(2.0 * glm::dvec2(project(stage.light.at(double(t)), corner)) - 1.0);
                     farthest = std::max({farthest, seen.x, seen.y});
                 }
         }
@@ -115,7 +115,7 @@ TEST_CASE("nothing is shadowed where the light's picture ends")
             const float t = uniform(random);
             const hit seen = rays.first_hit(ray_through(stage.eye, {uniform(random), uniform(random)}), t);
             if (!seen.valid()) continue;
-            const camera light = stage.light.at(double{t});
+            const camera light = stage.light.at(double(t));
             if (glm::dot(direction_towards(light, seen.position), glm::dvec3(seen.normal)) <= 0) continue;
             receivers.push_back({seen.position, seen.normal}), times.push_back(t);
             inside.push_back(within_view(project(light, seen.position)));
@@ -191,7 +191,7 @@ TEST_CASE("random cubes are drawn alike everywhere, and faster ones go the same 
     }
     // The first number of mt19937 with seed 1 is 1791095845.
     const float x = -4 + 8 * static_cast<float>(1791095845u >> 8) * 0x1p-24f;
-    CHECK(0.5f * (centre(cubes.positions, 0) + centre(slow.world.closing[0], 0)).x == doctest::Approx(x));
+    CHECK(0.5f * (centre(cubes.positions, 0) + centre(slow.world.closing[0], 0)).x == doctest::Approx(double(x)));
 }
 
 TEST_CASE("the plane below the cube turns by the angle on both sides")
@@ -218,7 +218,7 @@ TEST_CASE("the fan's blades turn by a quarter, and shrink on the straight ways o
         for (std::size_t i = 0; i < 32; ++i) {
             const glm::vec3& p = blades.positions[i];
             CHECK(p.y == 1.5f);
-            CHECK(std::hypot(p.x, p.z) == doctest::Approx(shrunk * (i % 4 == 0 || i % 4 == 3 ? 0.2f : 1.8f)));
+            CHECK(std::hypot(p.x, p.z) == doctest::Approx(double(shrunk) * (i % 4 == 0 || i % 4 == 3 ? 0.2 : 1.8)));
         }
         CHECK(triangle_normal(blades, 0).y == doctest::Approx(1));
     }
@@ -252,7 +252,7 @@ TEST_CASE("the trapezoid's closed form is that of the tracer")
     std::vector<float> visible(receivers.size());
     rays.mean_visibility(stage.light, receivers, n, visible);
     for (std::size_t i = 0; i < receivers.size(); ++i)
-        CHECK(std::abs(double{visible[i]} - trapezoid_visibility(receivers[i].open.position)) <= 2.0 / n + 1e-5);
+        CHECK(std::abs(double(visible[i]) - trapezoid_visibility(receivers[i].open.position)) <= 2.0 / n + 1e-5);
 }
 
 TEST_CASE("the lit ramp is lit, exactly and everywhere")

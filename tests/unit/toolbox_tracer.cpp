@@ -111,7 +111,7 @@ TEST_CASE("at any time, a moving scene is traced like one at rest in that place"
         int compared = 0, shadowed = 0;
         for (int k = 0; k < 5; ++k) {
             const float t = k == 0 ? 0 : k == 1 ? 1 : uniform(random);
-            const camera light = stage.light.at(double{t});
+            const camera light = stage.light.at(double(t));
             const tracer resting(scene_at(stage.world, t));
             // Rounding moves outlines by the offset at most; receivers near one, where five rays that start ten
             // offsets apart do not agree, are left out.
@@ -189,7 +189,7 @@ TEST_CASE("the mean visibility is that of its moments: it counts rays, and is th
     CHECK(many == again);
     for (std::size_t i = 0; i < 200; ++i) {
         const float count = few[i] * 21;
-        CHECK(count == doctest::Approx(std::round(count)));
+        CHECK(count == doctest::Approx(double(std::round(count))));
         // A rising cube hides the light from some time on or up to some time, so at most two cubes' four ends count
         // half.
         CHECK(std::abs(few[i] - many[i]) <= 4.f / 21 + 4.f / 1024);
@@ -248,7 +248,7 @@ TEST_CASE("a photograph of a scene at rest is the shaded picture, and of a movin
             if (ray.direction.y >= 0 || std::max(std::abs(ground.x), std::abs(ground.z)) > 2) continue;
             if (std::abs(above.x) < 1.3 && std::abs(above.z) < 1.6) continue;
             const double expected = trapezoid_visibility(ground);
-            CHECK(std::abs(double{blurred.visibility(x, y)} - expected) <= 2.0 / samples + 1e-5);
+            CHECK(std::abs(double(blurred.visibility(x, y)) - expected) <= 2.0 / samples + 1e-5);
             compared += expected < 1;
         }
     CHECK(compared > 50);
