@@ -31,7 +31,7 @@ moving_stage cubes_to_the_light(double aspect);
 // lengths up to `longest`. The directions and places do not depend on it: it scales the motion.
 moving_stage random_cubes(double aspect, int count, float longest);
 
-// Palmér 2011, Figures 4.1 to 4.3: a cube crosses a plane that turns about the x axis, corner by corner along straight
+// Palmer 2011, Figures 4.1 to 4.3: a cube crosses a plane that turns about the x axis, corner by corner along straight
 // lines, from -degrees to +degrees. The cube is at (0, height, z) halfway.
 moving_stage cube_over_plane(double aspect, float degrees, float height, float z);
 

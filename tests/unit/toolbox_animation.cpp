@@ -82,10 +82,10 @@ const std::vector<float> frame{-0.5f, 0, -0.5f, 0.5f, 1, 0.5f, 0.5f, 0, -0.5f};
 
 // A node that rises from y = 0.25 to 0.75 in two seconds carries one that turns about y by 90 degrees, shrinks to half
 // its size, and holds a triangle with its first corner at (0.25, 0, 0).
-std::string carousel()
+std::string carousel(const std::vector<float>& around = frame)
 {
     gltf file;
-    const int outer = file.floats("VEC3", 3, frame);
+    const int outer = file.floats("VEC3", 3, around);
     const int inner = file.floats("VEC3", 3, {0.25f, 0, 0, 0, 0.1f, 0, 0, 0, 0.1f});
     const int times = file.floats("SCALAR", 1, {0, 2});
     const int rise = file.floats("VEC3", 3, {0, 0.25f, 0, 0, 0.75f, 0});
@@ -177,10 +177,16 @@ TEST_CASE("a moving model has unit size over all of its places, and its stage se
 {
     const temporary_folder folder;
     write_file(folder / "fall.gltf", arm());
-    moving_scene model = load_animated_model(folder / "fall.gltf", "", 0.25, 0.75);
+    const moving_scene model = load_animated_model(folder / "fall.gltf", "", 0.25, 0.75);
     const bounds box = bounds_of(model);
     CHECK(box.lower.y == 0);
     CHECK(std::max({box.extent().x, box.extent().y, box.extent().z}) == doctest::Approx(1));
+    // All places are scaled alike: the box from (-2, -1, -2) to (2, 3, 2) becomes that of the frame.
+    write_file(folder / "large.gltf", carousel({-2, -1, -2, 2, 3, 2, 2, -1, -2}));
+    const moving_scene large = load_animated_model(folder / "large.gltf", "all", 0, 2);
+    CHECK(near(large.open.meshes[1].positions[0], {0.25f / 4, 1.25f / 4, 0}));
+    CHECK(near(large.closing[1][0], {0, 1.75f / 4, -0.125f / 4}));
+    CHECK(large.closing[0] == large.open.meshes[0].positions);
     const std::size_t parts = model.closing.size();
     const moving_stage stage = animated_model_stage(model, 1.5);
     REQUIRE(stage.world.closing.size() == parts + 1);
