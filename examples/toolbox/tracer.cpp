@@ -10,10 +10,10 @@
 #include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
+#include "ray_packet.hpp"
 #include "shading.hpp"
 
 namespace gnomon::toolbox {
@@ -22,9 +22,6 @@ namespace {
 
 // Float positions within the bounds are exact to 6e-8 of the diagonal, Embree's intersections to a few times that.
 constexpr float relative_offset = 2e-6f;
-
-// Rays in one packet; those of one receiver or pixel at many times are as coherent as rays can be.
-constexpr int packet = 16;
 
 struct release {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -60,27 +57,6 @@ receiver between(const moving_receiver& moving, float t)
             unit(glm::mix(moving.open.normal, moving.closing.normal, t))};
 }
 
-// A moment in part i of n, chosen by the finalizer of SplitMix64.
-float moment(std::size_t owner, int i, int n)
-{
-    std::uint64_t bits = (static_cast<std::uint64_t>(owner) << 24) + static_cast<std::uint64_t>(i) + 1;
-    bits *= 0x9e3779b97f4a7c15u;
-    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
-    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
-    const auto jitter = static_cast<float>((bits ^ (bits >> 31)) >> 40) * 0x1p-24f;
-    return (static_cast<float>(i) + jitter) / static_cast<float>(n);
-}
-
-using mask = std::array<int, packet>; // -1 for rays that are to be traced
-
-void set_ray(RTCRay16& rays, int lane, const glm::vec3& origin, const glm::vec3& direction, float end, float time)
-{
-    rays.org_x[lane] = origin.x, rays.org_y[lane] = origin.y, rays.org_z[lane] = origin.z;
-    rays.dir_x[lane] = direction.x, rays.dir_y[lane] = direction.y, rays.dir_z[lane] = direction.z;
-    rays.tnear[lane] = 0, rays.tfar[lane] = end;
-    rays.time[lane] = time, rays.mask[lane] = ~0u, rays.id[lane] = 0, rays.flags[lane] = 0;
-}
-
 struct corners {
     std::array<glm::vec3, 3> at;
 
@@ -111,36 +87,50 @@ void check_room(std::size_t receivers, std::size_t results)
 struct tracer::state {
     moving_scene world;
     std::vector<bool> moves;
+    std::vector<bounds> swept; // all places of each mesh that moves
     owned<RTCDevice> device{rtcNewDevice(nullptr)};
     owned<RTCScene> scene;
     float offset = 0;
 
-    // A spot light's ray is the segment up to the light, a directional one has no end. Returns the cosine between the
-    // receiver's normal and the way to the light.
-    float aim(RTCRay16& rays, int lane, const receiver& from, const moving_camera& light, float time) const
+    // A spot light's ray is the segment up to the light, a directional one has no end.
+    way to_light(const receiver& from, const moving_camera& light, float time) const
     {
         const glm::vec3 origin = from.position + offset * from.normal;
-        const bool segment = light.open.perspective();
+        if (!light.open.perspective()) return {origin, glm::vec3(-light.open.forward), endless};
         const glm::dvec3 place = light.open.position + static_cast<double>(time) * light.motion;
-        const glm::vec3 direction(segment ? place - glm::dvec3(origin) : -light.open.forward);
-        set_ray(rays, lane, origin, direction, segment ? 1 : std::numeric_limits<float>::infinity(), time);
-        return glm::dot(from.normal, unit(direction));
+        return {origin, glm::vec3(place - glm::dvec3(origin)), 1};
+    }
+
+    // Returns the cosine between the receiver's normal and the way to the light.
+    float aim(RTCRay16& rays, int lane, const receiver& from, const moving_camera& light, float time) const
+    {
+        const way ray = to_light(from, light, time);
+        set_ray(rays, lane, ray, time);
+        return glm::dot(from.normal, unit(ray.direction));
+    }
+
+    // Whether nothing that moves comes near: then what the ray meets is the same at all times. Boxes are farther away
+    // than rounding can tell.
+    bool always_alike(const way& ray) const
+    {
+        return std::ranges::none_of(swept, [&](const bounds& box) { return crosses(ray, box, 10 * offset); });
+    }
+
+    bool always_alike(const receiver& from, const moving_camera& light) const
+    {
+        return light.motion == glm::dvec3(0) && always_alike(to_light(from, light, 0));
     }
 
     // Ends the rays of a packet that meet something: tfar becomes -infinity.
     void trace(const mask& valid, RTCRay16& rays) const
     {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        RTCIntersectContext context = coherent();
         rtcOccluded16(valid.data(), scene.get(), &context, &rays);
     }
 
     void look(const mask& valid, RTCRayHit16& rays) const
     {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        RTCIntersectContext context = coherent();
         rtcIntersect16(valid.data(), scene.get(), &context, &rays);
     }
 
@@ -163,12 +153,14 @@ struct tracer::state {
         return result;
     }
 
-    hit meet(unsigned mesh, unsigned triangle_index, float u, float v, const glm::dvec3& direction, float time) const
+    // What a ray of a packet has met on its way in this direction.
+    hit met(const RTCRayHit16& rays, int lane, const glm::dvec3& direction) const
     {
         hit result;
-        if (mesh == RTC_INVALID_GEOMETRY_ID) return result;
-        const corners at = triangle(mesh, triangle_index, time);
-        result.mesh = static_cast<int>(mesh), result.triangle = triangle_index;
+        if (rays.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) return result;
+        const float u = rays.hit.u[lane], v = rays.hit.v[lane];
+        const corners at = triangle(rays.hit.geomID[lane], rays.hit.primID[lane], rays.ray.time[lane]);
+        result.mesh = static_cast<int>(rays.hit.geomID[lane]), result.triangle = rays.hit.primID[lane];
         result.weights = {1 - u - v, u, v};
         result.position = at.inside(result.weights);
         result.normal = at.normal();
@@ -189,6 +181,7 @@ tracer::tracer(moving_scene world) : state_(std::make_unique<state>())
     for (std::size_t m = 0; m < all.open.meshes.size(); ++m) {
         const mesh& part = all.open.meshes[m];
         state_->moves.push_back(all.moves(m));
+        if (all.moves(m)) state_->swept.push_back(bounds_of(moving_scene{{"", {part}}, {all.closing[m]}}));
         RTCGeometry geometry = rtcNewGeometry(state_->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
         rtcSetGeometryTimeStepCount(geometry, all.moves(m) ? 2 : 1);
         upload(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, part.positions);
@@ -246,35 +239,33 @@ void tracer::mean_visibility(const moving_camera& light, std::span<const moving_
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, receivers.size(), 64), [&](const auto& range) {
         alignas(64) RTCRay16 rays{};
         for (std::size_t r = range.begin(); r < range.end(); ++r) {
+            const moving_receiver& at = receivers[r];
+            const bool one_is_all = at.open == at.closing && state_->always_alike(at.open, light);
+            const int moments = one_is_all ? 1 : samples;
             int lit = 0;
-            for (int first = 0; first < samples; first += packet) {
+            for (int first = 0; first < moments; first += packet) {
                 alignas(64) mask valid{};
-                for (int i = 0; i < std::min(packet, samples - first); ++i) {
-                    const float time = moment(r, first + i, samples);
-                    if (state_->aim(rays, i, between(receivers[r], time), light, time) > 0)
+                for (int i = 0; i < std::min(packet, moments - first); ++i) {
+                    const float time = moment(r, first + i, moments);
+                    if (state_->aim(rays, i, between(at, time), light, time) > 0)
                         valid[static_cast<std::size_t>(i)] = -1;
                 }
                 state_->trace(valid, rays);
                 for (int i = 0; i < packet; ++i) lit += valid[static_cast<std::size_t>(i)] && !(rays.tfar[i] < 0);
             }
-            result[r] = static_cast<float>(lit) / static_cast<float>(samples);
+            result[r] = static_cast<float>(lit) / static_cast<float>(moments);
         }
     });
 }
 
 hit tracer::first_hit(const view_ray& ray, float time) const
 {
-    RTCRayHit query{};
-    const glm::vec3 origin(ray.origin), direction(ray.direction);
-    query.ray.org_x = origin.x, query.ray.org_y = origin.y, query.ray.org_z = origin.z;
-    query.ray.dir_x = direction.x, query.ray.dir_y = direction.y, query.ray.dir_z = direction.z;
-    query.ray.tfar = std::numeric_limits<float>::infinity();
-    query.ray.time = time, query.ray.mask = ~0u;
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(state_->scene.get(), &context, &query);
-    return state_->meet(query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, ray.direction, time);
+    alignas(64) RTCRayHit16 query{};
+    alignas(64) const mask one{-1};
+    set_ray(query.ray, 0, {glm::vec3(ray.origin), glm::vec3(ray.direction), endless}, time);
+    query.hit.geomID[0] = RTC_INVALID_GEOMETRY_ID;
+    state_->look(one, query);
+    return state_->met(query, 0, ray.direction);
 }
 
 moving_receiver tracer::receiver_of(const hit& seen, float time_of_hit) const
@@ -295,29 +286,31 @@ reference_picture tracer::photograph(const moving_camera& light, const camera& e
     check_samples(samples);
     reference_picture result{{width, height, 1}, {width, height, 0}, {width, height}};
     const auto expose = [&](int x, int y) {
-        const view_ray way = ray_through(eye, {(x + 0.5) / width, (y + 0.5) / height});
-        const glm::vec3 origin(way.origin), direction(way.direction);
+        const view_ray centre = ray_through(eye, {(x + 0.5) / width, (y + 0.5) / height});
+        const way ray{glm::vec3(centre.origin), glm::vec3(centre.direction), endless};
         const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+        const bool one_hit = state_->always_alike(ray);
+        const hit only = one_hit ? first_hit(centre, 0) : hit{};
+        const bool one_is_all = one_hit && (!only.valid() || state_->always_alike({only.position, only.normal}, light));
+        const int moments = one_is_all ? 1 : samples;
         alignas(64) RTCRayHit16 view{};
         alignas(64) RTCRay16 rays{};
         glm::dvec3 colour(0);
         int covered = 0, lit = 0;
-        for (int first = 0; first < samples; first += packet) {
+        for (int first = 0; first < moments; first += packet) {
             alignas(64) mask looking{}, facing{};
             std::array<hit, packet> seen{};
             std::array<float, packet> cosines{};
-            for (int i = 0; i < std::min(packet, samples - first); ++i) {
-                set_ray(view.ray, i, origin, direction, std::numeric_limits<float>::infinity(),
-                        moment(pixel, first + i, samples));
+            for (int i = 0; i < std::min(packet, moments - first); ++i) {
+                set_ray(view.ray, i, ray, moment(pixel, first + i, moments));
                 view.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
                 looking[static_cast<std::size_t>(i)] = -1;
             }
-            state_->look(looking, view);
+            if (!one_hit) state_->look(looking, view);
             for (std::size_t i = 0; i < packet; ++i) {
                 if (!looking[i]) continue;
                 const float time = view.ray.time[i];
-                seen[i] = state_->meet(view.hit.geomID[i], view.hit.primID[i], view.hit.u[i], view.hit.v[i],
-                                       way.direction, time);
+                seen[i] = one_hit ? only : state_->met(view, static_cast<int>(i), centre.direction);
                 if (!seen[i].valid()) continue;
                 const receiver from{seen[i].position, seen[i].normal};
                 cosines[i] = state_->aim(rays, static_cast<int>(i), from, light, time);
@@ -331,9 +324,9 @@ reference_picture tracer::photograph(const moving_camera& light, const camera& e
                 colour += state_->colour(seen[i], sunny ? cosines[i] : 0);
             }
         }
-        result.coverage(x, y) = static_cast<float>(covered) / static_cast<float>(samples);
+        result.coverage(x, y) = static_cast<float>(covered) / static_cast<float>(moments);
         if (covered > 0) result.visibility(x, y) = static_cast<float>(lit) / static_cast<float>(covered);
-        result.colour(x, y) = glm::vec3(colour / static_cast<double>(samples));
+        result.colour(x, y) = glm::vec3(colour / static_cast<double>(moments));
     };
     tbb::parallel_for(0, height, [&](int y) {
         for (int x = 0; x < width; ++x) expose(x, y);

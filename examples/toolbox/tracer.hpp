@@ -17,6 +17,8 @@ namespace gnomon::toolbox {
 struct receiver {
     glm::vec3 position;
     glm::vec3 normal; // unit length, on the side from which the receiver is looked at
+
+    friend bool operator==(const receiver&, const receiver&) = default;
 };
 
 // A receiver that goes along a straight line while the shutter is open; its normal goes over from one to the other.
