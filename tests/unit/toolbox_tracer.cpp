@@ -214,6 +214,39 @@ TEST_CASE("a receiver that moves along with a bar above stays in its shadow, one
     CHECK(std::abs(visible[2] - 0.875f) <= 2.f / 4096 + 1e-3f); // they meet twice as fast; the scale is 0.999
 }
 
+TEST_CASE("where only the light or only the receiver moves, visibility changes all the same")
+{
+    const moving_stage stage = pillars(1.5);
+    const tracer rays(stage.world);
+    std::vector<moving_receiver> receivers;
+    for (int i = 0; i < 100; ++i) {
+        const receiver open{{0.5f + 0.03f * static_cast<float>(i), 0, 1.7f}, {0, 1, 0}};
+        receiver closing = open;
+        if (i % 2 == 1) closing.position.z = 0.5f;
+        receivers.push_back({open, closing});
+    }
+    constexpr int n = 1024;
+    for (const moving_camera& light : {stage.light, moving_camera{stage.light.at(0.5), glm::dvec3(0)}}) {
+        std::vector<float> mean(100), now(100), sum(100);
+        rays.mean_visibility(light, receivers, n, mean);
+        for (int k = 0; k < n; ++k) {
+            const float t = (static_cast<float>(k) + 0.5f) / n;
+            std::vector<receiver> there;
+            for (const moving_receiver& r : receivers)
+                there.push_back({glm::mix(r.open.position, r.closing.position, t), r.open.normal});
+            rays.visibility(light, there, std::vector<float>(100, t), now);
+            for (std::size_t i = 0; i < 100; ++i) sum[i] += now[i];
+        }
+        // Each row of pillars hides the light for an interval or two, whose ends count by one part at most.
+        int partly = 0;
+        for (std::size_t i = 0; i < 100; ++i) {
+            CHECK(std::abs(mean[i] - sum[i] / n) <= 12.f / n);
+            partly += mean[i] > 0.05f && mean[i] < 0.95f;
+        }
+        CHECK(partly > 10);
+    }
+}
+
 TEST_CASE("a photograph of a scene at rest is the shaded picture, and of a moving one the mean over its moments")
 {
     constexpr int width = 96, height = 64;
