@@ -15,6 +15,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "animation.hpp"
 #include "import_guard.hpp"
 
 namespace gnomon::toolbox {
@@ -40,71 +41,93 @@ glm::vec3 albedo_of(const aiScene& source, unsigned material)
     return finite(albedo) ? glm::clamp(albedo, 0.f, 1.f) : glm::vec3(0.7f);
 }
 
-bool drawable(const aiFace& face, const mesh& part)
+// The places where a mesh is when the shutter opens and closes, and the normals that it has before; a mesh that bones
+// move has none.
+struct moving_mesh {
+    mesh open;
+    std::vector<glm::vec3> closing;
+};
+
+struct poses {
+    pose open, closing;
+};
+
+bool drawable(const aiFace& face, const moving_mesh& part)
 {
     return face.mNumIndices == 3 && std::all_of(face.mIndices, face.mIndices + 3, [&](unsigned index) {
-               return index < part.positions.size() && finite(part.positions[index]);
+               return index < part.closing.size() && finite(part.open.positions[index]) && finite(part.closing[index]);
            });
 }
 
-mesh convert(const aiScene& source, const aiMesh& from, const aiMatrix4x4& to_world)
+moving_mesh convert(const aiScene& source, const aiMesh& from, const aiNode& node, const poses& at)
 {
-    mesh part{.name = from.mName.C_Str(),
-              .albedo = albedo_of(source, from.mMaterialIndex),
-              .positions = {},
-              .normals = {},
-              .triangles = {}};
-    const bool mirrored = aiMatrix3x3(to_world).Determinant() < 0;
-    const aiMatrix3x3 normal_to_world = aiMatrix3x3(to_world).Inverse().Transpose();
+    moving_mesh part;
+    part.open.name = from.mName.C_Str();
+    part.open.albedo = albedo_of(source, from.mMaterialIndex);
+    const std::vector<aiMatrix4x4> opening = vertex_transforms(from, node, at.open);
+    const std::vector<aiMatrix4x4> closing = vertex_transforms(from, node, at.closing);
+    const bool skinned = opening.size() > 1;
+    const bool mirrored = aiMatrix3x3(opening[0]).Determinant() < 0;
+    const aiMatrix3x3 normal_to_world = aiMatrix3x3(opening[0]).Inverse().Transpose();
     for (unsigned i = 0; i < from.mNumVertices; ++i) {
-        part.positions.push_back(vector(to_world * from.mVertices[i]));
-        if (from.HasNormals()) part.normals.push_back(vector(normal_to_world * from.mNormals[i]));
+        part.open.positions.push_back(vector(opening[skinned ? i : 0] * from.mVertices[i]));
+        part.closing.push_back(vector(closing[skinned ? i : 0] * from.mVertices[i]));
+        if (from.HasNormals() && !skinned) part.open.normals.push_back(vector(normal_to_world * from.mNormals[i]));
     }
+    std::vector<glm::uvec3>& triangles = part.open.triangles;
     for (unsigned i = 0; i < from.mNumFaces; ++i) {
         const aiFace& face = from.mFaces[i];
         if (!drawable(face, part)) continue;
         const glm::uvec3 corners(face.mIndices[0], face.mIndices[1], face.mIndices[2]);
-        part.triangles.push_back(mirrored ? glm::uvec3(corners.x, corners.z, corners.y) : corners);
+        triangles.push_back(mirrored ? glm::uvec3(corners.x, corners.z, corners.y) : corners);
     }
     // Corners that no triangle uses must not count in the bounds.
-    std::vector<bool> used(part.positions.size());
-    for (const glm::uvec3& t : part.triangles) used[t.x] = used[t.y] = used[t.z] = true;
-    if (!part.triangles.empty())
+    std::vector<bool> used(part.closing.size());
+    for (const glm::uvec3& t : triangles) used[t.x] = used[t.y] = used[t.z] = true;
+    if (!triangles.empty())
         for (std::size_t i = 0; i < used.size(); ++i)
-            if (!used[i]) part.positions[i] = part.positions[part.triangles[0].x];
-    for (glm::vec3& normal : part.normals) {
+            if (!used[i]) {
+                part.open.positions[i] = part.open.positions[triangles[0].x];
+                part.closing[i] = part.closing[triangles[0].x];
+            }
+    for (glm::vec3& normal : part.open.normals) {
         const float length = glm::length(normal);
         normal = length > 0 && std::isfinite(length) ? normal / length : glm::vec3(0);
     }
     return part;
 }
 
-void append_node(scene& target, const aiScene& source, const aiNode& node, const aiMatrix4x4& parent)
+void append_node(moving_scene& target, const aiScene& source, const aiNode& node, const poses& at)
 {
-    const aiMatrix4x4 to_world = parent * node.mTransformation;
     // Some of Assimp's readers leave references to nothing.
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
         if (node.mMeshes[i] >= source.mNumMeshes) continue;
-        mesh part = convert(source, *source.mMeshes[node.mMeshes[i]], to_world);
-        if (!part.triangles.empty()) target.meshes.push_back(std::move(part));
+        moving_mesh part = convert(source, *source.mMeshes[node.mMeshes[i]], node, at);
+        if (part.open.triangles.empty()) continue;
+        target.open.meshes.push_back(std::move(part.open));
+        target.closing.push_back(std::move(part.closing));
     }
     for (unsigned i = 0; i < node.mNumChildren; ++i)
-        if (node.mChildren[i]) append_node(target, source, *node.mChildren[i], to_world);
+        if (node.mChildren[i]) append_node(target, source, *node.mChildren[i], at);
 }
 
 // In double, because a box that float can hold may be wider than float's range.
-void normalise(scene& model)
+void normalise(moving_scene& model)
 {
     const bounds box = bounds_of(model);
     const glm::dvec3 lower(box.lower), upper(box.upper), extent = upper - lower;
     const double longest = std::max({extent.x, extent.y, extent.z});
     if (!(longest > 0)) throw std::runtime_error("all triangles lie in one point");
     const glm::dvec3 origin(0.5 * (lower.x + upper.x), lower.y, 0.5 * (lower.z + upper.z));
-    for (mesh& part : model.meshes)
-        for (glm::vec3& position : part.positions) position = glm::vec3((glm::dvec3(position) - origin) / longest);
+    const auto fit = [&](std::vector<glm::vec3>& positions) {
+        for (glm::vec3& position : positions) position = glm::vec3((glm::dvec3(position) - origin) / longest);
+    };
+    for (mesh& part : model.open.meshes) fit(part.positions);
+    for (std::vector<glm::vec3>& positions : model.closing) fit(positions);
 }
 
-scene import(const std::filesystem::path& file)
+// Reads a file in the poses that `choose` finds for its scene.
+template <class Choose> moving_scene import(const std::filesystem::path& file, const Choose& choose)
 {
     const import_guard guard(file);
     Assimp::Importer importer;
@@ -113,22 +136,43 @@ scene import(const std::filesystem::path& file)
         throw std::runtime_error(importer.GetErrorString() == std::string("std::bad_alloc")
                                      ? "needs too much memory"
                                      : importer.GetErrorString());
-    scene model{file.stem().string(), {}};
-    append_node(model, *source, *source->mRootNode, aiMatrix4x4());
-    if (model.meshes.empty()) throw std::runtime_error("no triangles in it");
+    moving_scene model{{file.stem().string(), {}}, {}};
+    append_node(model, *source, *source->mRootNode, choose(*source));
+    if (model.open.meshes.empty()) throw std::runtime_error("no triangles in it");
     normalise(model);
     return model;
+}
+
+template <class Choose> moving_scene load(const std::filesystem::path& file, const Choose& choose)
+try {
+    if (!std::filesystem::exists(file)) throw std::runtime_error("no such file");
+    if (!std::filesystem::is_regular_file(file)) throw std::runtime_error("not a file");
+    return import(file, choose);
+} catch (const std::exception& error) {
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), one_line(error.what())));
 }
 
 } // namespace
 
 scene load_model(const std::filesystem::path& file)
-try {
-    if (!std::filesystem::exists(file)) throw std::runtime_error("no such file");
-    if (!std::filesystem::is_regular_file(file)) throw std::runtime_error("not a file");
-    return import(file);
-} catch (const std::exception& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), one_line(error.what())));
+{
+    return load(file,
+                [](const aiScene& source) {
+                    const pose rest = pose_at_rest(source);
+                    return poses{rest, rest};
+                })
+        .open;
+}
+
+moving_scene load_animated_model(const std::filesystem::path& file, std::string_view animation, double open,
+                                 double closing)
+{
+    return load(file, [&](const aiScene& source) {
+        const aiAnimation& found = find_animation(source, animation);
+        if (!(open <= closing))
+            throw std::runtime_error(fmt::format("the shutter opens at {} s and closes at {} s", open, closing));
+        return poses{pose_at(source, found, open), pose_at(source, found, closing)};
+    });
 }
 
 } // namespace gnomon::toolbox

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
+#include "moving_scene.hpp"
 #include "scene.hpp"
 
 namespace gnomon::toolbox {
@@ -11,5 +13,12 @@ namespace gnomon::toolbox {
 // origin. Points, lines and triangles that have a corner at infinity or nowhere (NaN) are left out.
 // Throws std::runtime_error with one line, "FILE: cause", where nothing is left to be seen.
 scene load_model(const std::filesystem::path& file);
+
+// The same while the shutter is open for a part of an animation, both times in seconds after its start: nodes and bones
+// move, and corners go straight from their places at the first time to those at the second. The bounds are those of
+// both. An empty name means the file's first animation. Throws as above, and where there is no animation of that name,
+// where it moves no nodes (morph targets are not read), where times are in the wrong order or outside of it.
+moving_scene load_animated_model(const std::filesystem::path& file, std::string_view animation, double open,
+                                 double closing);
 
 } // namespace gnomon::toolbox

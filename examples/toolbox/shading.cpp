@@ -13,6 +13,11 @@ bool faces_light(const camera& light, const surface& seen)
     return glm::dot(direction_towards(light, seen.position), glm::dvec3(seen.normal)) > 0;
 }
 
+glm::vec3 radiance(const glm::vec3& albedo, const glm::vec3& normal, float sunlight)
+{
+    return albedo * (glm::mix(daylight.earth, daylight.sky, 0.5f + 0.5f * normal.y) + sunlight * daylight.sun);
+}
+
 picture shade(const scene& world, const camera& light, const image<surface>& seen, const image<float>& visibility)
 {
     picture result(seen.width, seen.height, daylight.background);
@@ -22,9 +27,8 @@ picture shade(const scene& world, const camera& light, const image<surface>& see
             if (!s.valid()) continue;
             const glm::vec3 to_light(direction_towards(light, s.position));
             const float cosine = faces_light(light, s) ? std::max(glm::dot(to_light, s.shading_normal), 0.f) : 0.f;
-            const glm::vec3 ambient = glm::mix(daylight.earth, daylight.sky, 0.5f + 0.5f * s.shading_normal.y);
             const glm::vec3& albedo = world.meshes[static_cast<std::size_t>(s.mesh)].albedo;
-            result(x, y) = albedo * (ambient + visibility(x, y) * cosine * daylight.sun);
+            result(x, y) = radiance(albedo, s.shading_normal, visibility(x, y) * cosine);
         }
     });
     return result;

@@ -18,6 +18,9 @@ inline constexpr illumination daylight;
 // Whether light can reach the side of the surface that the camera sees; where it cannot, no shadow map is needed.
 bool faces_light(const camera& light, const surface& seen);
 
+// Of a matt surface, given the share of the sun's radiance at normal incidence that reaches it.
+glm::vec3 radiance(const glm::vec3& albedo, const glm::vec3& normal, float sunlight);
+
 // Visibility attenuates the sun and not the sky.
 picture shade(const scene& world, const camera& light, const image<surface>& seen, const image<float>& visibility);
 
