@@ -105,22 +105,11 @@ struct prism_pairs : triangle_and_sample {
         const std::array<real, 26> x{operands...};
         const prism<real> p = prism_of(triangle(x), real(1));
         prism_pair<real> pair = prism_pair_begin(real(0));
-        for (int k = 0; k < 14; ++k)
-            pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_of(p, real(k)), x[24], x[25]));
+        real k = real(0);
+        for (int i = 0; i < 14; ++i, k = k + real(1))
+            pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_of(p, k), x[24], x[25]));
         const prism_ranges<real> ranges = prism_pair_end(pair);
         return range_duration(ranges.first) + range_duration(ranges.second);
-    }
-};
-
-struct depth_pieces : triangle_and_sample {
-    static constexpr auto name = "first depth piece";
-    template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
-    {
-        using real = std::common_type_t<Reals...>;
-        const std::array<real, 26> x{operands...};
-        const moving_triangle<real> m = triangle(x);
-        const moving_edges<real> e = moving_triangle_edges(m, x[24], x[25]);
-        return moving_depth_piece(m, e, real(0), real(1), real(0), real(0), real(0.0078125)).passed;
     }
 };
 
@@ -171,7 +160,7 @@ struct cover_search : texel_of_ranges {
 };
 
 [[maybe_unused]] const bool registered =
-    add_kernels<sorted_roots, sorted_roots, coverage, depth, prism_pairs, depth_pieces>("motion") &&
+    add_kernels<sorted_roots, sorted_roots, coverage, depth, prism_pairs>("motion") &&
     add_kernels<shadow_tests, shadow_tests, cover_search>("motion");
 
 } // namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC

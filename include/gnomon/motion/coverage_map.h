@@ -154,10 +154,11 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_cover_end(GNOMON_T(range_cover) s
 
 /// 1 where a range may be left out of a list that keeps the cover, since no test of a receiver changes by it: one that
 /// is never nearer than the cover's farther end, or shadows nothing. At each time a receiver that is behind it is
-/// behind the cover, too, and shadowed by that, by range_depth's rounding too, which the margin is for. Only the
-/// cover's own surface is not; but it is in front of the range, as long as the receiver is where the cover says that
-/// its surface is. One of the cover's id that the shadow map's resolution puts behind all of the cover may lose a false
-/// shadow. Domain: depths in [-1, 1], times in [0, 1].
+/// behind the cover, too, and shadowed by that, whatever range_depth rounds: that is what the margin is for, which also
+/// keeps a level cover from hiding itself. Only the cover's own surface is not shadowed by it; but that is in front of
+/// the range, as long as the receiver is where the cover says that its surface is. One of the cover's id that the
+/// shadow map's resolution puts behind all of the cover may lose a false shadow. Domain: depths in [-1, 1], times in
+/// [0, 1].
 GNOMON_KERNEL Real range_cover_hides(GNOMON_T(depth_time_range) cover, GNOMON_T(depth_time_range) r)
 {
     GNOMON_MASK some = r.t0 <= r.t1 && r.z0 == r.z0 && r.z1 == r.z1;
