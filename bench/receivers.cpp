@@ -89,7 +89,7 @@ struct receiver_moving : path_and_range {
     {
         using real = std::common_type_t<Reals...>;
         const std::array<real, 16> x{operands...};
-        const auto state = moving_receiver_begin(path(x), real(0), real(1));
+        const auto state = moving_receiver_begin(path(x), x[0], x[1]);
         return moving_receiver_end(moving_receiver_add_box(state, range(&x[11])));
     }
 };
@@ -101,7 +101,7 @@ struct receiver_filtered : path_and_range {
     {
         using real = std::common_type_t<Reals...>;
         const std::array<real, 16> x{operands...};
-        auto state = moving_receiver_begin(path(x), real(0), real(1));
+        auto state = moving_receiver_begin(path(x), x[0], x[1]);
         state.u0 = x[11], state.v0 = x[12], state.u1 = x[12], state.v1 = x[11];
         return moving_receiver_end(moving_receiver_filter_box(state, range(&x[11])));
     }
