@@ -62,11 +62,9 @@ class surfaces {
     triangle_numbers numbers_;
 };
 
-glm::vec3 radiance(const glm::vec3& albedo, const camera& light, const glm::vec3& p, const glm::vec3& n,
-                   float visibility)
+float sunlight(const camera& light, const glm::vec3& p, const glm::vec3& n)
 {
-    const float cosine = std::max(glm::dot(glm::vec3(direction_towards(light, p)), n), 0.f);
-    return albedo * (glm::mix(daylight.earth, daylight.sky, 0.5f + 0.5f * n.y) + visibility * cosine * daylight.sun);
+    return std::max(glm::dot(glm::vec3(direction_towards(light, p)), n), 0.f);
 }
 
 } // namespace
@@ -113,9 +111,10 @@ picture shade(const moving_scene& world, const moving_camera& light, const seen_
         for (std::size_t i = seen.first[pixel]; i < seen.first[pixel + 1]; ++i) {
             const seen_course& c = seen.courses[i];
             const glm::vec3& albedo = world.open.meshes[numbers[c.triangle].mesh].albedo;
-            sum += c.weight * 0.5f *
-                   (radiance(albedo, light.at(double(c.t0)), c.p0, c.n0, visibility[i]) +
-                    radiance(albedo, light.at(double(c.t1)), c.p1, c.n1, visibility[i]));
+            const auto seen_at = [&](float t, const glm::vec3& p, const glm::vec3& n) {
+                return radiance(albedo, n, visibility[i] * sunlight(light.at(double(t)), p, n));
+            };
+            sum += 0.5f * c.weight * (seen_at(c.t0, c.p0, c.n0) + seen_at(c.t1, c.p1, c.n1));
             background -= c.weight;
         }
         result.pixels[pixel] = sum + std::max(background, 0.f) * daylight.background;

@@ -22,7 +22,7 @@ struct receiver {
 };
 
 // A receiver that goes along a straight line while the shutter is open; its normal goes over from one to the other.
-struct moving_receiver {
+struct receiver_course {
     receiver open, closing;
 };
 
@@ -63,14 +63,14 @@ class tracer {
     // The share of `samples` moments, one in each of as many equal parts of [0, 1], at which a receiver sees the light.
     // Where in its part a moment lies depends on the index of the receiver and on nothing else. While it faces away
     // from the light, a receiver does not see it. Parallel over receivers.
-    void mean_visibility(const moving_camera& light, std::span<const moving_receiver> receivers, int samples,
+    void mean_visibility(const moving_camera& light, std::span<const receiver_course> receivers, int samples,
                          std::span<float> result) const;
 
     // What a ray meets first at a time in [0, 1].
     hit first_hit(const view_ray& ray, float time) const;
 
     // The place of a hit's point on its triangle at a time in [0, 1], and the normal on the side that the hit has seen.
-    moving_receiver receiver_of(const hit& seen, float time_of_hit) const;
+    receiver_course receiver_of(const hit& seen, float time_of_hit) const;
 
     // How far along the normal a ray starts: a few roundings of the scene's diagonal.
     float offset() const;
