@@ -16,11 +16,14 @@ double unit_slope(const toolbox::camera& light, int resolution)
 
 double plane_slope(const glm::dvec3& position, const glm::dvec3& normal, const toolbox::camera& light, int resolution)
 {
-    const double cosine = glm::dot(normal, toolbox::direction_towards(light, position));
-    const double distance = light.perspective() ? toolbox::view_distance(light, position) : 1;
-    const double sine = std::sqrt(std::max(1 - cosine * cosine, 0.0)); // of a cosine that rounding may bring above 1
-    const double slope = sine < steepest_slope * cosine ? sine / cosine : steepest_slope;
-    return slope * distance * unit_slope(light, resolution);
+    // The ray of a texel meets the plane at view distance n . (p - e) / n . d, and d changes across the axis.
+    const bool perspective = light.perspective();
+    const double distance = perspective ? toolbox::view_distance(light, position) : 1;
+    const glm::dvec3 ray = perspective ? (position - light.position) / distance : light.forward;
+    const double across = glm::length(glm::dvec2(glm::dot(normal, light.right), glm::dot(normal, light.up)));
+    const double along = std::abs(glm::dot(normal, ray));
+    return (across < steepest_slope * along ? across / along : steepest_slope) * distance *
+           unit_slope(light, resolution);
 }
 
 receivers receivers_of(const toolbox::image<toolbox::surface>& seen, const toolbox::camera& light, int resolution)

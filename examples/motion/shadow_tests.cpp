@@ -32,15 +32,6 @@ template <class Visibility> float while_facing(const light_receiver& r, const Vi
                     1.f);
 }
 
-// Calls tap(column, row, weight) for the four texels around a place.
-template <class Tap> void for_each_tap(const texel_position<float>& at, const Tap& tap)
-{
-    const float column = texel_below(at.x - 0.5f), row = texel_below(at.y - 0.5f);
-    const float u = at.x - 0.5f - column, v = at.y - 0.5f - row;
-    for (const float j : {0.f, 1.f})
-        for (const float i : {0.f, 1.f}) tap(column + i, row + j, texel_weight(u, i, 1.f) * texel_weight(v, j, 1.f));
-}
-
 float path_visibility_at(const range_map<float>& map, const receiver_path<float>& path, float t)
 {
     const float z = range_depth(path.depth, t);
@@ -74,9 +65,21 @@ float path_visibility_in_place(const range_map<float>& map, const receiver_path<
     return 1 - moving_receiver_end(state);
 }
 
+float path_visibility_at_rest(const range_map<float>& map, const receiver_path<float>& path)
+{
+    static_receiver<float> state = static_receiver_begin(path.depth.z0, path.depth.id, path.depth.t0, path.depth.t1);
+    for_each_tap(receiver_path_at(path, path.depth.t0), [&](float column, float row, float weight) {
+        state = static_receiver_weigh(state, weight);
+        for (const depth_time_range<float>& r : list_at(map, column, row)) state = static_receiver_add_box(state, r);
+    });
+    return 1 - static_receiver_end(state);
+}
+
 float path_visibility(const range_map<float>& map, const receiver_path<float>& path)
 {
-    if (receiver_path_length(path) < 1e-4f) return path_visibility_in_place(map, path, path.depth.t0);
+    if (receiver_path_length(path) < 1e-4f)
+        return path.depth.z0 == path.depth.z1 ? path_visibility_at_rest(map, path)
+                                              : path_visibility_in_place(map, path, path.depth.t0);
     moving_receiver<float> state = moving_receiver_begin(path, path.depth.t0, path.depth.t1);
     texel_sweep<float> sweep = texel_sweep_begin(receiver_path_shifted(path, -0.5f, -0.5f));
     for (;; sweep = texel_sweep_next(sweep)) {

@@ -179,7 +179,7 @@ GNOMON_KERNEL GNOMON_T(depth_time_range)
     GNOMON_MASK farther = course.z0 <= r.z0 && course.z0 <= r.z1 && course.z1 <= r.z0 && course.z1 <= r.z1;
     Real front = early;
     Real back = gnomon_select(farther, Real(0), late);
-    GNOMON_MASK open = !(nearer || farther);
+    GNOMON_MASK open = early < late && !(nearer || farther);
     if (gnomon_any(open)) {
         Real before0 = range_depth(course, early) - range_depth(r, early);
         Real before1 = range_depth(course, late) - range_depth(r, late);
