@@ -19,9 +19,8 @@ using namespace toolbox;
 
 namespace {
 
-constexpr float error_scale = 0.5f;      // visibility at which error colours saturate
-constexpr float depth_tolerance = 2e-4f; // of courses, over a depth of 2
-constexpr int stochastic_samples = 16;   // per pixel
+constexpr float error_scale = 0.5f;    // visibility at which error colours saturate
+constexpr int stochastic_samples = 16; // per pixel
 
 struct outcome {
     std::string method, format;
@@ -42,7 +41,7 @@ class motion_comparison {
                  fmt::format("{}: ray tracing at {} times", listed.title, size.reference_samples));
         const tracer rays(stage_.world);
         reference_ = rays.photograph(stage_.light, stage_.eye, size.width, size.height, size.reference_samples);
-        analytic_ = toolbox::analytic_visibility(stage_.world, stage_.eye, size.width, size.height, depth_tolerance);
+        analytic_ = toolbox::analytic_visibility(stage_.world, stage_.eye, size.width, size.height, course_tolerance);
         stochastic_ = stochastic_visibility(stage_.world, stage_.eye, size.width, size.height, stochastic_samples);
         analytic_receivers_ = light_receivers_of(analytic_, stage_.light, size.map_resolution);
         stochastic_receivers_ = light_receivers_of(stochastic_, stage_.light, size.map_resolution);
