@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 
 namespace gnomon {
 
@@ -29,19 +30,19 @@ struct box_shutter {
 
 namespace detail {
 
-/// Calls visit(i, j, range) for the ranges of the texels from (column, row) on, K + 1 along either axis.
+/// Calls visit(i, j, list) for the texels from (column, row) on that are in the map, K + 1 along either axis.
 template <class T, class Visit>
-void for_each_range(const range_map<T>& map, T column, T row, int look_ups, const Visit& visit)
+void for_each_list(const range_map<T>& map, T column, T row, int look_ups, const Visit& visit)
 {
-    const T width = T(map.width), height = T(map.height), reach = T(look_ups);
-    // Comparisons that a NaN fails, and indices only from what is inside.
-    const int first_i = column >= 0 ? 0 : -column <= reach ? int(-column) : look_ups + 1;
-    const int first_j = row >= 0 ? 0 : -row <= reach ? int(-row) : look_ups + 1;
-    for (int j = first_j; j <= look_ups && row + T(j) < height; ++j) {
-        const std::size_t begin = std::size_t(row + T(j)) * map.width;
-        for (int i = first_i; i <= look_ups && column + T(i) < width; ++i) {
-            const std::size_t texel = begin + std::size_t(column + T(i));
-            for (std::uint32_t k = map.first[texel]; k < map.first[texel + 1]; ++k) visit(i, j, map.ranges[k]);
+    const T width = T(map.width), height = T(map.height);
+    for (int j = 0; j <= look_ups; ++j) {
+        const T y = row + T(j);
+        if (!(y >= 0 && y < height)) continue; // a NaN is outside
+        for (int i = 0; i <= look_ups; ++i) {
+            const T x = column + T(i);
+            if (!(x >= 0 && x < width)) continue;
+            const auto list = map(std::size_t(x), std::size_t(y));
+            if (!list.empty()) visit(i, j, list);
         }
     }
 }
@@ -54,8 +55,9 @@ T static_shadow(const range_map<T>& map, T x, T y, static_receiver<T> state, int
 {
     const T k = T(look_ups), column = texel_below(x - T(0.5) * k), row = texel_below(y - T(0.5) * k);
     const T u = x - T(0.5) * k - column, v = y - T(0.5) * k - row;
-    detail::for_each_range(map, column, row, look_ups, [&](int i, int j, const depth_time_range<T>& r) {
-        state = add(static_receiver_weigh(state, texel_weight(u, T(i), k) * texel_weight(v, T(j), k)), r);
+    detail::for_each_list(map, column, row, look_ups, [&](int i, int j, std::span<const depth_time_range<T>> list) {
+        state = static_receiver_weigh(state, texel_weight(u, T(i), k) * texel_weight(v, T(j), k));
+        for (const depth_time_range<T>& r : list) state = add(state, r);
     });
     return static_receiver_end(state);
 }
@@ -69,13 +71,12 @@ T moving_shadow(const range_map<T>& map, const receiver_path<T>& path, T begin, 
     moving_receiver<T> state = moving_receiver_begin(path, begin, end);
     texel_sweep<T> sweep = texel_sweep_begin(receiver_path_shifted(path, T(-0.5) * k, T(-0.5) * k));
     for (;; sweep = texel_sweep_next(sweep)) {
-        int last_i = -1, last_j = -1;
-        detail::for_each_range(map, sweep.column, sweep.row, look_ups, [&](int i, int j, const depth_time_range<T>& r) {
-            if (r.t1 <= sweep.t_begin || sweep.t_end <= r.t0) return;
-            if (i != last_i || j != last_j) state = moving_receiver_tap(state, sweep, T(i), T(j), k);
-            last_i = i, last_j = j;
-            state = add(state, r);
-        });
+        detail::for_each_list(map, sweep.column, sweep.row, look_ups,
+                              [&](int i, int j, std::span<const depth_time_range<T>> list) {
+                                  state = moving_receiver_tap(state, sweep, T(i), T(j), k);
+                                  for (const depth_time_range<T>& r : list)
+                                      if (r.t0 < sweep.t_end && sweep.t_begin < r.t1) state = add(state, r);
+                              });
         if (!(sweep.t_end < sweep.path.depth.t1)) return moving_receiver_end(state);
     }
 }
@@ -87,14 +88,13 @@ template <class T> T shadow_at(const range_map<T>& map, const receiver_path<T>& 
     const texel_position<T> at = receiver_path_at(path, t);
     const T column = texel_below(at.x - T(0.5) * k), row = texel_below(at.y - T(0.5) * k);
     const T u = at.x - T(0.5) * k - column, v = at.y - T(0.5) * k - row;
-    T shadow = 0, hidden = 0;
-    int last_i = -1, last_j = -1;
-    const auto add_texel = [&] { shadow += hidden * texel_weight(u, T(last_i), k) * texel_weight(v, T(last_j), k); };
-    detail::for_each_range(map, column, row, look_ups, [&](int i, int j, const depth_time_range<T>& r) {
-        if (i != last_i || j != last_j) add_texel(), hidden = 0, last_i = i, last_j = j;
-        hidden = std::max(hidden, range_intensity(r, t, z, path.depth.id, bias));
+    T shadow = 0;
+    detail::for_each_list(map, column, row, look_ups, [&](int i, int j, std::span<const depth_time_range<T>> list) {
+        T hidden = 0;
+        for (const depth_time_range<T>& r : list)
+            hidden = std::max(hidden, range_intensity(r, t, z, path.depth.id, bias));
+        shadow += hidden * texel_weight(u, T(i), k) * texel_weight(v, T(j), k);
     });
-    add_texel();
     return saturate_or_zero(shadow);
 }
 
