@@ -111,8 +111,25 @@ void add_line(std::span<const range> list, const stretch& s, packed_spans& to)
 
 } // namespace
 
+std::size_t packed_spans::begin(std::size_t list) const
+{
+    return list < lists.size() ? groups[list / group] + lists[list] : begins.size();
+}
+
+std::size_t packed_spans::bytes() const
+{
+    return begins.size() * sizeof begins[0] + bodies.size() * sizeof bodies[0] + groups.size() * sizeof groups[0] +
+           lists.size() * sizeof lists[0];
+}
+
+void packed_spans::clear() { begins.clear(), bodies.clear(), groups.clear(), lists.clear(); }
+
 void pack_spans(std::span<const range> resolved, packed_spans& to)
 {
+    if (to.lists.size() % packed_spans::group == 0) to.groups.push_back(static_cast<std::uint32_t>(to.begins.size()));
+    const std::size_t begin = to.begins.size() - to.groups.back();
+    if (begin > 0xffff) throw std::length_error("packed spans: more than 2^16 in 64 lists");
+    to.lists.push_back(static_cast<std::uint16_t>(begin));
     double reached = 0;
     for (const stretch& s : stretches_of(resolved)) {
         if (reached < s.begin) add(reached, 1, 1, span_nothing, to);
@@ -122,9 +139,10 @@ void pack_spans(std::span<const range> resolved, packed_spans& to)
     if (0 < reached && reached < span_times) add(reached, 1, 1, span_nothing, to);
 }
 
-void unpack_spans(const packed_spans& from, std::size_t begin, std::size_t end, std::vector<range>& to)
+void unpack_spans(const packed_spans& from, std::size_t list, std::vector<range>& to)
 {
-    for (std::size_t i = begin; i < end; ++i) {
+    const std::size_t end = from.begin(list + 1);
+    for (std::size_t i = from.begin(list); i < end; ++i) {
         const std::uint64_t body = from.bodies[i], id = body >> 40;
         if (id == span_nothing) continue;
         const double t0 = from.begins[i] / span_times, t1 = i + 1 < end ? from.begins[i + 1] / span_times : 1;

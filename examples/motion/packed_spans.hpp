@@ -21,21 +21,25 @@ inline constexpr double span_times = 65536;             // steps of the shutter
 inline constexpr double span_depths = 1 << 20;          // steps from near to far plane
 inline constexpr std::uint32_t span_nothing = 0xffffff; // ids without a surface,
 inline constexpr std::uint32_t span_mixed = 0xfffffe;   // of several surfaces
-inline constexpr std::size_t packed_span_bytes = 8 + 2;
 
 struct packed_spans {
+    static constexpr std::size_t group = 64; // lists whose begins are told from one number
+
     std::vector<std::uint16_t> begins;
     std::vector<std::uint64_t> bodies; // depth at begin in the low 20 bits, at end in the next 20, id in the high 24
+    std::vector<std::uint32_t> groups; // where the first list of each begins
+    std::vector<std::uint16_t> lists;  // where each list begins, from there
 
-    std::size_t size() const { return begins.size(); }
+    std::size_t begin(std::size_t list) const;
+    std::size_t bytes() const;
+    void clear();
 };
 
 // One more list, in order of time and without overlaps; ids are below span_mixed, or range_mixed. Throws
-// std::invalid_argument for others.
+// std::invalid_argument for others, std::length_error where a group has more than 2^16 spans.
 void pack_spans(std::span<const depth_time_range<float>> resolved, packed_spans& to);
 
-// Spans begin to end - 1, one list, as ranges.
-void unpack_spans(const packed_spans& from, std::size_t begin, std::size_t end,
-                  std::vector<depth_time_range<float>>& to);
+// A list, as ranges.
+void unpack_spans(const packed_spans& from, std::size_t list, std::vector<depth_time_range<float>>& to);
 
 } // namespace gnomon::demo

@@ -224,24 +224,19 @@ range_shadow_map packed_ranges(const range_shadow_map& resolved)
     range_shadow_map result = empty_map("resolved ranges, packed", "10 B spans", resolved.resolution);
     const std::size_t texels = texels_of(resolved.resolution);
     packed_spans spans;
-    std::vector<std::size_t> first;
     const double ms = steady_ms([&] {
-        spans.begins.clear(), spans.bodies.clear(), first.clear();
-        for (std::size_t i = 0; i < texels; ++i) {
-            first.push_back(spans.size());
-            pack_spans(list_of(resolved, i), spans);
-        }
-        first.push_back(spans.size());
+        spans.clear();
+        for (std::size_t i = 0; i < texels; ++i) pack_spans(list_of(resolved, i), spans);
     });
     for (std::size_t i = 0; i < texels; ++i) {
         result.first.push_back(std::uint32_t(result.ranges.size()));
-        unpack_spans(spans, first[i], first[i + 1], result.ranges);
+        unpack_spans(spans, i, result.ranges);
     }
     result.first.push_back(std::uint32_t(result.ranges.size()));
     result.build_ms = resolved.build_ms + ms;
     result.pairs = resolved.pairs;
     result.resolved = true;
-    result.bytes = result.first.size() * head_bytes + spans.size() * packed_span_bytes;
+    result.bytes = spans.bytes();
     return result;
 }
 
