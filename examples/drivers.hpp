@@ -30,4 +30,7 @@ void vulkan_shadows(const settings& how);
 // Bounds and representations of one depth distribution from 2, 4 and 6 moments, after the paper's Figure 2.
 void bounds(const settings& how);
 
+// The scenes of Palmer 2011, Hong & Oh and others in motion, by every kind of shadow map of ranges.
+void motion_analytic(const settings& how);
+
 } // namespace gnomon::demo

@@ -33,6 +33,9 @@ inline const double steepest_slope = std::tan(80 * std::acos(-1.0) / 180);
 // Depth per texel across a plane at 45 degrees to the light; in perspective at distance one.
 double unit_slope(const toolbox::camera& light, int resolution);
 
+// Depth per texel across a plane, in the direction in which it rises most, at a place of it.
+double plane_slope(const glm::dvec3& position, const glm::dvec3& normal, const toolbox::camera& light, int resolution);
+
 // Depths are moved towards the light by the most that a plane through the receiver rises within bias_radius texels of
 // the level looked at: the customary slope-scaled bias, the same for every method (Peters et al. 2017, D.2).
 receivers receivers_of(const toolbox::image<toolbox::surface>& seen, const toolbox::camera& light, int resolution);

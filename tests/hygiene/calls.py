@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""No pack kernel calls anything: one that is not inlined to the last operation costs more than its arithmetic. But
-large structs clang copies by memcpy, which is no operation.
+"""No pack kernel calls anything: one that is not inlined to the last operation costs more than its arithmetic. Lists of
+packs are kilobytes, and where they are copied clang calls memcpy, which is no operation.
 
 usage: calls.py SOURCE COMPILER [FLAG...]    compiles, disassembles, prints every kernel with a call; exit code 1 if any
 """

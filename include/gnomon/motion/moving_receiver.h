@@ -119,20 +119,26 @@ GNOMON_KERNEL Real moving_receiver_part(GNOMON_T(moving_receiver) state, GNOMON_
 {
     Real a = gnomon_max(hidden.t0, state.begin * (Real(1) - start) + state.end * start);
     Real b = gnomon_min(hidden.t1, state.begin * (Real(1) - stop) + state.end * stop);
-    Real share_a = shutter_box(a, state.begin, state.end);
-    Real share_b = shutter_box(b, state.begin, state.end);
-    Real passed_a = saturate_or_zero((a - state.t0) / (state.t1 - state.t0));
-    Real passed_b = saturate_or_zero((b - state.t0) / (state.t1 - state.t0));
-    Real u_a = state.u0 * (Real(1) - passed_a) + state.u1 * passed_a;
-    Real v_a = state.v0 * (Real(1) - passed_a) + state.v1 * passed_a;
-    Real u_b = state.u0 * (Real(1) - passed_b) + state.u1 * passed_b;
-    Real v_b = state.v0 * (Real(1) - passed_b) + state.v1 * passed_b;
-    Real aa = u_a * v_a;
-    Real ab = u_a * v_b + u_b * v_a;
-    Real bb = u_b * v_b;
-    Real twelvefold = (response + slope * share_a) * (Real(3) * aa + ab + bb) +
-                      (response + slope * share_b) * (aa + ab + Real(3) * bb);
-    return receiver_loss(hidden, state.course.id, share_a, share_b) * twelvefold / Real(12);
+    GNOMON_MASK some = a < b;
+    Real lost = Real(0);
+    if (gnomon_any(some)) {
+        Real share_a = shutter_box(a, state.begin, state.end);
+        Real share_b = shutter_box(b, state.begin, state.end);
+        Real passed_a = saturate_or_zero((a - state.t0) / (state.t1 - state.t0));
+        Real passed_b = saturate_or_zero((b - state.t0) / (state.t1 - state.t0));
+        Real u_a = state.u0 * (Real(1) - passed_a) + state.u1 * passed_a;
+        Real v_a = state.v0 * (Real(1) - passed_a) + state.v1 * passed_a;
+        Real u_b = state.u0 * (Real(1) - passed_b) + state.u1 * passed_b;
+        Real v_b = state.v0 * (Real(1) - passed_b) + state.v1 * passed_b;
+        Real aa = u_a * v_a;
+        Real ab = u_a * v_b + u_b * v_a;
+        Real bb = u_b * v_b;
+        Real twelvefold = (response + slope * share_a) * (Real(3) * aa + ab + bb) +
+                          (response + slope * share_b) * (aa + ab + Real(3) * bb);
+        lost =
+            gnomon_select(some, receiver_loss(hidden, state.course.id, share_a, share_b) * twelvefold / Real(12), lost);
+    }
+    return lost;
 }
 
 /// One range of a tap, for a shutter that opens and closes at once.

@@ -174,12 +174,22 @@ GNOMON_KERNEL GNOMON_T(depth_time_range)
 {
     Real early = gnomon_max(begin, r.t0);
     Real late = gnomon_min(end, r.t1);
-    Real before0 = range_depth(course, early) - range_depth(r, early);
-    Real before1 = range_depth(course, late) - range_depth(r, late);
-    Real passed = before0 / (before0 - before1); // in [0, 1] where their signs differ
-    Real meeting = clamp_or_nan(early * (Real(1) - passed) + late * passed, early, late);
-    Real front = gnomon_select(Real(0) < before0, early, gnomon_select(Real(0) < before1, meeting, Real(1)));
-    Real back = gnomon_select(Real(0) < before1, late, gnomon_select(Real(0) < before0, meeting, Real(0)));
+    // Where one is in front of the other whatever the time, as most are.
+    GNOMON_MASK nearer = r.z0 < course.z0 && r.z0 < course.z1 && r.z1 < course.z0 && r.z1 < course.z1;
+    GNOMON_MASK farther = course.z0 <= r.z0 && course.z0 <= r.z1 && course.z1 <= r.z0 && course.z1 <= r.z1;
+    Real front = early;
+    Real back = gnomon_select(farther, Real(0), late);
+    GNOMON_MASK open = early < late && !(nearer || farther);
+    if (gnomon_any(open)) {
+        Real before0 = range_depth(course, early) - range_depth(r, early);
+        Real before1 = range_depth(course, late) - range_depth(r, late);
+        Real passed = before0 / (before0 - before1); // in [0, 1] where their signs differ
+        Real meeting = clamp_or_nan(early * (Real(1) - passed) + late * passed, early, late);
+        Real first = gnomon_select(Real(0) < before0, early, gnomon_select(Real(0) < before1, meeting, Real(1)));
+        Real last = gnomon_select(Real(0) < before1, late, gnomon_select(Real(0) < before0, meeting, Real(0)));
+        front = gnomon_select(open, first, front);
+        back = gnomon_select(open, last, back);
+    }
     GNOMON_MASK ever = front < back; // false for NaN
     return range_clip(r, gnomon_select(ever, front, Real(1)), gnomon_select(ever, back, Real(0)));
 }

@@ -218,7 +218,7 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list)
 }
 
 /// What the light sees: ranges apart from one another, in order of time, so that static_receiver.h may add them up.
-/// What does not fit is merged with its neighbour, and counted. Empty ones at the end.
+/// What does not fit is merged with its neighbour, and counted. Empty ones come first.
 GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_resolve(GNOMON_LIST_T(range_list) list)
 {
     Real t = Real(0);

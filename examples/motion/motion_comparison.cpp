@@ -1,0 +1,189 @@
+#include "motion_comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "accumulation.hpp"
+#include "light_receivers.hpp"
+#include "range_maps.hpp"
+#include "shadow_tests.hpp"
+#include "timing.hpp"
+#include "toolbox/tracer.hpp"
+
+namespace gnomon::demo {
+
+using namespace toolbox;
+
+namespace {
+
+constexpr float error_scale = 0.5f;    // visibility at which error colours saturate
+constexpr int stochastic_samples = 16; // per pixel
+
+struct outcome {
+    std::string method, format;
+    double bytes_per_texel, build_ms, ns_per_receiver;
+    const seen_motion* seen;
+    std::vector<float> visibility; // per course
+};
+
+using shadow_test = float (*)(const range_map<float>&, const light_receiver&);
+
+class motion_comparison {
+  public:
+    motion_comparison(const motion_scene& listed, const moving_stage& scenery, const motion_sizes& size,
+                      const std::filesystem::path& folder)
+        : key_(listed.key), stage_(scenery), size_(size), folder_(folder)
+    {
+        progress(folder.filename().string(),
+                 fmt::format("{}: ray tracing at {} times", listed.title, size.reference_samples));
+        const tracer rays(stage_.world);
+        reference_ = rays.photograph(stage_.light, stage_.eye, size.width, size.height, size.reference_samples);
+        analytic_ = toolbox::analytic_visibility(stage_.world, stage_.eye, size.width, size.height, course_tolerance);
+        stochastic_ = stochastic_visibility(stage_.world, stage_.eye, size.width, size.height, stochastic_samples);
+        analytic_receivers_ = light_receivers_of(analytic_, stage_.light, size.map_resolution);
+        stochastic_receivers_ = light_receivers_of(stochastic_, stage_.light, size.map_resolution);
+        for (std::size_t pixel = 0; pixel < reference_.visibility.pixels.size(); ++pixel)
+            if (!analytic_(pixel).empty() && reference_.coverage.pixels[pixel] > 0) pixels_.push_back(pixel);
+        facts_ = {{"key", key_},
+                  {"title", listed.title},
+                  {"scene", stage_.world.open.name},
+                  {"triangles", triangle_numbers(stage_.world.open).count()},
+                  {"receivers", pixels_.size()},
+                  {"reference", file("reference")},
+                  {"methods", nlohmann::json::array()}};
+        write_png(folder_ / file("reference"), reference_.colour);
+    }
+
+    void run()
+    {
+        for (const int count : {8, 16, 32, 64}) add_accumulation(count);
+        const auto& [world, eye, light, interests] = stage_;
+        const int resolution = size_.map_resolution;
+        add_stochastic(prism_range_map(world, light, resolution));
+        const owned_range_map exact = exact_range_map(world, light, resolution);
+        add_stochastic(exact);
+        add_stochastic(covered_range_map(exact));
+        const owned_range_map resolved = resolved_range_map(world, light, resolution);
+        add_stochastic(resolved);
+        add_courses(resolved, "at rest", resting_visibility);
+        add_courses(resolved, "sampled", sampled_visibility);
+        add_courses(resolved, "semi-analytic", semi_analytic_visibility);
+        add_courses(resolved, "analytic", demo::analytic_visibility);
+        add_courses(list_range_map<4>(exact), "analytic", demo::analytic_visibility);
+        add_courses(list_range_map<8>(exact), "analytic", demo::analytic_visibility);
+        add_courses(list_range_map<16>(exact), "analytic", demo::analytic_visibility);
+    }
+
+    motion_results results() && { return {std::move(facts_), std::move(rows_)}; }
+
+  private:
+    std::string file(std::string_view what) const { return fmt::format("{}-{}.png", key_, what); }
+
+    double per_receiver(double seconds) const
+    {
+        return 1e9 * seconds / double(std::max<std::size_t>(pixels_.size(), 1));
+    }
+
+    void add_accumulation(int count)
+    {
+        accumulated_maps maps;
+        const double build =
+            on_one_core([&] { maps = accumulate(stage_.world, stage_.light, size_.map_resolution, count); });
+        const seen_motion seen = seen_at_times(analytic_, maps);
+        std::vector<float> visibility;
+        const double spent = on_one_core([&] { visibility = accumulated_visibility(seen, stage_.light, maps); });
+        add({fmt::format("accumulation of {}", count), "32 bit depth", 4.0 * count, 1e3 * build, per_receiver(spent),
+             &seen, std::move(visibility)});
+    }
+
+    // Hong & Oh: at one time per camera sample.
+    void add_stochastic(const owned_range_map& map)
+    {
+        std::vector<float> visibility(stochastic_receivers_.size());
+        const double spent = on_one_core([&] {
+            for (std::size_t i = 0; i < visibility.size(); ++i)
+                visibility[i] =
+                    visibility_at(map.map(), stochastic_receivers_[i], stochastic_receivers_[i].path.depth.t0);
+        });
+        add({fmt::format("{}, {} times", map.name, stochastic_samples), map.format, map.bytes_per_texel(), map.build_ms,
+             per_receiver(spent), &stochastic_, std::move(visibility)});
+    }
+
+    void add_courses(const owned_range_map& map, std::string_view receivers, shadow_test test)
+    {
+        std::vector<float> visibility(analytic_receivers_.size());
+        const double spent = on_one_core([&] {
+            for (std::size_t i = 0; i < visibility.size(); ++i) visibility[i] = test(map.map(), analytic_receivers_[i]);
+        });
+        add({fmt::format("{}, receivers {}", map.name, receivers), map.format, map.bytes_per_texel(), map.build_ms,
+             per_receiver(spent), &analytic_, std::move(visibility)});
+    }
+
+    void add(const outcome& o)
+    {
+        const std::string name = fmt::format("{:02}", facts_["methods"].size());
+        const image<float> estimate = mean_visibility(*o.seen, o.visibility);
+        write_png(folder_ / file(name), shade(stage_.world, stage_.light, *o.seen, o.visibility));
+        write_png(folder_ / file(name + "-error"), error_picture(estimate, reference_.visibility, error_scale));
+        facts_["methods"].push_back(
+            {{"method", o.method}, {"format", o.format}, {"picture", file(name)}, {"error", file(name + "-error")}});
+        std::vector<float> found, expected;
+        for (const std::size_t pixel : pixels_) {
+            found.push_back(estimate.pixels[pixel]);
+            expected.push_back(reference_.visibility.pixels[pixel]);
+        }
+        rows_.push_back({.scene = stage_.world.open.name,
+                         .method = o.method,
+                         .format = o.format,
+                         .reference = "traced",
+                         .receivers = static_cast<long long>(pixels_.size()),
+                         .bytes_per_texel = o.bytes_per_texel,
+                         .errors = compare(found, expected),
+                         .ns_per_receiver = o.ns_per_receiver,
+                         .build_ms = o.build_ms});
+    }
+
+    std::string key_;
+    const moving_stage& stage_;
+    motion_sizes size_;
+    std::filesystem::path folder_;
+    reference_picture reference_;
+    seen_motion analytic_, stochastic_;
+    std::vector<light_receiver> analytic_receivers_, stochastic_receivers_;
+    std::vector<std::size_t> pixels_; // that see a surface at some time
+    nlohmann::ordered_json facts_;
+    std::vector<report_row> rows_;
+};
+
+} // namespace
+
+motion_sizes motion_sizes_of(const settings& how)
+{
+    const bool full = how.supersampling > 1, tiny = how.width < settings().width;
+    const int shrink = full ? 1 : 4;
+    return {how.width / shrink, how.height / shrink, full ? how.map_resolution : how.map_resolution / 2,
+            tiny ? 64 : 1024};
+}
+
+motion_results compare_motion(const motion_scene& listed, const moving_stage& scenery, const motion_sizes& size,
+                              const std::filesystem::path& folder)
+{
+    motion_comparison c(listed, scenery, size, folder);
+    c.run();
+    return std::move(c).results();
+}
+
+nlohmann::ordered_json facts_of(const motion_sizes& size)
+{
+    return {{"width", size.width},
+            {"height", size.height},
+            {"map_resolution", size.map_resolution},
+            {"samples", size.reference_samples},
+            {"error_scale", error_scale},
+            {"scenes", nlohmann::json::array()}};
+}
+
+} // namespace gnomon::demo

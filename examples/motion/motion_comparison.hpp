@@ -1,0 +1,39 @@
+// One moving stage by every method, beside the mean of ray tracing at many times.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "drivers.hpp"
+#include "toolbox/moving_scene.hpp"
+#include "toolbox/report.hpp"
+
+namespace gnomon::demo {
+
+struct motion_scene {
+    std::string key, title; // key: the beginning of its files' names
+};
+
+struct motion_sizes {
+    int width, height, map_resolution, reference_samples;
+};
+motion_sizes motion_sizes_of(const settings& how);
+
+// Of a camera's courses and a map's ranges, over depths from -1 to 1.
+inline constexpr float course_tolerance = 2e-4f;
+
+struct motion_results {
+    nlohmann::ordered_json facts; // of the scene, for the gallery
+    std::vector<toolbox::report_row> rows;
+};
+
+// Leaves pictures in the folder.
+motion_results compare_motion(const motion_scene& listed, const toolbox::moving_stage& scenery,
+                              const motion_sizes& size, const std::filesystem::path& folder);
+
+// What all scenes of a page have in common; its array "scenes" is empty.
+nlohmann::ordered_json facts_of(const motion_sizes& size);
+
+} // namespace gnomon::demo

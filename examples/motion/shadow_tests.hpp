@@ -1,0 +1,27 @@
+// How a receiver asks a shadow map of ranges: at one time, by samples in time, at rest, or in closed form; each with
+// the four texels around it, bilinearly weighed. All give the visibility of the light, 1 lit and 0 in shadow, over the
+// course's own time.
+#pragma once
+
+#include <gnomon/passes/range_map.hpp>
+
+#include "light_receivers.hpp"
+
+namespace gnomon::demo {
+
+// At one time in the course's. What lies outside of the map is lit.
+float visibility_at(const range_map<float>& map, const light_receiver& r, float t);
+
+// By n = max(2 |p_e - p_s|, 5) samples in the middle of their strata (Palmer 2011, 4.1).
+float sampled_visibility(const range_map<float>& map, const light_receiver& r);
+
+// As if it stayed where it is halfway. The lists are resolved.
+float resting_visibility(const range_map<float>& map, const light_receiver& r);
+
+// As in the thesis: in closed form where both ends are in one texel, by samples elsewhere. The lists are resolved.
+float semi_analytic_visibility(const range_map<float>& map, const light_receiver& r);
+
+// In closed form along the way. The lists are resolved.
+float analytic_visibility(const range_map<float>& map, const light_receiver& r);
+
+} // namespace gnomon::demo
