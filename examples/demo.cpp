@@ -19,9 +19,9 @@ struct driver {
     void (*run)(const gnomon::demo::settings&);
 };
 
-constexpr std::array drivers{driver{"hard_shadows", gnomon::demo::hard_shadows},
-                             driver{"vulkan_shadows", gnomon::demo::vulkan_shadows},
-                             driver{"bounds", gnomon::demo::bounds}};
+constexpr std::array drivers{
+    driver{"hard_shadows", gnomon::demo::hard_shadows}, driver{"vulkan_shadows", gnomon::demo::vulkan_shadows},
+    driver{"bounds", gnomon::demo::bounds}, driver{"motion_analytic", gnomon::demo::motion_analytic}};
 
 } // namespace
 

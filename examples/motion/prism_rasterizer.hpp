@@ -3,6 +3,7 @@
 #pragma once
 
 #include <gnomon/motion/prism.h>
+#include <gnomon/passes/range_map.hpp>
 #include <gnomon/simd/xsimd.hpp>
 
 #include <algorithm>
@@ -24,14 +25,21 @@ class prism_rasterizer {
     // interpolated, those of fragments are linear in view distance.
     prism_rasterizer(const toolbox::moving_scene& world, const toolbox::moving_camera& light, int resolution);
 
-    // Calls visit(number of the triangle, texel of the first lane, fragments) for each pack of texels of a row that
-    // triangles of its prism come near. Lanes outside of the picture have no fragments.
+    // Calls visit(number of the triangle, place of the first lane, fragments) for each pack of texels of a row that
+    // triangles of its prism come near; places count row by row. Lanes outside of the picture have no fragments.
     template <class Visit> void for_each_pack(const Visit& visit) const
     {
         for (const setup& s : setups_) {
             const drawn_prism p = drawn(s);
             for (int y = p.first_row; y <= p.last_row; ++y) visit_row(p, y, s.number, visit);
         }
+    }
+
+    // The texel of a map at a place.
+    std::uint32_t texel(std::uint32_t place) const
+    {
+        const auto width = std::uint32_t(resolution_);
+        return std::uint32_t(range_map<float>::texel(width, place % width, place / width));
     }
 
   private:

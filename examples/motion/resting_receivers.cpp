@@ -64,31 +64,31 @@ class ground_receivers {
     void add_rays(int count)
     {
         std::vector<float> found(traced_.size());
-        const double spent = on_one_core([&] { rays_.mean_visibility(scenery_.light, traced_, count, found); });
+        const double spent = seconds_on_one_core([&] { rays_.mean_visibility(scenery_.light, traced_, count, found); });
         add(fmt::format("{} rays", count), "Embree", 0, 0, spent, found);
     }
 
     void add_maps(int count)
     {
         accumulated_maps maps;
-        const double build =
-            on_one_core([&] { maps = accumulate(scenery_.world, scenery_.light, size_.map_resolution, count); });
+        const double build = seconds_on_one_core(
+            [&] { maps = accumulate(scenery_.world, scenery_.light, size_.map_resolution, count); });
         const seen_motion at_times = seen_at_times(seen_, maps);
         std::vector<float> found;
-        const double spent = on_one_core(
+        const double spent = seconds_on_one_core(
             [&] { found = mean_visibility(at_times, accumulated_visibility(at_times, scenery_.light, maps)).pixels; });
         add(fmt::format("accumulation of {}", count), "32 bit depth", 4.0 * count, 1e3 * build, spent, found);
     }
 
     void add_ranges()
     {
-        const owned_range_map map = resolved_range_map(scenery_.world, scenery_.light, size_.map_resolution);
+        const range_shadow_map map = resolved_ranges(scenery_.world, scenery_.light, size_.map_resolution);
         const std::vector<light_receiver> receivers = light_receivers_of(seen_, scenery_.light, size_.map_resolution);
         std::vector<float> found(receivers.size());
-        const double spent = on_one_core([&] {
+        const double spent = seconds_on_one_core([&] {
             for (std::size_t i = 0; i < found.size(); ++i) found[i] = analytic_visibility(map.map(), receivers[i]);
         });
-        add(map.name + ", receivers analytic", map.format, map.bytes_per_texel(), map.build_ms, spent, found);
+        add(map.method + ", receivers analytic", map.format, map.bytes_per_texel(), map.build_ms, spent, found);
     }
 
     void add(const std::string& method, const std::string& format, double bytes, double build_ms, double seconds,
