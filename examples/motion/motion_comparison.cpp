@@ -19,7 +19,7 @@ using namespace toolbox;
 
 namespace {
 
-constexpr float error_scale = 0.5f;      // visibility at which error colours saturate
+constexpr float error_scale = 0.1f;      // visibility at which error colours saturate
 constexpr float depth_tolerance = 2e-4f; // of courses, over a depth of 2
 constexpr int stochastic_samples = 16;   // per pixel
 
