@@ -7,6 +7,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator
 from charts import plt, save, set_error_scale
 
 COLOURS = ("#7f7f7f", "#9467bd", "#ff7f0e", "#2ca02c", "#d62728", "#17becf", "#8c6d31")
+SATURATED = 0.98  # how dark the darkest channel of an error's colour is at most
 MARKERS = ("^", "s", "D", "o", "v", "P", "X", "*", "<", ">")
 
 
@@ -87,7 +88,15 @@ def linear(picture):
 
 
 def encoded(light):
+    light = numpy.clip(light, 0, 1)
     return numpy.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
+
+
+def strengthened(errors, gain):
+    """Colours of errors `gain` times as far from white, or as far as the drivers let them be."""
+    missing = 1 - errors
+    strongest = numpy.maximum(missing.max(axis=2, keepdims=True), 1e-6)
+    return 1 - missing * numpy.clip(SATURATED / strongest, 1, gain)
 
 
 def close_ups(rows, gain, folder, name):
@@ -103,9 +112,7 @@ def close_ups(rows, gain, folder, name):
         left, top = inset["x"], inset["y"]
         for axes, (file, _, shows_errors) in zip(line, pictures):
             light = linear(plt.imread(file)[top:top + inset["height"], left:left + inset["width"], :3])
-            if shows_errors:
-                light = numpy.clip(1 - gain * (1 - light), 0, 1)
-            axes.imshow(numpy.clip(encoded(light), 0, 1), interpolation="none")
+            axes.imshow(encoded(strengthened(light, gain) if shows_errors else light), interpolation="none")
             axes.set_xticks([])
             axes.set_yticks([])
             axes.grid(False)

@@ -12,14 +12,17 @@ def chart(folder, name, caption):
     return picture(f"{folder}/{name}.svg", f'{caption} (<a href="{folder}/{name}.png">PNG</a>)')
 
 
-def table(heads, rows):
-    """Heads are HTML; a row's cells are (key to sort by, HTML), or the two and whether to mark it as the best."""
-    def cell(key, text, best=False):
-        mark = ' class="best"' if best else ""
-        return f'<td data-key="{escape(str(key))}"{mark}>{text}</td>'
+def table(heads, rows, words=2):
+    """Heads are HTML; a row's cells are (key to sort by, HTML), or the two and whether to mark it as the best. The first
+    `words` columns hold words, all others numbers."""
+    def classes(column, best=False):
+        return ' class="word"' if column < words else ' class="best"' if best else ""
 
-    head = "".join(f"<th>{text}</th>" for text in heads)
-    body = "\n".join("<tr>" + "".join(cell(*c) for c in row) + "</tr>" for row in rows)
+    def cell(column, key, text, *best):
+        return f'<td data-key="{escape(str(key))}"{classes(column, *best)}>{text}</td>'
+
+    head = "".join(f"<th{classes(i)}>{text}</th>" for i, text in enumerate(heads))
+    body = "\n".join("<tr>" + "".join(cell(i, *c) for i, c in enumerate(row)) + "</tr>" for row in rows)
     return f'<div class="scroll"><table><thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody></table></div>'
 
 
