@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
-#include <time.h>
 
 #include <algorithm>
 #include <array>
@@ -21,6 +20,7 @@
 #include "methods.hpp"
 #include "percentage_closer.hpp"
 #include "receivers.hpp"
+#include "timing.hpp"
 #include "toolbox/file.hpp"
 #include "toolbox/rasterizer.hpp"
 #include "toolbox/report.hpp"
@@ -36,21 +36,6 @@ namespace {
 const auto taps = gaussian_weights();
 
 constexpr float error_scale = 0.5f; // visibility at which error colours saturate
-
-// Of this thread, whatever else the machine does.
-double cpu_seconds()
-{
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
-
-double seconds(auto&& run)
-{
-    const double start = cpu_seconds();
-    run();
-    return cpu_seconds() - start;
-}
 
 // The least time of at least three runs, and of as many as fit into 0.15 s.
 double ns_per_receiver(std::size_t count, auto&& run)

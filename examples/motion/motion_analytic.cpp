@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "drivers.hpp"
+#include "known_answers.hpp"
 #include "motion_comparison.hpp"
+#include "resting_receivers.hpp"
 #include "toolbox/file.hpp"
 #include "toolbox/moving_stages.hpp"
 
@@ -20,6 +22,18 @@ void gnomon::demo::motion_analytic(const settings& how)
         facts["scenes"].push_back(found.facts);
         rows.insert(rows.end(), found.rows.begin(), found.rows.end());
     }
+    progress("motion_analytic", "known answers");
+    for (const toolbox::report_row& row : known_answers(size)) {
+        facts["closed_forms"].push_back({{"scene", row.scene},
+                                         {"method", row.method},
+                                         {"receivers", row.receivers},
+                                         {"max_abs", row.errors.max_abs}});
+        rows.push_back(row);
+    }
+    progress("motion_analytic", "receivers at rest");
+    const motion_results resting = compare_resting_receivers(size);
+    facts["static"] = resting.facts;
+    rows.insert(rows.end(), resting.rows.begin(), resting.rows.end());
     toolbox::write_file(folder / "facts.json", facts.dump(1));
     toolbox::merge_report(how.out / "report.json", rows);
 }

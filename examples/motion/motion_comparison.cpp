@@ -19,10 +19,9 @@ using namespace toolbox;
 
 namespace {
 
-constexpr float error_scale = 0.1f;      // visibility at which error colours saturate
-constexpr float depth_tolerance = 2e-4f; // of courses, over a depth of 2
-constexpr int stochastic_samples = 16;   // per pixel
-constexpr int inset_share = 4;           // of a picture's width in that of an inset
+constexpr float error_scale = 0.1f;    // visibility at which error colours saturate
+constexpr int stochastic_samples = 16; // per pixel
+constexpr int inset_share = 4;         // of a picture's width in that of an inset
 
 struct outcome {
     std::string method, format;
@@ -43,7 +42,7 @@ class motion_comparison {
                  fmt::format("{}: ray tracing at {} times", listed.title, size.reference_samples));
         const tracer rays(stage_.world);
         reference_ = rays.photograph(stage_.light, stage_.eye, size.width, size.height, size.reference_samples);
-        analytic_ = toolbox::analytic_visibility(stage_.world, stage_.eye, size.width, size.height, depth_tolerance);
+        analytic_ = toolbox::analytic_visibility(stage_.world, stage_.eye, size.width, size.height, course_tolerance);
         stochastic_ = stochastic_visibility(stage_.world, stage_.eye, size.width, size.height, stochastic_samples);
         analytic_receivers_ = light_receivers_of(analytic_, stage_.light, size.map_resolution);
         stochastic_receivers_ = light_receivers_of(stochastic_, stage_.light, size.map_resolution);

@@ -7,6 +7,8 @@
 #include <array>
 #include <bit>
 #include <gnomon/passes/resolve.hpp>
+#include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include "moving_tiles.hpp"
@@ -15,57 +17,92 @@ namespace gnomon::toolbox {
 
 namespace {
 
-// Ranges as they come, each with its texel in the picture.
-struct loose_ranges {
-    std::vector<std::uint32_t> texels;
-    std::vector<depth_time_range<float>> ranges;
+// A pack of ranges, and which of them there are.
+struct range_lanes {
+    texel_lanes t0, t1, z0, z1, exists; // 1 or 0
+};
 
-    std::size_t size() const { return texels.size(); }
+// Ranges of one tile as they come, each with its texel in the tile.
+class loose_ranges {
+  public:
+    std::size_t size() const { return size_; }
+    std::span<const std::uint32_t> texels() const { return std::span(texels_).first(size_); }
+    std::span<const depth_time_range<float>> ranges() const { return std::span(ranges_).first(size_); }
+    void clear() { size_ = 0; }
+
     void add(std::uint32_t texel, const depth_time_range<float>& r)
     {
-        texels.push_back(texel);
-        ranges.push_back(r);
+        make_room(1);
+        texels_[size_] = texel, ranges_[size_] = r;
+        ++size_;
     }
-    void cut_to(std::size_t size) { texels.resize(size), ranges.resize(size); }
+
+    // Those that there are, without a branch. Returns how many.
+    std::size_t add(const std::uint32_t* texels, const range_lanes& lanes, float id)
+    {
+        make_room(texel_pack::size);
+        std::uint32_t* texel = &texels_[size_];
+        depth_time_range<float>* range = &ranges_[size_];
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < texel_pack::size; ++i) {
+            texel[count] = texels[i];
+            range[count] = {lanes.t0[i], lanes.t1[i], lanes.z0[i], lanes.z1[i], id};
+            count += lanes.exists[i] > 0;
+        }
+        size_ += count;
+        return count;
+    }
+
+  private:
+    void make_room(std::size_t count)
+    {
+        if (size_ + count <= texels_.size()) return;
+        texels_.resize(2 * (size_ + count)), ranges_.resize(2 * (size_ + count));
+    }
+
+    std::vector<std::uint32_t> texels_; // what lies beyond the size is room
+    std::vector<depth_time_range<float>> ranges_;
+    std::size_t size_ = 0;
 };
 
-// A tile's part of the loose ranges of a thread.
-struct tile_part {
-    const loose_ranges* of = nullptr;
-    std::size_t begin = 0, end = 0;
-};
+constexpr std::size_t texels_per_tile = moving_tile_size * moving_tile_size;
 
 // What one thread needs, tile after tile.
 struct thread_state {
     loose_ranges loose;
     range_counts counts;
-    std::vector<std::uint32_t> inside, first;
-    std::vector<depth_time_range<float>> lists;
+    std::array<std::uint32_t, texels_per_tile + 1> first{};
+    std::vector<depth_time_range<float>> lists; // as first says; what lies beyond is room
     std::vector<visible_span<float>> spans;
+    std::vector<depth_time_range<float>> finished; // of its tiles in the row, each in the order of its texels
 };
 
-// The loose ranges from begin on, all of one tile, become what of them is in front.
-void resolve(thread_state& t, const moving_tile& where, std::size_t begin)
+// Where a thread has left the ranges of a tile.
+struct tile_part {
+    const std::vector<depth_time_range<float>>* of = nullptr;
+    std::size_t begin = 0;
+};
+
+// The loose ranges of a tile become lists.
+std::span<const depth_time_range<float>> sort_loose(thread_state& t)
 {
-    constexpr std::uint32_t texels = moving_tile_size * moving_tile_size;
-    const auto inside = [&](std::uint32_t texel) {
-        const auto width = std::uint32_t(where.picture_width);
-        return (texel / width - std::uint32_t(where.corner.y)) * moving_tile_size + texel % width -
-               std::uint32_t(where.corner.x);
-    };
-    t.inside.assign(t.loose.texels.begin() + std::ptrdiff_t(begin), t.loose.texels.end());
-    std::ranges::transform(t.inside, t.inside.begin(), inside);
-    t.first.resize(texels + 1);
-    t.lists.resize(t.inside.size());
-    sort_into_lists<float>(t.inside, std::span(t.loose.ranges).subspan(begin), t.first, t.lists);
-    t.loose.cut_to(begin);
-    for (std::uint32_t i = 0; i < texels; ++i) {
-        const auto list =
-            std::span<const depth_time_range<float>>(t.lists).subspan(t.first[i], t.first[i + 1] - t.first[i]);
+    const std::size_t size = t.loose.size();
+    t.lists.resize(std::max(t.lists.size(), size));
+    sort_into_lists(t.loose.texels(), t.loose.ranges(), std::span(t.first), std::span(t.lists).first(size));
+    t.loose.clear();
+    return std::span(t.lists).first(size);
+}
+
+// They become what of them is in front.
+void resolve_loose(thread_state& t)
+{
+    const auto sorted = sort_loose(t);
+    for (std::size_t i = 0; i < texels_per_tile; ++i) {
+        const auto list = sorted.subspan(t.first[i], t.first[i + 1] - t.first[i]);
         if (list.empty()) continue;
         t.spans.resize(std::max(t.spans.size(), resolve_capacity(list.size())));
-        const std::uint32_t texel = where.texel({int(i) % moving_tile_size, int(i) / moving_tile_size});
-        for (const visible_span<float>& s : resolve_ranges<float>(list, t.spans)) t.loose.add(texel, range_of(list, s));
+        for (const visible_span<float>& s : resolve_ranges<float>(list, t.spans))
+            t.loose.add(std::uint32_t(i), range_of(list, s));
     }
 }
 
@@ -91,7 +128,11 @@ template <class Real> moving_triangle<Real> depths_of(const moving_triangle<doub
 }
 
 // Whether a range is between the planes at all; depths are limited to theirs.
-bool between_planes(float z0, float z1) { return !(z0 <= -1 && z1 <= -1) && !(z0 >= 1 && z1 >= 1); }
+auto between_planes(const texel_pack& z0, const texel_pack& z1)
+{
+    const texel_pack near_plane(-1.f), far_plane(1.f);
+    return (near_plane < z0 || near_plane < z1) && (z0 < far_plane || z1 < far_plane);
+}
 
 moving_edges<float> edges_in_lane(const moving_edges<texel_pack>& e, std::size_t lane)
 {
@@ -102,37 +143,43 @@ moving_edges<float> edges_in_lane(const moving_edges<texel_pack>& e, std::size_t
 }
 
 // The texels of one triangle in one tile.
-void add_ranges(const moving_setup& s, const moving_tile& where, float tolerance, thread_state& out)
+void add_ranges(const moving_setup& s, const moving_tile& where, float tolerance, loose_ranges& to,
+                range_counts& counts)
 {
     const tile_triangle triangle(s, where);
     const moving_triangle<texel_pack> depths = depths_of<texel_pack>(s.corners);
     triangle.for_each_pack([&](const glm::ivec2& block, int begin, const moving_edges<texel_pack>& edges) {
-        out.counts.tested += texel_pack::size;
+        counts.tested += texel_pack::size;
         for (const float facing : {1.f, -1.f}) {
             if (!(facing > 0 ? s.positive : s.negative)) continue;
             const coverage_times<texel_pack> times = moving_coverage(edges, texel_pack(facing));
-            if (!gnomon_any(times.count > texel_pack(0.f))) continue;
-            texel_lanes count, t0, t1, z0, z1;
-            times.count.store_unaligned(count.data());
             const std::array<std::array<texel_pack, 2>, 4> intervals{{{times.begin0, times.end0},
                                                                       {times.begin1, times.end1},
                                                                       {times.begin2, times.end2},
                                                                       {times.begin3, times.end3}}};
             for (int k = 0; k < 4 && gnomon_any(times.count > texel_pack(float(k))); ++k) {
                 const auto& [opening, closing] = intervals[std::size_t(k)];
-                opening.store_unaligned(t0.data());
-                closing.store_unaligned(t1.data());
-                moving_triangle_linear_depth(depths, edges, opening).store_unaligned(z0.data());
-                moving_triangle_linear_depth(depths, edges, closing).store_unaligned(z1.data());
-                for (std::size_t i = 0; i < texel_pack::size; ++i) {
-                    const glm::ivec2 at = tile_triangle::texel(block, begin + int(i));
-                    if (!(count[i] > float(k)) || !triangle.contains(at) || !between_planes(z0[i], z1[i])) continue;
-                    out.counts.pairs += k == 0;
-                    const depth_time_range<float> whole{t0[i], t1[i], z0[i], z1[i], float(s.number)};
-                    if (tolerance > 0)
-                        add_pieces(whole, depths_of<float>(s.corners), edges_in_lane(edges, i), tolerance,
-                                   where.texel(at), out.loose);
-                    else out.loose.add(where.texel(at), whole);
+                const texel_pack depth0 = moving_triangle_linear_depth(depths, edges, opening),
+                                 depth1 = moving_triangle_linear_depth(depths, edges, closing);
+                const auto seen = times.count > texel_pack(float(k)) && between_planes(depth0, depth1) &&
+                                  triangle.contains(block, begin);
+                range_lanes lanes;
+                opening.store_unaligned(lanes.t0.data()), closing.store_unaligned(lanes.t1.data());
+                depth0.store_unaligned(lanes.z0.data()), depth1.store_unaligned(lanes.z1.data());
+                gnomon_select(seen, texel_pack(1.f), texel_pack(0.f)).store_unaligned(lanes.exists.data());
+                std::array<std::uint32_t, texel_pack::size> texels;
+                for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = tile_triangle::texel(block, begin + int(i));
+                const auto id = float(s.number);
+                if (tolerance > 0) {
+                    for (std::size_t i = 0; i < texels.size(); ++i)
+                        if (lanes.exists[i] > 0) {
+                            counts.pairs += k == 0;
+                            add_pieces({lanes.t0[i], lanes.t1[i], lanes.z0[i], lanes.z1[i], id},
+                                       depths_of<float>(s.corners), edges_in_lane(edges, i), tolerance, texels[i], to);
+                        }
+                } else {
+                    const std::size_t added = to.add(texels.data(), lanes, id);
+                    if (k == 0) counts.pairs += added;
                 }
             }
         }
@@ -147,7 +194,7 @@ void sample_instants(const moving_setup& s, const moving_tile& where, int sample
     const moving_triangle<texel_pack> depths = depths_of<texel_pack>(s.corners);
     triangle.for_each_pack([&](const glm::ivec2& block, int begin, const moving_edges<texel_pack>& edges) {
         const auto instant = [&](std::size_t lane, int k) -> depth_time_range<float>* {
-            const glm::ivec2 at = tile_triangle::texel(block, begin + int(lane));
+            const glm::ivec2 at = tile_triangle::place(block, begin + int(lane));
             if (!triangle.contains(at)) return nullptr;
             return &nearest[std::size_t(where.texel(at)) * std::size_t(samples) + std::size_t(k)];
         };
@@ -187,7 +234,67 @@ float jitter(std::uint32_t sample)
 
 struct range_rasterizer::scratch {
     tbb::enumerable_thread_specific<thread_state> threads;
-    std::vector<tile_part> parts;
+    std::vector<tile_part> parts; // of the tiles of a row
+
+    // A row of tiles, whose texels come one after the other in the map: its lists are laid out while caches have them.
+    // Returns the new number of ranges.
+    std::size_t add_row(const tiled_triangles& scenery, std::size_t row, const range_options& how, std::size_t begin,
+                        range_lists& lists)
+    {
+        for (thread_state& t : threads) t.finished.clear();
+        parts.resize(scenery.columns());
+        tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t column) {
+            const std::size_t tile = row * parts.size() + column;
+            parts[column] = add_tile(scenery, tile, how, lists.first);
+        });
+
+        std::size_t end = begin;
+        for (const thread_state& t : threads) end += t.finished.size();
+        if (end > std::numeric_limits<std::uint32_t>::max())
+            throw std::length_error("moving rasterizer: more than 2^32 ranges");
+        if (lists.ranges.size() < end) lists.ranges.resize(std::max(end, 2 * lists.ranges.size()));
+        const moving_tile left = scenery.tile(row * parts.size());
+        const auto first = lists.first.begin() + left.texel({0, 0});
+        std::exclusive_scan(first, first + left.size.y * left.picture_width + 1, first, std::uint32_t(begin));
+
+        tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t column) {
+            const moving_tile where = scenery.tile(row * parts.size() + column);
+            auto from = parts[column].of->begin() + std::ptrdiff_t(parts[column].begin);
+            for (int y = 0; y < where.size.y; ++y) {
+                const std::uint32_t* begins = &lists.first[where.texel({0, y})];
+                const auto count = std::ptrdiff_t(begins[where.size.x] - begins[0]);
+                std::copy_n(from, count, lists.ranges.begin() + begins[0]);
+                from += count;
+            }
+        });
+        return end;
+    }
+
+    // Its lists are left with the thread, how long they are in counts.
+    tile_part add_tile(const tiled_triangles& scenery, std::size_t tile, const range_options& how,
+                       std::vector<std::uint32_t>& counts)
+    {
+        thread_state& t = threads.local();
+        const moving_tile where = scenery.tile(tile);
+        std::size_t budget = how.tile_budget;
+        scenery.for_each(tile, [&](const moving_setup& s) {
+            add_ranges(s, where, how.depth_tolerance, t.loose, t.counts);
+            if (t.loose.size() <= budget) return;
+            ++t.counts.early_resolves;
+            resolve_loose(t);
+            budget = std::max(budget, 2 * t.loose.size());
+        });
+        if (how.resolved) resolve_loose(t);
+        const auto sorted = sort_loose(t);
+        for (int y = 0; y < where.size.y; ++y) {
+            const std::uint32_t* begins = &t.first[std::size_t(y) * moving_tile_size];
+            std::uint32_t* count = &counts[where.texel({0, y})];
+            for (int x = 0; x < where.size.x; ++x) count[x] = begins[x + 1] - begins[x];
+        }
+        const tile_part part{&t.finished, t.finished.size()};
+        t.finished.insert(t.finished.end(), sorted.begin(), sorted.end());
+        return part;
+    }
 };
 
 range_rasterizer::range_rasterizer() : scratch_(std::make_unique<scratch>()) {}
@@ -197,37 +304,12 @@ const range_lists& range_rasterizer::operator()(const moving_scene& world, const
                                                 int height, const range_options& how)
 {
     const tiled_triangles scenery(world, eye, width, height, how.visible);
-    const std::size_t tiles = scenery.tiles();
-
     lists_.width = width, lists_.height = height, lists_.counts = {};
     lists_.first.assign(std::size_t(width) * std::size_t(height) + 1, 0);
-    for (thread_state& t : scratch_->threads) t.loose.cut_to(0), t.counts = {};
-    scratch_->parts.resize(tiles);
-    tbb::parallel_for(std::size_t(0), tiles, [&](std::size_t i) {
-        thread_state& t = scratch_->threads.local();
-        const moving_tile where = scenery.tile(i);
-        const std::size_t before = t.loose.size();
-        std::size_t budget = how.tile_budget;
-        scenery.for_each(i, [&](const moving_setup& s) {
-            add_ranges(s, where, how.depth_tolerance, t);
-            if (t.loose.size() - before <= budget) return;
-            ++t.counts.early_resolves;
-            resolve(t, where, before);
-            budget = std::max(budget, 2 * (t.loose.size() - before));
-        });
-        if (how.resolved) resolve(t, where, before);
-        scratch_->parts[i] = {&t.loose, before, t.loose.size()};
-        for (std::size_t k = before; k < t.loose.size(); ++k) ++lists_.first[t.loose.texels[k]];
-    });
-    begins_from_counts(lists_.first);
-    lists_.ranges.resize(lists_.first.back());
-    tbb::parallel_for(std::size_t(0), tiles, [&](std::size_t i) {
-        const tile_part& part = scratch_->parts[i];
-        for (std::size_t k = part.begin; k < part.end; ++k)
-            lists_.ranges[lists_.first[part.of->texels[k]]++] = part.of->ranges[k];
-    });
-    std::shift_right(lists_.first.begin(), lists_.first.end(), 1); // each list's end is where the next begins
-    lists_.first[0] = 0;
+    for (thread_state& t : scratch_->threads) t.counts = {};
+    std::size_t size = 0;
+    for (std::size_t row = 0; row < scenery.rows(); ++row) size = scratch_->add_row(scenery, row, how, size, lists_);
+    lists_.ranges.resize(size);
     for (const thread_state& t : scratch_->threads) {
         lists_.counts.pairs += t.counts.pairs;
         lists_.counts.tested += t.counts.tested;

@@ -5,7 +5,7 @@
 // Work grows with what is covered, not with bounding boxes of what moves: triangles are tested against tiles, against
 // blocks of 4 x 4 texels and then against texels, by one kernel in space and time (motion/edge_field.h), a pack at a
 // time. A tile counts its ranges before it lays out its lists, and resolves them early where they would take more
-// memory than it may have.
+// memory than it may have. Tiles of one row have their lists put one after the other before the next row's begin.
 #pragma once
 
 #include <gnomon/passes/range_map.hpp>

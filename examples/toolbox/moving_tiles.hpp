@@ -49,6 +49,8 @@ class tiled_triangles {
     tiled_triangles(const moving_scene& world, const moving_camera& eye, int width, int height, faces visible);
 
     std::size_t tiles() const { return first_.size() - 1; }
+    std::size_t columns() const { return std::size_t(grid_.x); }
+    std::size_t rows() const { return std::size_t(grid_.y); }
     moving_tile tile(std::size_t i) const;
 
     // Calls visit(setup) for the triangles of a tile, in the order of their numbers.
@@ -115,7 +117,6 @@ class tile_triangle {
     // Calls visit(block, first sample, edge functions) for packs of samples in the blocks that it touches.
     template <class Visit> void for_each_pack(const Visit& visit) const
     {
-        static constexpr auto samples_x = moving_block_samples<false>(), samples_y = moving_block_samples<true>();
         const auto visit_block = [&](const glm::ivec2& block) {
             const glm::vec2 corner(block * moving_block_size);
             for (std::size_t begin = 0; begin < samples_x.size(); begin += texel_pack::size)
@@ -130,17 +131,31 @@ class tile_triangle {
                              0.5f * (size - 1) + margin, visit_block);
     }
 
-    // Where in the tile a sample of a block is, and whether that is in the picture.
-    static glm::ivec2 texel(const glm::ivec2& block, int sample)
+    // Where in the tile a sample of a block is, its number there, and whether that is in the picture.
+    static glm::ivec2 place(const glm::ivec2& block, int sample)
     {
         return moving_block_size * block + glm::ivec2(sample % moving_block_size, sample / moving_block_size);
     }
-    bool contains(const glm::ivec2& texel) const { return texel.x <= last_.x && texel.y <= last_.y; }
+    static std::uint32_t texel(const glm::ivec2& block, int sample)
+    {
+        const glm::ivec2 at = place(block, sample);
+        return static_cast<std::uint32_t>(at.y * moving_tile_size + at.x);
+    }
+    bool contains(const glm::ivec2& place) const { return place.x <= last_.x && place.y <= last_.y; }
+    // The same for a pack of samples.
+    auto contains(const glm::ivec2& block, int sample) const
+    {
+        const glm::vec2 beyond = glm::vec2(last_ - moving_block_size * block) + 1.f - 0.5f * float(moving_tile_size);
+        return texel_pack::load_unaligned(&samples_x[std::size_t(sample)]) < texel_pack(beyond.x) &&
+               texel_pack::load_unaligned(&samples_y[std::size_t(sample)]) < texel_pack(beyond.y);
+    }
 
     // What blocks are tested for beyond their samples, in texels: more than rounding takes from them.
     static constexpr float margin = 0.05f;
 
   private:
+    static constexpr auto samples_x = moving_block_samples<false>(), samples_y = moving_block_samples<true>();
+
     const moving_setup& setup_;
     glm::ivec2 last_, low_, high_; // texel, blocks
     moving_field<texel_pack> field_;

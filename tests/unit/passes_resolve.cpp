@@ -149,10 +149,10 @@ TEST_CASE("sort_into_lists: every range in its texel's list, in the order in whi
 {
     bit_source bits(43);
     constexpr std::size_t width = 5, height = 3;
-    std::vector<std::uint32_t> texels(200), first(width * height + 1);
+    std::vector<std::uint32_t> texels(200), first(range_map<float>::texels(width, height) + 1);
     list<float> ranges(texels.size()), sorted(texels.size());
     for (std::size_t i = 0; i < texels.size(); ++i) {
-        texels[i] = std::uint32_t(bits.below(width * height));
+        texels[i] = std::uint32_t(range_map<float>::texel(width, bits.below(width), bits.below(height)));
         ranges[i].id = float(i);
     }
     sort_into_lists<float>(texels, ranges, first, sorted);
@@ -162,7 +162,7 @@ TEST_CASE("sort_into_lists: every range in its texel's list, in the order in whi
         for (std::uint32_t x = 0; x < width; ++x) {
             const auto list = map(x, y);
             for (std::size_t k = 0; k < list.size(); ++k, ++found) {
-                CHECK(texels[std::size_t(list[k].id)] == y * width + x);
+                CHECK(texels[std::size_t(list[k].id)] == range_map<float>::texel(width, x, y));
                 if (k > 0) CHECK(list[k - 1].id < list[k].id);
             }
         }

@@ -13,15 +13,28 @@
 
 namespace gnomon {
 
-/// Texel (x, y) has the ranges first[i] to first[i + 1] - 1, i = y width + x.
+/// Texel i, by range_map::texel, has the ranges first[i] to first[i + 1] - 1. Texels are counted by blocks of 8 x 8,
+/// row by row of blocks and row by row in each, so that neighbours along either axis are near one another in memory;
+/// blocks are whole, so first holds texels(width, height) + 1 numbers.
 template <class T> struct range_map {
     std::size_t width = 0, height = 0;
     std::span<const std::uint32_t> first;
     std::span<const depth_time_range<T>> ranges;
 
+    static constexpr std::size_t block = 8;
+    static constexpr std::size_t blocks(std::size_t texels) { return (texels + block - 1) / block; }
+    static constexpr std::size_t texels(std::size_t width, std::size_t height)
+    {
+        return blocks(width) * blocks(height) * (block * block);
+    }
+    static constexpr std::size_t texel(std::size_t width, std::size_t x, std::size_t y)
+    {
+        return ((y / block) * blocks(width) + x / block) * (block * block) + y % block * block + x % block;
+    }
+
     std::span<const depth_time_range<T>> operator()(std::size_t x, std::size_t y) const
     {
-        const std::size_t i = y * width + x;
+        const std::size_t i = texel(width, x, y);
         return ranges.subspan(first[i], first[i + 1] - first[i]);
     }
 };

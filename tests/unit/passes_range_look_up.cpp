@@ -1,0 +1,160 @@
+// Look-ups in maps of ranges: closed forms against many times, wide filters against the mean of narrow ones, and what
+// is outside of the map.
+#include "../support/effort.hpp"
+#include "../support/hostile.hpp"
+
+#include <gnomon/passes/range_look_up.hpp>
+#include <gnomon/passes/resolve.hpp>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+using namespace gnomon;
+using gnomon::test::bit_source;
+
+namespace {
+
+constexpr std::size_t width = 12, height = 10;
+
+/// Random resolved lists in every texel.
+template <class T> struct random_map {
+    std::vector<std::uint32_t> first;
+    std::vector<depth_time_range<T>> ranges;
+
+    explicit random_map(bit_source& bits) : first(range_map<T>::texels(width, height) + 1)
+    {
+        std::vector<std::uint32_t> texels;
+        std::vector<depth_time_range<T>> all;
+        for (std::size_t i = 0; i < width * height; ++i) {
+            std::vector<depth_time_range<T>> list(bits.below(6));
+            for (auto& r : list) {
+                const double a = bits.uniform(0, 1), b = bits.uniform(0, 1);
+                r = range_between(T(a), T(bits.uniform(-1, 1)), T(b), T(bits.uniform(-1, 1)), T(bits.below(5)));
+            }
+            std::vector<visible_span<T>> room(resolve_capacity(list.size()));
+            for (const auto& s : resolve_ranges<T>(list, room)) {
+                texels.push_back(std::uint32_t(range_map<T>::texel(width, i % width, i / width)));
+                all.push_back(range_of<T>(list, s));
+            }
+        }
+        ranges.resize(all.size());
+        sort_into_lists<T>(texels, all, first, ranges);
+    }
+    range_map<T> map() const { return {width, height, first, ranges}; }
+};
+
+template <class T> receiver_path<T> any_path(bit_source& bits)
+{
+    const double reach = bits.chance(0.5) ? 0.7 : 4, x = bits.uniform(2, 10), y = bits.uniform(2, 8);
+    const double a = bits.uniform(0, 0.4), b = bits.uniform(0.6, 1);
+    return {{T(a), T(b), T(bits.uniform(-1, 1)), T(bits.uniform(-1, 1)), T(2)},
+            T(x),
+            T(y),
+            T(1),
+            T(x + bits.uniform(-reach, reach)),
+            T(y + bits.uniform(-reach, reach)),
+            T(1)};
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("moving_shadow: what many times say", T, float, double)
+{
+    constexpr int times = 4096;
+    bit_source bits(61);
+    for (std::int64_t n = 0; n < test::effort(100); ++n) {
+        const random_map<T> random(bits);
+        const receiver_path<T> path = any_path<T>(bits);
+        const int look_ups = 1 + int(bits.below(3));
+        double sum = 0;
+        for (int i = 0; i < times; ++i)
+            sum += double(
+                shadow_at(random.map(), path, receiver_sample_time(path, T(i), T(times), T(0.5)), T(0), look_ups));
+        const double found = double(moving_shadow(random.map(), path, path.depth.t0, path.depth.t1, look_ups));
+        // Between times at which a range comes, goes or is met, of which some hundred are in reach, each of a weight of
+        // at most 1 / K^2, weights are polynomials: a sample in the middle is right to the square of its share.
+        CHECK(std::abs(found - sum / times) <= 300.0 / times / (look_ups * look_ups) + 1e-4);
+    }
+}
+
+TEST_CASE_TEMPLATE("static_shadow is moving_shadow at rest; a wide filter is the mean of narrow ones", T, float, double)
+{
+    bit_source bits(62);
+    const double u = double(std::numeric_limits<T>::epsilon());
+    for (std::int64_t n = 0; n < test::effort(500); ++n) {
+        const random_map<T> random(bits);
+        receiver_path<T> path = any_path<T>(bits);
+        path.x1 = path.x0, path.y1 = path.y0, path.depth.z1 = path.depth.z0;
+        const auto at_rest = [&](T x, T y, int look_ups) {
+            const auto state = static_receiver_begin(path.depth.z0, path.depth.id, path.depth.t0, path.depth.t1);
+            return double(static_shadow(random.map(), x, y, state, look_ups));
+        };
+        const double one = at_rest(path.x0, path.y0, 1);
+        // Ranges that run almost at the receiver's depth cross it at times that roundings move.
+        const double slack = 1e4 * u;
+        CHECK(std::abs(double(moving_shadow(random.map(), path, path.depth.t0, path.depth.t1)) - one) <= slack);
+        double mean = 0;
+        for (int j = -1; j <= 1; ++j)
+            for (int i = -1; i <= 1; ++i) mean += at_rest(path.x0 + T(i), path.y0 + T(j), 1) / 9;
+        CHECK(std::abs(at_rest(path.x0, path.y0, 3) - mean) <= slack);
+    }
+}
+
+TEST_CASE_TEMPLATE("sampled_shadow: more samples are nearer to the closed form", T, float, double)
+{
+    bit_source bits(63);
+    double few = 0, many = 0;
+    for (int n = 0; n < 200; ++n) {
+        const random_map<T> random(bits);
+        const receiver_path<T> path = any_path<T>(bits);
+        const double exact = double(moving_shadow(random.map(), path, path.depth.t0, path.depth.t1));
+        receiver_path<T> longer = path; // the same way at a sixteenth of the pace: 16 times as many samples
+        few += std::abs(double(sampled_shadow(random.map(), path, T(0), T(1000))) - exact);
+        double sum = 0;
+        for (int i = 0; i < 16; ++i) {
+            longer = receiver_path_clip(path, path.depth.t0 + T(i) / 16 * (path.depth.t1 - path.depth.t0),
+                                        path.depth.t0 + T(i + 1) / 16 * (path.depth.t1 - path.depth.t0));
+            sum += double(sampled_shadow(random.map(), longer, T(0), T(1000))) / 16;
+        }
+        many += std::abs(sum - exact);
+    }
+    CHECK(few > 0);
+    CHECK(many < few / 3);
+}
+
+TEST_CASE_TEMPLATE("outside of the map, and nowhere, it is lit; a shutter of one's own", T, float, double)
+{
+    const T nan = std::numeric_limits<T>::quiet_NaN();
+    std::vector<std::uint32_t> texels;
+    std::vector<depth_time_range<T>> all;
+    for (std::size_t i = 0; i < width * height; ++i) {
+        texels.push_back(std::uint32_t(range_map<T>::texel(width, i % width, i / width)));
+        all.push_back({T(0), T(0.5), T(-1), T(-1), T(1)});
+    }
+    std::vector<std::uint32_t> first(range_map<T>::texels(width, height) + 1);
+    std::vector<depth_time_range<T>> ranges(all.size());
+    sort_into_lists<T>(texels, all, first, ranges);
+    const range_map<T> map{width, height, first, ranges};
+    const auto state = static_receiver_begin(T(0), T(2), T(0), T(1));
+    CHECK(static_shadow(map, T(6), T(5), state) == T(0.5));
+    CHECK(static_shadow(map, T(6), T(5), state, 4) == doctest::Approx(0.5));
+    CHECK(static_shadow(map, T(0), T(5), state) == T(0.25));
+    CHECK(static_shadow(map, T(width), T(height), state) == T(0.125));
+    CHECK(static_shadow(map, T(-9), T(5), state) == 0);
+    CHECK(static_shadow(map, T(1e30), T(-1e30), state) == 0);
+    CHECK(static_shadow(map, nan, T(5), state) == 0);
+    const auto tent = [](const static_receiver<T>& s, const depth_time_range<T>& r) {
+        return static_receiver_add_tent(s, r);
+    };
+    CHECK(static_shadow(map, T(6), T(5), static_receiver_begin(T(0), T(2), T(0.25), T(1)), 1, tent) ==
+          doctest::Approx(2.0 / 9));
+    const receiver_path<T> lost{{T(0), T(1), T(0), T(0), T(2)}, nan, T(5), T(1), T(6), T(5), T(1)};
+    CHECK(moving_shadow(map, lost, T(0), T(1)) == 0);
+    CHECK(shadow_at(map, lost, T(0.25), T(0)) == 0);
+    const T sampled = sampled_shadow(map, lost, T(0), T(64));
+    CHECK((sampled >= 0 && sampled <= 1));
+}
