@@ -131,7 +131,7 @@ class Demo(unittest.TestCase):
     def test_lists_never_leak_more_for_their_capacity(self):
         # Merging only makes more of the time dark; 1e-5 is what the sums of some hundred spans can be rounded by.
         for scene in ("random cubes", "fan"):
-            self.assertLess(self.motion(scene, "list of 4, receivers analytic", "leak"),
+            self.assertLess(self.motion(scene, "interval lists of 4, receivers analytic", "leak"),
                             self.motion(scene, ANALYTIC, "leak") + 1e-5, scene)
 
     def test_rows_are_complete(self):

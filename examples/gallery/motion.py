@@ -185,16 +185,18 @@ good. Where the smallest, of {accumulated[0]}, is good enough, its time stands.<
 
 
 def memory(out, folder, facts):
-    rows = facts.get("memory")
-    if not rows:
+    found = facts.get("memory")
+    if not found:
         return ""
-    motion_charts.memory(rows, out / "gallery" / folder, "chart-memory")
-    size, longest = rows[0]["resolution"], rows[0]["longest"]
+    motion_charts.cubes(found["rows"], out / "gallery" / folder, "chart-memory")
+    size = found["resolution"]
     return f"""<h3>Memory and time</h3>
 <p>The curves of Hong & Oh: random cubes, seen by shadow maps of {size} x {size} texels, more and more of them on the left, faster
-and faster on the right. At speed 1 the longest way is {longest:g}. What grows in proportion to number or speed rises as
-steeply as a diagonal.</p>
-{chart(folder, "chart-memory", "Above what a map takes once it is built, below how long that takes.")}"""
+and faster on the right. The longest way of a cube is {found["longest"]:g} times the speed. Prisms find what they find on both
+sides of a triangle's motion, and pay for it with fragments that they must pair; where one triangle covers a texel for the whole
+time, coverage leaves out what it hides.</p>
+{chart(folder, "chart-memory", '''From top to bottom: what a map takes once it is built, how long that takes, and how long for each
+texel that a triangle covers at some time.''')}"""
 
 
 def known_answers(facts):
@@ -208,7 +210,7 @@ def known_answers(facts):
     if facts.get("static"):
         text += """<h3>Receivers at rest</h3>
 <p>Visibility over the whole shutter interval, against ray tracing with motion blur. Errors in thousandths; the ratio is how
-many times as fast.</p>
+many times as fast as the first method.</p>
 """ + table(("motion", "method", "ns per receiver", "RMSE", "ratio"),
             ([(row["factor"], f"{row['factor']:g} x"), (row["method"], escape(row["method"])), number(row["ns"]),
               number(1e3 * row["rmse"], 2), number(row["ratio"], 1)] for row in facts["static"]))

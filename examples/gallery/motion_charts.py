@@ -1,5 +1,7 @@
 """The charts of shadows in motion."""
 
+from itertools import cycle
+
 import numpy
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator
@@ -46,8 +48,8 @@ def label_decades(axis):
 def equal_error(panels, folder, name):
     """panels: a title, rows, the time of a row, which goes to the right, and what that is; errors go up."""
     ranges = [row for _, rows, _, _ in panels for row in rows if not is_accumulation(row)]
-    colours = dict(zip(in_order(parts(row)[1] for row in ranges), COLOURS))
-    markers = dict(zip(in_order(parts(row)[0] for row in ranges), MARKERS))
+    colours = dict(zip(in_order(parts(row)[1] for row in ranges), cycle(COLOURS)))
+    markers = dict(zip(in_order(parts(row)[0] for row in ranges), cycle(MARKERS)))
     columns = min(4, len(panels))
     lines = -(-len(panels) // columns)
     width, height = max(3.5 * columns, 12), 2.9 * lines + 0.9
@@ -128,26 +130,29 @@ def spread(rows, fixed, free):
     return value, sorted((row for row in rows if row[fixed] == value), key=lambda row: row[free])
 
 
-def memory(rows, folder, name):
-    figure, panels = plt.subplots(2, 2, figsize=(11, 7), sharey="row")
-    figure.subplots_adjust(left=0.08, right=0.99, top=0.95, bottom=0.13, wspace=0.06, hspace=0.25)
-    kinds = dict(zip(in_order(kind for row in rows for kind in row["kinds"]), zip(COLOURS, MARKERS)))
+def cubes(rows, folder, name):
+    """What maps take, against number and speed of cubes."""
+    quantities = (("bytes", "MiB", 2**-20), ("build_ms", "ms, one core", 1), ("ns_per_pair", "ns per texel and triangle", 1))
     views = (("factor", "count", "cubes", "speed {:g}"), ("count", "factor", "speed", "{} cubes"))
+    methods = dict(zip(in_order(m["method"] for row in rows for m in row["maps"]), zip(cycle(COLOURS), cycle(MARKERS))))
+    figure, panels = plt.subplots(len(quantities), len(views), figsize=(11, 9.5), sharey="row")
+    figure.subplots_adjust(left=0.08, right=0.99, top=0.96, bottom=0.12, wspace=0.06, hspace=0.27)
     for column, (fixed, free, label, title) in zip(panels.T, views):
         value, chosen = spread(rows, fixed, free)
         column[0].set_title(title.format(value))
-        for axes, key, scale in zip(column, ("bytes", "build_ms"), (2**-20, 1)):
-            for kind, (colour, marker) in kinds.items():
-                points = [(row[free], scale * row["kinds"][kind][key]) for row in chosen if kind in row["kinds"]]
-                axes.plot(*zip(*points), color=colour, marker=marker, ms=5, lw=1.3, alpha=0.85)
+        places = [row[free] for row in chosen]
+        for axes, (key, _, scale) in zip(column, quantities):
+            for method, (colour, marker) in methods.items():
+                values = [scale * m[key] for row in chosen for m in row["maps"] if m["method"] == method]
+                axes.plot(places, values, color=colour, marker=marker, ms=5, lw=1.3, alpha=0.85)
             axes.set_xscale("log", base=2)
             axes.set_yscale("log")
-            axes.set_xticks([row[free] for row in chosen], [f"{row[free]:g}" for row in chosen])
+            axes.set_xticks(places, [f"{place:g}" for place in places])
             axes.minorticks_off()
             axes.set_xlabel(label)
-    for axes, unit in zip(panels[:, 0], ("MiB", "ms, one core")):
+    for axes, (_, unit, _) in zip(panels[:, 0], quantities):
         axes.set_ylabel(unit)
         label_decades(axes.yaxis)
-    handles = [Line2D([], [], color=colour, marker=marker, label=kind) for kind, (colour, marker) in kinds.items()]
-    figure.legend(handles=handles, loc="lower center", ncols=min(6, len(handles)), frameon=False)
+    handles = [Line2D([], [], color=colour, marker=marker, label=method) for method, (colour, marker) in methods.items()]
+    figure.legend(handles=handles, loc="lower center", ncols=-(-len(handles) // 2), frameon=False, fontsize=9)
     save(figure, folder, name)
