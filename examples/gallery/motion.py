@@ -194,7 +194,7 @@ def memory(out, folder, facts):
 <p>The curves of Hong & Oh: random cubes, seen by shadow maps of {size} x {size} texels, more and more of them on the left, faster
 and faster on the right. The longest way of a cube is {found["longest"]:g} times the speed. Prisms find what they find on both
 sides of a triangle's motion, and pay for it with fragments that they must pair; where one triangle covers a texel for the whole
-time, coverage leaves out what it hides.</p>
+time, coverage leaves out what it hides. Packed are the ranges of a resolved map, with fewer bits.</p>
 {chart(folder, "chart-memory", '''From top to bottom: what a map takes once it is built, how long that takes, and how long for each
 texel that a triangle covers at some time.''')}"""
 
@@ -232,13 +232,14 @@ def analytic(out, folder, facts, report):
 <p>While a shutter is open, everything moves along straight lines. A shadow map of ranges keeps for each texel what the light
 sees when: from one time to another, from one depth to another. How long a receiver is lit then is an integral in closed form,
 with no noise and no bands. Accumulation, what one would use instead, is the mean over ordinary shadow maps at some times.</p>
-<p>Maps: all <i>exact</i> ranges by edge functions in time, or by <i>prisms</i> (Hong & Oh, <i>Motion Blurred Shadows Utilizing a
-Depth-Time Ranges Shadow Map</i>); <i>covered</i>, without what is hidden for the whole time (Hong & Oh, <i>Efficient Motion
-Blurred Shadows Using a Temporal Shadow Map</i>, 2017); <i>resolved</i> to what is in front when, or <i>lists</i> of fixed capacity
-that merge what is most similar (Gribel et al. 2010; Palm&eacute;r, <i>Analytical Motion Blurred Shadows</i>, 2011). Receivers are
-asked at one time per sample of the camera, or for all the time in which a pixel sees a surface: as if they were at rest, by
-samples, in closed form within a texel (semi-analytic), or in closed form along their way (analytic). Scenes are from these papers
-and from Andersson et al., <i>Filtered Stochastic Shadow Mapping Using a Layered Approach</i> (2015).</p>
+<p>Maps keep all ranges, <i>exact</i> by edge functions in time or by <i>prisms</i> (Hong & Oh, <i>Motion Blurred Shadows
+Utilizing a Depth-Time Ranges Shadow Map</i>), each also <i>with coverage</i>, without what is hidden for the whole time (Hong &
+Oh, <i>Efficient Motion Blurred Shadows Using a Temporal Shadow Map</i>, 2017); or they are <i>resolved</i> to what is in front
+when; or <i>lists</i> of a fixed capacity merge what is most similar (Gribel et al. 2010; Palm&eacute;r, <i>Analytical Motion
+Blurred Shadows</i>, 2011). Receivers ask at one time for each sample of the camera, or for all the time in which a pixel sees a
+surface: as if that were at rest, by samples, in closed form within a texel (semi-analytic), or in closed form along its way
+(analytic). Scenes are from these papers and from Andersson et al., <i>Filtered Stochastic Shadow Mapping Using a Layered
+Approach</i> (2015).</p>
 <p>{setting(facts)}</p>
 {pictures}
 {figures_of_palmer(out, folder, scenes)}
