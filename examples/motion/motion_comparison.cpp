@@ -19,8 +19,9 @@ using namespace toolbox;
 
 namespace {
 
-constexpr float error_scale = 0.5f;    // visibility at which error colours saturate
+constexpr float error_scale = 0.1f;    // visibility at which error colours saturate
 constexpr int stochastic_samples = 16; // per pixel
+constexpr int inset_share = 4;         // of a picture's width in that of an inset
 
 struct outcome {
     std::string method, format;
@@ -53,7 +54,13 @@ class motion_comparison {
                   {"triangles", triangle_numbers(stage_.world.open).count()},
                   {"receivers", pixels_.size()},
                   {"reference", file("reference")},
+                  {"insets", nlohmann::json::array()},
                   {"methods", nlohmann::json::array()}};
+        for (const point_of_interest& place : stage_.interests) {
+            const rectangle r = inset_around(place, stage_.eye, size.width / inset_share, size.width, size.height);
+            facts_["insets"].push_back(
+                {{"name", place.name}, {"x", r.x}, {"y", r.y}, {"width", r.width}, {"height", r.height}});
+        }
         write_png(folder_ / file("reference"), reference_.colour);
     }
 
