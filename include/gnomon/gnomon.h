@@ -22,8 +22,8 @@
 #include "filters/percentage_closer.h"
 #include "filters/variance.h"
 
-#include "motion/edge_field.h"
 #include "motion/coverage_map.h"
+#include "motion/edge_field.h"
 #include "motion/facing.h"
 #include "motion/moving_receiver.h"
 #include "motion/moving_triangle.h"

@@ -23,7 +23,8 @@
 //                                    its 7th power normal once scaled by 2^112: 2^-30, in double 2^-66
 //
 // Zeros have signs, and not everybody keeps them: for +0, -x is +0 by xsimd's AVX-512, and 0 - x is -0 by Mesa's
-// llvmpipe. Where such a zero could reach a result, a kernel has Real(-1) * x, which is -0 everywhere.
+// llvmpipe. Where such a zero could reach a result, a kernel has Real(-1) * x, which is -0 everywhere. Mesa also makes
+// -0 of the 0 in gnomon_select(mask, Real(-1), Real(0)), and 0 of Real(0) * x, whatever x is.
 #ifndef GNOMON_PORTABLE_H
 #define GNOMON_PORTABLE_H
 

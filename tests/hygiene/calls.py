@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""No pack kernel calls anything: one that is not inlined to the last operation costs more than its arithmetic.
+"""No pack kernel calls anything: one that is not inlined to the last operation costs more than its arithmetic. Lists of
+packs are kilobytes, and where they are copied clang calls memcpy, which is no operation.
 
 usage: calls.py SOURCE COMPILER [FLAG...]    compiles, disassembles, prints every kernel with a call; exit code 1 if any
 """
@@ -9,6 +10,7 @@ import sys
 import tempfile
 
 CONTROL = "the control"
+COPY = re.compile(r".*\t(?:call|jmp) .*\n.*R_X86_64_PLT32\tmem(?:cpy|move|set)-.*\n")
 
 
 def disassembly(source, command):
@@ -24,15 +26,12 @@ def kernels(text):
         if "control(double)" in head:
             yield CONTROL, body
         else:
-            yield " for ".join(re.search(r"gnomon::(\w+)<(xsimd::batch<\w+, [^()]*?>), \2 ?>\(", head).groups()), body
-
-
-COPY = re.compile(r".*\tcall.*\n.*R_X86_64_PLT32\s+mem(?:cpy|move|set)\b.*\n")
+            kernel = re.search(r"gnomon::(\w+)<(xsimd::batch<\w+, [^()]*?>)(?:, \d+)?, \2 ?>\(", head)
+            yield " for ".join(kernel.groups()), body
 
 
 def leaves(body):
-    """Whether control goes elsewhere: by a call, or by a jump to a symbol (a tail call). Lists of packs are kilobytes, and
-    where they are copied clang calls memcpy."""
+    """Whether control goes elsewhere, but to copy: by a call, or by a jump to a symbol (a tail call)."""
     return re.search(r"\tcall|R_X86_64_PLT32", COPY.sub("", body))
 
 

@@ -13,7 +13,6 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-
 #if defined(__SSE__)
 #include <xmmintrin.h>
 #endif

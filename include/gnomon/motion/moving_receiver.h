@@ -111,14 +111,14 @@ GNOMON_KERNEL GNOMON_T(moving_receiver)
 }
 
 /// What is lost while a range hides the receiver, in a part of the exposure in which the shutter's response is a line:
-/// response + slope x at the share x of the exposure, from share start to share stop; by the weights of
+/// response + slope x at the share x of the exposure, from time start to time stop; by the weights of
 /// moving_receiver_tap. With P and Q lines from a to b, the mean of P Q is (2 P_a Q_a + P_a Q_b + P_b Q_a + 2 P_b Q_b)
 /// / 6, and the mean of three lines alike; nothing cancels.
-GNOMON_KERNEL Real moving_receiver_part(GNOMON_T(moving_receiver) state, GNOMON_T(depth_time_range) hidden,
-                                        GNOMON_SETTING start, GNOMON_SETTING stop, Real response, Real slope)
+GNOMON_KERNEL Real moving_receiver_part(GNOMON_T(moving_receiver) state, GNOMON_T(depth_time_range) hidden, Real start,
+                                        Real stop, Real response, Real slope)
 {
-    Real a = gnomon_max(hidden.t0, state.begin * (Real(1) - start) + state.end * start);
-    Real b = gnomon_min(hidden.t1, state.begin * (Real(1) - stop) + state.end * stop);
+    Real a = gnomon_max(hidden.t0, start);
+    Real b = gnomon_min(hidden.t1, stop);
     GNOMON_MASK some = a < b;
     Real lost = Real(0);
     if (gnomon_any(some)) {
@@ -146,7 +146,7 @@ GNOMON_KERNEL GNOMON_T(moving_receiver)
     moving_receiver_filter_box(GNOMON_T(moving_receiver) state, GNOMON_T(depth_time_range) r)
 {
     GNOMON_T(depth_time_range) hidden = range_in_front(r, state.course, state.t0, state.t1);
-    state.shadowed = state.shadowed + moving_receiver_part(state, hidden, Real(0), Real(1), Real(1), Real(0));
+    state.shadowed = state.shadowed + moving_receiver_part(state, hidden, state.begin, state.end, Real(1), Real(0));
     return state;
 }
 
@@ -155,8 +155,9 @@ GNOMON_KERNEL GNOMON_T(moving_receiver)
     moving_receiver_filter_tent(GNOMON_T(moving_receiver) state, GNOMON_T(depth_time_range) r)
 {
     GNOMON_T(depth_time_range) hidden = range_in_front(r, state.course, state.t0, state.t1);
-    Real opening = moving_receiver_part(state, hidden, Real(0), Real(0.5), Real(0), Real(4));
-    Real closing = moving_receiver_part(state, hidden, Real(0.5), Real(1), Real(4), Real(-4));
+    Real halfway = shutter_time(state.begin, state.end, Real(0.5));
+    Real opening = moving_receiver_part(state, hidden, state.begin, halfway, Real(0), Real(4));
+    Real closing = moving_receiver_part(state, hidden, halfway, state.end, Real(4), Real(-4));
     state.shadowed = state.shadowed + (opening + closing);
     return state;
 }
@@ -168,14 +169,21 @@ GNOMON_KERNEL GNOMON_T(moving_receiver)
 {
     GNOMON_T(depth_time_range) hidden = range_in_front(r, state.course, state.t0, state.t1);
     Real none = Real(0);
-    Real lost = moving_receiver_part(state, hidden, Real(0), Real(0.125), Real(8) * w.w0, none);
-    lost = lost + moving_receiver_part(state, hidden, Real(0.125), Real(0.25), Real(8) * w.w1, none);
-    lost = lost + moving_receiver_part(state, hidden, Real(0.25), Real(0.375), Real(8) * w.w2, none);
-    lost = lost + moving_receiver_part(state, hidden, Real(0.375), Real(0.5), Real(8) * w.w3, none);
-    lost = lost + moving_receiver_part(state, hidden, Real(0.5), Real(0.625), Real(8) * w.w4, none);
-    lost = lost + moving_receiver_part(state, hidden, Real(0.625), Real(0.75), Real(8) * w.w5, none);
-    lost = lost + moving_receiver_part(state, hidden, Real(0.75), Real(0.875), Real(8) * w.w6, none);
-    lost = lost + moving_receiver_part(state, hidden, Real(0.875), Real(1), Real(8) * w.w7, none);
+    Real t1 = shutter_time(state.begin, state.end, Real(0.125));
+    Real t2 = shutter_time(state.begin, state.end, Real(0.25));
+    Real t3 = shutter_time(state.begin, state.end, Real(0.375));
+    Real t4 = shutter_time(state.begin, state.end, Real(0.5));
+    Real t5 = shutter_time(state.begin, state.end, Real(0.625));
+    Real t6 = shutter_time(state.begin, state.end, Real(0.75));
+    Real t7 = shutter_time(state.begin, state.end, Real(0.875));
+    Real lost = moving_receiver_part(state, hidden, state.begin, t1, Real(8) * w.w0, none);
+    lost = lost + moving_receiver_part(state, hidden, t1, t2, Real(8) * w.w1, none);
+    lost = lost + moving_receiver_part(state, hidden, t2, t3, Real(8) * w.w2, none);
+    lost = lost + moving_receiver_part(state, hidden, t3, t4, Real(8) * w.w3, none);
+    lost = lost + moving_receiver_part(state, hidden, t4, t5, Real(8) * w.w4, none);
+    lost = lost + moving_receiver_part(state, hidden, t5, t6, Real(8) * w.w5, none);
+    lost = lost + moving_receiver_part(state, hidden, t6, t7, Real(8) * w.w6, none);
+    lost = lost + moving_receiver_part(state, hidden, t7, state.end, Real(8) * w.w7, none);
     state.shadowed = state.shadowed + lost;
     return state;
 }

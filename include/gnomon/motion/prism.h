@@ -197,7 +197,7 @@ GNOMON_KERNEL Real prism_edge(GNOMON_T(prism_vertex) p, GNOMON_T(prism_vertex) q
 /// further on along x and, far less, along y. 0 for an edge without length.
 GNOMON_KERNEL Real prism_edge_side(GNOMON_T(prism_vertex) p, GNOMON_T(prism_vertex) q, Real e)
 {
-    Real level = gnomon_select(p.x < q.x, Real(1), gnomon_select(q.x < p.x, Real(-1), Real(0)));
+    Real level = gnomon_select(q.x < p.x, Real(-1), gnomon_select(p.x < q.x, Real(1), Real(0)));
     Real tie = gnomon_select(q.y < p.y, Real(1), gnomon_select(p.y < q.y, Real(-1), level));
     return gnomon_select(Real(0) < e, Real(1), gnomon_select(e < Real(0), Real(-1), tie));
 }

@@ -13,6 +13,13 @@ GNOMON_STRUCT shutter_weights { Real w0, w1, w2, w3, w4, w5, w6, w7; };
 
 GNOMON_CONSTANT(shutter_weight_limit, 1152921504606846976.0); // 2^60: eight of them have a sum in float
 
+/// When a share of the time from begin to end is over, within 3 2^-p max(|begin|, |end|). For shares between 0 and 1:
+/// at the ends themselves llvmpipe makes 0 of the product with 0, of NaN as well.
+GNOMON_KERNEL Real shutter_time(Real begin, Real end, GNOMON_SETTING share)
+{
+    return begin * (Real(1) - share) + end * share;
+}
+
 /// Share of the light that an open shutter has let in by time t, of what it does from begin to end: a shutter that
 /// opens and closes at once. The share between two times is the difference. In [0, 1]; 0 where anything is NaN.
 GNOMON_KERNEL Real shutter_box(Real t, Real begin, Real end) { return saturate_or_zero((t - begin) / (end - begin)); }
