@@ -192,9 +192,9 @@ def memory(out, folder, facts):
     size = found["resolution"]
     return f"""<h3>Memory and time</h3>
 <p>The curves of Hong & Oh: random cubes, seen by shadow maps of {size} x {size} texels, more and more of them on the left, faster
-and faster on the right. The longest way of a cube is {found["longest"]:g} times the speed. Prisms find what they find on both
-sides of a triangle's motion, and pay for it with fragments that they must pair; where one triangle covers a texel for the whole
-time, coverage leaves out what it hides. Packed are the ranges of a resolved map, with fewer bits.</p>
+and faster on the right. The longest way of a cube is {found["longest"]:g} times the speed. Prisms need memory for the fragments
+that they pair. Coverage leaves out what is hidden where one triangle covers a texel for the whole time. Packed are the ranges of
+a resolved map, in fewer bits.</p>
 {chart(folder, "chart-memory", '''From top to bottom: what a map takes once it is built, how long that takes, and how long for each
 texel that a triangle covers at some time.''')}"""
 

@@ -52,9 +52,9 @@ def equal_error(panels, folder, name):
     markers = dict(zip(in_order(parts(row)[0] for row in ranges), cycle(MARKERS)))
     columns = min(4, len(panels))
     lines = -(-len(panels) // columns)
-    width, height = max(3.5 * columns, 12), 2.9 * lines + 0.9
+    width, height = max(3.5 * columns, 12), 2.9 * lines + 1.1
     figure, axes = plt.subplots(lines, columns, figsize=(width, height), squeeze=False)
-    figure.subplots_adjust(left=0.7 / width, right=0.99, top=1 - 0.3 / height, bottom=1.1 / height, wspace=0.25, hspace=0.5)
+    figure.subplots_adjust(left=0.7 / width, right=0.99, top=1 - 0.3 / height, bottom=1.3 / height, wspace=0.25, hspace=0.5)
     for unused in axes.flat[len(panels):]:
         unused.remove()
     for panel, (title, rows, time, label) in zip(axes.flat, panels):
@@ -80,7 +80,7 @@ def equal_error(panels, folder, name):
     handles = [Line2D([], [], color="black", marker=".", label="accumulation of as many maps"),
                *(Line2D([], [], lw=0, marker="o", color=c, label=how) for how, c in colours.items()),
                *(Line2D([], [], lw=0, marker=m, color="#999999", label=kind) for kind, m in markers.items())]
-    figure.legend(handles=handles, loc="lower center", ncols=-(-len(handles) // 2), frameon=False, fontsize=9)
+    figure.legend(handles=handles, loc="lower center", ncols=-(-len(handles) // 3), frameon=False, fontsize=9)
     save(figure, folder, name)
 
 
