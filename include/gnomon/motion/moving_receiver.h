@@ -110,6 +110,8 @@ GNOMON_KERNEL GNOMON_T(moving_receiver)
     return state;
 }
 
+GNOMON_CONSTANT(receiver_twelfth, 0.083333333333333333333); // Dawn divides by 12 like this, too
+
 /// What is lost while a range hides the receiver, in a part of the exposure in which the shutter's response is a line:
 /// response + slope x at the share x of the exposure, from time start to time stop; by the weights of
 /// moving_receiver_tap. With P and Q lines from a to b, the mean of P Q is (2 P_a Q_a + P_a Q_b + P_b Q_a + 2 P_b Q_b)
@@ -135,8 +137,8 @@ GNOMON_KERNEL Real moving_receiver_part(GNOMON_T(moving_receiver) state, GNOMON_
         Real bb = u_b * v_b;
         Real twelvefold = (response + slope * share_a) * (Real(3) * aa + ab + bb) +
                           (response + slope * share_b) * (aa + ab + Real(3) * bb);
-        lost =
-            gnomon_select(some, receiver_loss(hidden, state.course.id, share_a, share_b) * twelvefold / Real(12), lost);
+        Real share = receiver_loss(hidden, state.course.id, share_a, share_b);
+        lost = gnomon_select(some, share * twelvefold * GNOMON_LITERAL(receiver_twelfth), lost);
     }
     return lost;
 }
@@ -189,7 +191,7 @@ GNOMON_KERNEL GNOMON_T(moving_receiver)
 }
 
 /// Shadow intensity in [0, 1] over the whole shutter. A NaN hides nothing. Error for each range as for a receiver at
-/// rest (static_receiver_end), filtered 96 2^-p instead of 32; further those of when texels are entered and left
+/// rest (static_receiver_end), filtered 97 2^-p instead of 32; further those of when texels are entered and left
 /// (texel_border_passed), or of weights (receiver_path_at, and moving_receiver_tap in perspective).
 GNOMON_KERNEL Real moving_receiver_end(GNOMON_T(moving_receiver) state) { return saturate_or_zero(state.shadowed); }
 
