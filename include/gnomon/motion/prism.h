@@ -10,21 +10,23 @@
 // (equation 1, whose printed terms have the factors in the other order and hence lack a sign). The paper does not say
 // what the crossing has of what is interpolated. The edge is there twice, at time 0 and depth z_AB(s), at time 1 and
 // depth z_CD(u), and one vertex can be no more right than the mean of both: time 1/2, mean depth, at most half a
-// shutter and half their distance wrong, and with any other number more so on one of the two. It has the mean 1 / w as
-// well.
+// shutter and half their distance wrong, and with any other number more so on one of the two. So 1 / w is a mean, too;
+// a centre without crossing has that of the midpoint.
 //
-// Between vertices time and depth go as rasterizers take them by default, linearly in space (the papers, which name no
-// other way, had that): the screen's weight of corner k, its edge function e_k, times 1 / w_k,
+// Between vertices time and depth go as rasterizers take them by default, linearly in space (the paper names no other
+// way): the screen's weight of corner k, its edge function e_k, times 1 / w_k,
 //     time = sum_k e_k t_k / w_k / sum_k e_k / w_k
 // and depth linear in view distance likewise. Depth z / w goes linearly along the screen: e_k alone. All of this is
-// exact where a side is plane, hence for translations, in perspective, too: none of them has a bow tie, unless the side
-// is seen edge on and has no area. Elsewhere it is an approximation: of triangles that turn or deform, 10 to 13 in 100
-// are there at wrong times for more than 5% of the shutter (tests/unit/motion_prism_ranges.cpp). So this is what to
-// compare moving_triangle.h with, which is exact and the default. One triangle and texel at a time:
+// exact where sides are plane and time is linear on them, hence for translations, in perspective, too: these have no
+// bow ties, unless a side is seen edge on and has no area. Elsewhere it is an approximation: of triangles that turn or
+// deform, 10 to 13 in 100 are there at wrong times for more than 5% of the shutter
+// (tests/unit/motion_prism_ranges.cpp). So this is what to compare moving_triangle.h with, which is exact and the
+// default. One triangle and texel at a time:
 //     prism p = prism_of(m, divided);
 //     prism_pair pair = prism_pair_begin(id);
-//     for (k = 0; k < 14; ++k) pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_of(p, k), s_x, s_y,
-//     divided)); prism_ranges ranges = prism_pair_end(pair);
+//     for (k = 0; k < 14; ++k)
+//         pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_of(p, k), s_x, s_y, divided));
+//     prism_ranges ranges = prism_pair_end(pair);
 #ifndef GNOMON_MOTION_PRISM_H
 #define GNOMON_MOTION_PRISM_H
 #include "moving_triangle.h"
@@ -251,7 +253,7 @@ GNOMON_KERNEL GNOMON_T(prism_fragment)
     Real depth_b = b * prism_depth_weight(v.b, divided);
     Real depth_c = c * prism_depth_weight(v.c, divided);
     Real depth = ((depth_a * v.a.z + depth_b * v.b.z) + depth_c * v.c.z) / ((depth_a + depth_b) + depth_c);
-    Real time_a = gnomon_product(a, v.a.inverse_w); // numerator and denominator of a cap's time are the same
+    Real time_a = gnomon_product(a, v.a.inverse_w); // not contracted: a cap's time is 0 or the sum over itself
     Real time_b = gnomon_product(b, v.b.inverse_w);
     Real time_c = gnomon_product(c, v.c.inverse_w);
     Real weight = (time_a + time_b) + time_c;
