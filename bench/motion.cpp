@@ -107,7 +107,7 @@ struct prism_pairs : triangle_and_sample {
         prism_pair<real> pair = prism_pair_begin(real(0));
         real k = real(0);
         for (int i = 0; i < 14; ++i, k = k + real(1))
-            pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_of(p, k), x[24], x[25]));
+            pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_of(p, k), x[24], x[25], real(1)));
         const prism_ranges<real> ranges = prism_pair_end(pair);
         return range_duration(ranges.first) + range_duration(ranges.second);
     }

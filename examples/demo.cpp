@@ -19,9 +19,9 @@ struct driver {
     void (*run)(const gnomon::demo::settings&);
 };
 
-constexpr std::array drivers{driver{"hard_shadows", gnomon::demo::hard_shadows},
-                             driver{"vulkan_shadows", gnomon::demo::vulkan_shadows},
-                             driver{"bounds", gnomon::demo::bounds}};
+constexpr std::array drivers{
+    driver{"hard_shadows", gnomon::demo::hard_shadows}, driver{"vulkan_shadows", gnomon::demo::vulkan_shadows},
+    driver{"bounds", gnomon::demo::bounds}, driver{"motion_analytic", gnomon::demo::motion_analytic}};
 
 } // namespace
 
@@ -35,7 +35,8 @@ try {
     using gnomon::demo::settings;
     settings how;
     std::vector<std::string> names;
-    std::string model, out = how.out.string();
+    std::string model, animation, out = how.out.string();
+    std::array<double, 2> shutter{0, 1. / 24};
     bool full = false, tiny = false;
 
     CLI::App app("Renders shadows by every method of Gnomon; with no argument all drivers run.", "gnomon_demo");
@@ -45,7 +46,20 @@ try {
     app.add_flag("--full", full, "four camera samples per pixel");
     app.add_flag("--tiny", tiny, "a quarter of the size, for tests")->excludes("--full");
     app.add_flag("--hlsl", how.hlsl, "vulkan_shadows: shaders from HLSL instead of GLSL");
-    app.add_option("--model", model, "OBJ, PLY, glTF or similar, put on a ground plane and shaded by every method");
+    CLI::Option* still =
+        app.add_option("--model", model, "OBJ, PLY, glTF or similar, put on a ground plane and shaded by every method");
+    const CLI::Option* moving =
+        app.add_option("--animation", animation,
+                       "the model in motion, by its animation NAME; '' is the first that it has")
+            ->type_name("NAME")
+            ->needs(still);
+    const CLI::Option* exposed =
+        app.add_option("--shutter", shutter,
+                       "the model in motion, from T0 to T1 seconds after its animation starts; "
+                       "a frame of film, 0 to 1/24, where it is not given")
+            ->type_name("T0,T1")
+            ->delimiter(',')
+            ->needs(still);
     app.add_option("--out", out, "folder for the gallery and report.json")->capture_default_str();
     try {
         app.parse(argc, argv);
@@ -59,7 +73,8 @@ try {
     how.out = out;
     std::filesystem::create_directories(how.out / "gallery");
 
-    if (!model.empty()) gnomon::demo::model(how, model);
+    if (moving->count() > 0 || exposed->count() > 0) gnomon::demo::animated_model(how, model, animation, shutter);
+    else if (!model.empty()) gnomon::demo::model(how, model);
     for (const driver& d : drivers)
         if (names.empty() ? model.empty() : std::count(names.begin(), names.end(), d.name) > 0) d.run(how);
     return 0;

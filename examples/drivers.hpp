@@ -2,6 +2,7 @@
 // in report.json.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string_view>
 
@@ -32,5 +33,10 @@ void bounds(const settings& how);
 
 // The scenes of Palmer 2011, Hong & Oh and others in motion, by every kind of shadow map of ranges.
 void motion_analytic(const settings& how);
+
+// A model from a file on a ground plane, on its way from one time of an animation to another, both in seconds, by every
+// kind of shadow map of ranges. An empty name means the file's first animation.
+void animated_model(const settings& how, const std::filesystem::path& file, std::string_view animation,
+                    const std::array<double, 2>& shutter);
 
 } // namespace gnomon::demo

@@ -75,7 +75,7 @@ def set_error_scale(axes, errors):
     else:
         axes.set_yscale("symlog", linthresh=1e-5, linscale=0.4)
         axes.yaxis.set_major_locator(SymmetricalLogLocator(base=10, linthresh=1e-5))
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda y, _: f"{y:g}"))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda y, _: "" if 0 < y < 9e-6 else f"{y:g}"))
     axes.yaxis.set_minor_formatter(FuncFormatter(lambda y, _: ""))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
 

@@ -9,6 +9,8 @@ from pathlib import Path
 from string import Template
 
 import charts
+import motion
+from page import chart, legend_of_errors, picture, table
 
 HERE = Path(__file__).resolve().parent
 
@@ -18,15 +20,6 @@ def read(file):
         return json.loads(file.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
         raise SystemExit(f"{file}: {error}") from None
-
-
-def picture(file, caption=""):
-    caption = f"<figcaption>{caption}</figcaption>" if caption else ""
-    return f'<figure><a href="{file}"><img src="{file}" alt="" loading="lazy"></a>{caption}</figure>'
-
-
-def chart(folder, name, caption):
-    return picture(f"{folder}/{name}.svg", f'{caption} (<a href="{folder}/{name}.png">PNG</a>)')
 
 
 class Rows:
@@ -47,7 +40,7 @@ class Rows:
         return max(found, key=lambda row: row["lanes"], default=None)
 
 
-def table(facts, rows):
+def numbers(facts, rows):
     lanes = max(row["lanes"] for row in rows.rows)
     insets = [inset["name"] for inset in facts["insets"]]
 
@@ -75,21 +68,18 @@ def table(facts, rows):
     def cell(record, column):
         value = record[column]
         if isinstance(value, str):
-            return f'<td data-key="{escape(value)}">{escape(value)}</td>'
+            return value, escape(value)
         if value is None:
-            return '<td data-key="1e99">&ndash;</td>'
-        marked = ' class="best"' if value == best[column] and record[0] != "PCF" else ""
+            return "1e99", "&ndash;"
         if column in (2, len(heads) - 1):
             text = f"{value:.0f}"
         elif column >= len(heads) - 3:
             text = f"{value:.1f}"
         else:
             text = f"{1e3 * value:.2f}"
-        return f'<td data-key="{value!r}"{marked}>{text}</td>'
+        return value, text, value == best[column] and record[0] != "PCF"
 
-    body = "\n".join("<tr>" + "".join(cell(record, c) for c in range(len(heads))) + "</tr>" for record in records)
-    head = "".join(f"<th>{text}</th>" for text in heads)
-    return f'<div class="scroll"><table><thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody></table></div>'
+    return table(heads, ([cell(record, c) for c in range(len(heads))] for record in records))
 
 
 def chooser(folder, facts, initial):
@@ -136,10 +126,9 @@ runs one receiver at a time.''')}
 <h3>Numbers</h3>
 <p>Errors of visibility in thousandths: leak is the mean of what is too bright, acne the mean of what is too dark. Where nothing else is said, the reference is
 percentage-closer filtering with the same weights. The best of each column is marked; a click sorts.</p>
-{table(facts, rows)}
+{numbers(facts, rows)}
 <h3>All methods</h3>
-<p>Errors of visibility: <b style="color:#2a62cc">blue</b> is light that leaks, <b style="color:#c8232c">red</b> is acne,
-saturated at {facts["error_scale"]:g}.</p>
+<p>{legend_of_errors(facts)}</p>
 {methods}
 """
 
@@ -173,9 +162,6 @@ def vulkan_shadows(out, folder, facts, report):
         at_edges = 1 - m["beyond_inside"] / m["beyond"] if m["beyond"] else 1
         yield at_edges, f"{100 * at_edges:.1f} %" if m["beyond"] else "&ndash;"
 
-    head = "".join(f"<th>{escape(text)}</th>" for text in heads)
-    body = "\n".join("<tr>" + "".join(f'<td data-key="{escape(str(key))}">{text}</td>' for key, text in cells(m)) + "</tr>"
-                     for m in facts["methods"])
     pictures = "\n".join(
         f'<h3>{escape(m["method"])} <span class="quiet">{escape(" + ".join(m["images"]))}</span></h3><div class="three">'
         + picture(f"{folder}/{m['file']}-device.png", "Vulkan") + picture(f"{folder}/{m['file']}-cpu.png", "CPU")
@@ -193,10 +179,7 @@ the map's format, with how many bits a sampler weighs texels, how positions are 
 the grid of samples. On this device they may add up to {1e3 * facts["tolerance"]:g} thousandths; beyond that lie receivers at edges of
 shadows or surfaces, where intensity is steep. EVSM in half floats differs most where a device rounds them toward zero, as Vulkan
 permits.</p>
-<div class="scroll"><table><thead><tr>{head}</tr></thead>
-<tbody>
-{body}
-</tbody></table></div>
+{table(map(escape, heads), map(cells, facts["methods"]))}
 <h3>Pictures</h3>
 <p>Differences of visibility: <b style="color:#2a62cc">blue</b> where the device is brighter, <b style="color:#c8232c">red</b>
 where it is darker, saturated at {facts["error_scale"]:g}.</p>
@@ -215,7 +198,8 @@ that touches both bounds; it is all that the kernels have to find. The more mome
 """
 
 
-SECTIONS = {"hard_shadows": hard_shadows, "vulkan_shadows": vulkan_shadows, "bounds": bounds, "model": model}
+SECTIONS = {"hard_shadows": hard_shadows, "vulkan_shadows": vulkan_shadows, "bounds": bounds,
+            "motion_analytic": motion.analytic, "model": model, "animated_model": motion.animated_model}
 
 
 def main():

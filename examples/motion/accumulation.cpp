@@ -53,7 +53,8 @@ std::vector<float> accumulated_visibility(const seen_motion& at_times, const mov
         const float t = r.path.depth.t0;
         const auto& depths = maps.depths[std::size_t(t * float(maps.depths.size()))];
         const texel_position<float> at = receiver_path_at(r.path, t);
-        auto state = percentage_closer_begin(r.path.depth.z0);
+        // Nothing in a map is depth 1, and in front of nothing.
+        auto state = percentage_closer_begin(std::min(r.path.depth.z0, 1.f));
         for_each_tap(at, [&](float column, float row, float weight) {
             const bool inside = column >= 0 && row >= 0 && column < float(depths.width) && row < float(depths.height);
             state = percentage_closer_add(state, inside ? depths(int(column), int(row))[0] : 1.f, weight);

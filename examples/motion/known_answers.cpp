@@ -20,14 +20,14 @@ constexpr std::uint32_t nobody = 1u << 20;
 report_row row_of(const moving_stage& scenery, const seen_motion& seen, const std::vector<float>& expected,
                   const motion_sizes& size)
 {
-    const owned_range_map map = resolved_range_map(scenery.world, scenery.light, size.map_resolution);
+    const range_shadow_map map = resolved_ranges(scenery.world, scenery.light, size.map_resolution);
     const std::vector<light_receiver> receivers = light_receivers_of(seen, scenery.light, size.map_resolution);
     std::vector<float> found(receivers.size());
-    const double spent = on_one_core([&] {
+    const double spent = seconds_on_one_core([&] {
         for (std::size_t i = 0; i < found.size(); ++i) found[i] = analytic_visibility(map.map(), receivers[i]);
     });
     return {.scene = scenery.world.open.name,
-            .method = map.name + ", receivers analytic",
+            .method = map.method + ", receivers analytic",
             .format = map.format,
             .reference = "closed-form",
             .receivers = static_cast<long long>(found.size()),
@@ -58,7 +58,7 @@ report_row trapezoid_row(const motion_sizes& size)
 report_row lit_ramp_row(const motion_sizes& size)
 {
     const moving_stage scenery = lit_ramp(double(size.width) / size.height);
-    const seen_motion seen = analytic_visibility(scenery.world, scenery.eye, size.width, size.height, course_tolerance);
+    const seen_motion seen = analytic_visibility(scenery.world, scenery.eye, size.width, size.height, depth_tolerance);
     return row_of(scenery, seen, std::vector<float>(seen.courses.size(), 1.f), size);
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "cube_curves.hpp"
 #include "drivers.hpp"
 #include "known_answers.hpp"
 #include "motion_comparison.hpp"
@@ -34,6 +35,8 @@ void gnomon::demo::motion_analytic(const settings& how)
     const motion_results resting = compare_resting_receivers(size);
     facts["static"] = resting.facts;
     rows.insert(rows.end(), resting.rows.begin(), resting.rows.end());
+    progress("motion_analytic", "memory and time of maps against number and speed of cubes");
+    facts["memory"] = cube_curves(cube_cases(), size.map_resolution);
     toolbox::write_file(folder / "facts.json", facts.dump(1));
     toolbox::merge_report(how.out / "report.json", rows);
 }

@@ -19,8 +19,9 @@ using namespace toolbox;
 
 namespace {
 
-constexpr float error_scale = 0.5f;    // visibility at which error colours saturate
+constexpr float error_scale = 0.1f;    // visibility at which error colours saturate
 constexpr int stochastic_samples = 16; // per pixel
+constexpr int inset_share = 4;         // of a picture's width in that of an inset
 
 struct outcome {
     std::string method, format;
@@ -41,7 +42,7 @@ class motion_comparison {
                  fmt::format("{}: ray tracing at {} times", listed.title, size.reference_samples));
         const tracer rays(stage_.world);
         reference_ = rays.photograph(stage_.light, stage_.eye, size.width, size.height, size.reference_samples);
-        analytic_ = toolbox::analytic_visibility(stage_.world, stage_.eye, size.width, size.height, course_tolerance);
+        analytic_ = toolbox::analytic_visibility(stage_.world, stage_.eye, size.width, size.height, depth_tolerance);
         stochastic_ = stochastic_visibility(stage_.world, stage_.eye, size.width, size.height, stochastic_samples);
         analytic_receivers_ = light_receivers_of(analytic_, stage_.light, size.map_resolution);
         stochastic_receivers_ = light_receivers_of(stochastic_, stage_.light, size.map_resolution);
@@ -53,7 +54,13 @@ class motion_comparison {
                   {"triangles", triangle_numbers(stage_.world.open).count()},
                   {"receivers", pixels_.size()},
                   {"reference", file("reference")},
+                  {"insets", nlohmann::json::array()},
                   {"methods", nlohmann::json::array()}};
+        for (const point_of_interest& place : stage_.interests) {
+            const rectangle r = inset_around(place, stage_.eye, size.width / inset_share, size.width, size.height);
+            facts_["insets"].push_back(
+                {{"name", place.name}, {"x", r.x}, {"y", r.y}, {"width", r.width}, {"height", r.height}});
+        }
         write_png(folder_ / file("reference"), reference_.colour);
     }
 
@@ -62,19 +69,20 @@ class motion_comparison {
         for (const int count : {8, 16, 32, 64}) add_accumulation(count);
         const auto& [world, eye, light, interests] = stage_;
         const int resolution = size_.map_resolution;
-        add_stochastic(prism_range_map(world, light, resolution));
-        const owned_range_map exact = exact_range_map(world, light, resolution);
+        add_stochastic(prism_ranges(world, light, resolution));
+        add_stochastic(covered_prism_ranges(world, light, resolution));
+        const range_shadow_map exact = exact_ranges(world, light, resolution);
         add_stochastic(exact);
-        add_stochastic(covered_range_map(exact));
-        const owned_range_map resolved = resolved_range_map(world, light, resolution);
+        add_stochastic(covered_ranges(exact));
+        const range_shadow_map resolved = resolved_ranges(world, light, resolution);
         add_stochastic(resolved);
         add_courses(resolved, "at rest", resting_visibility);
         add_courses(resolved, "sampled", sampled_visibility);
         add_courses(resolved, "semi-analytic", semi_analytic_visibility);
         add_courses(resolved, "analytic", demo::analytic_visibility);
-        add_courses(list_range_map<4>(exact), "analytic", demo::analytic_visibility);
-        add_courses(list_range_map<8>(exact), "analytic", demo::analytic_visibility);
-        add_courses(list_range_map<16>(exact), "analytic", demo::analytic_visibility);
+        add_courses(interval_lists(exact, 4), "analytic", demo::analytic_visibility);
+        add_courses(interval_lists(exact, 8), "analytic", demo::analytic_visibility);
+        add_courses(interval_lists(exact, 16), "analytic", demo::analytic_visibility);
     }
 
     motion_results results() && { return {std::move(facts_), std::move(rows_)}; }
@@ -91,34 +99,35 @@ class motion_comparison {
     {
         accumulated_maps maps;
         const double build =
-            on_one_core([&] { maps = accumulate(stage_.world, stage_.light, size_.map_resolution, count); });
+            seconds_on_one_core([&] { maps = accumulate(stage_.world, stage_.light, size_.map_resolution, count); });
         const seen_motion seen = seen_at_times(analytic_, maps);
         std::vector<float> visibility;
-        const double spent = on_one_core([&] { visibility = accumulated_visibility(seen, stage_.light, maps); });
+        const double spent =
+            seconds_on_one_core([&] { visibility = accumulated_visibility(seen, stage_.light, maps); });
         add({fmt::format("accumulation of {}", count), "32 bit depth", 4.0 * count, 1e3 * build, per_receiver(spent),
              &seen, std::move(visibility)});
     }
 
     // Hong & Oh: at one time per camera sample.
-    void add_stochastic(const owned_range_map& map)
+    void add_stochastic(const range_shadow_map& map)
     {
         std::vector<float> visibility(stochastic_receivers_.size());
-        const double spent = on_one_core([&] {
+        const double spent = seconds_on_one_core([&] {
             for (std::size_t i = 0; i < visibility.size(); ++i)
                 visibility[i] =
                     visibility_at(map.map(), stochastic_receivers_[i], stochastic_receivers_[i].path.depth.t0);
         });
-        add({fmt::format("{}, {} times", map.name, stochastic_samples), map.format, map.bytes_per_texel(), map.build_ms,
-             per_receiver(spent), &stochastic_, std::move(visibility)});
+        add({fmt::format("{}, {} times", map.method, stochastic_samples), map.format, map.bytes_per_texel(),
+             map.build_ms, per_receiver(spent), &stochastic_, std::move(visibility)});
     }
 
-    void add_courses(const owned_range_map& map, std::string_view receivers, shadow_test test)
+    void add_courses(const range_shadow_map& map, std::string_view receivers, shadow_test test)
     {
         std::vector<float> visibility(analytic_receivers_.size());
-        const double spent = on_one_core([&] {
+        const double spent = seconds_on_one_core([&] {
             for (std::size_t i = 0; i < visibility.size(); ++i) visibility[i] = test(map.map(), analytic_receivers_[i]);
         });
-        add({fmt::format("{}, receivers {}", map.name, receivers), map.format, map.bytes_per_texel(), map.build_ms,
+        add({fmt::format("{}, receivers {}", map.method, receivers), map.format, map.bytes_per_texel(), map.build_ms,
              per_receiver(spent), &analytic_, std::move(visibility)});
     }
 

@@ -21,9 +21,6 @@ struct motion_sizes {
 };
 motion_sizes motion_sizes_of(const settings& how);
 
-// Of a camera's courses and a map's ranges, over depths from -1 to 1.
-inline constexpr float course_tolerance = 2e-4f;
-
 struct motion_results {
     nlohmann::ordered_json facts; // of the scene, for the gallery
     std::vector<toolbox::report_row> rows;

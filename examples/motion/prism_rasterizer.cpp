@@ -12,19 +12,11 @@ namespace {
 
 constexpr float margin = 0.05f; // in texels: more than rounding takes from a triangle's extent
 
-// As texel_space, but with the z of which z / w goes linearly along the screen.
-glm::dvec4 clip_space(const camera& eye, const glm::dvec2& size, const glm::dvec3& point)
-{
-    glm::dvec4 p = texel_space(eye, size, point);
-    const double n = eye.near_distance, f = eye.far_distance;
-    if (eye.perspective()) p.z = ((f + n) * p.w - 2 * f * n) / (f - n);
-    return p;
-}
-
 prism_triangle<prism_pack> broadcast(const prism_triangle<float>& v)
 {
     const auto vertex = [](const prism_vertex<float>& p) {
-        return prism_vertex<prism_pack>{prism_pack(p.x), prism_pack(p.y), prism_pack(p.z), prism_pack(p.t)};
+        return prism_vertex<prism_pack>{prism_pack(p.x), prism_pack(p.y), prism_pack(p.z), prism_pack(p.t),
+                                        prism_pack(p.inverse_w)};
     };
     return {vertex(v.a), vertex(v.b), vertex(v.c)};
 }
@@ -32,10 +24,7 @@ prism_triangle<prism_pack> broadcast(const prism_triangle<float>& v)
 } // namespace
 
 prism_rasterizer::prism_rasterizer(const moving_scene& world, const moving_camera& light, int resolution)
-    : resolution_(resolution),
-      perspective_(light.open.perspective()),
-      near_(float(light.open.near_distance)),
-      far_(float(light.open.far_distance))
+    : resolution_(resolution)
 {
     const camera open = light.open, close = light.at(1);
     const glm::dvec2 size(resolution);
@@ -44,15 +33,15 @@ prism_rasterizer::prism_rasterizer(const moving_scene& world, const moving_camer
         const mesh& part = world.open.meshes[m];
         for (const glm::uvec3& t : part.triangles) {
             const auto vertex = [&](std::uint32_t i) {
-                const glm::vec4 q(clip_space(open, size, part.positions[i]));
-                const glm::vec4 r(clip_space(close, size, world.closing[m][i]));
+                const glm::vec4 q(texel_space(open, size, part.positions[i]));
+                const glm::vec4 r(texel_space(close, size, world.closing[m][i]));
                 return moving_vertex<float>{q.x, q.y, q.z, q.w, r.x, r.y, r.z, r.w};
             };
             const moving_triangle<float> corners{vertex(t.x), vertex(t.y), vertex(t.z)};
             const std::uint32_t mine = number++;
             bool in_front = true;
             for (const moving_vertex<float>& v : {corners.a, corners.b, corners.c}) in_front &= v.w0 > 0 && v.w1 > 0;
-            if (in_front) setups_.push_back({prism_of(corners, 1.f), mine});
+            if (in_front) setups_.push_back({prism_of(corners, 0.f), mine});
         }
     }
 }

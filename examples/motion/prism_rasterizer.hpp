@@ -3,6 +3,7 @@
 #pragma once
 
 #include <gnomon/motion/prism.h>
+#include <gnomon/passes/range_map.hpp>
 #include <gnomon/simd/xsimd.hpp>
 
 #include <algorithm>
@@ -20,18 +21,24 @@ using prism_pack = xsimd::batch<float>;
 
 class prism_rasterizer {
   public:
-    // Triangles that are ever behind the light are left out. Depths go linearly along the screen while they are
-    // interpolated, those of fragments are linear in view distance.
+    // Triangles that are ever behind the light are left out. Depths are linear in view distance.
     prism_rasterizer(const toolbox::moving_scene& world, const toolbox::moving_camera& light, int resolution);
 
-    // Calls visit(number of the triangle, texel of the first lane, fragments) for each pack of texels of a row that
-    // triangles of its prism come near. Lanes outside of the picture have no fragments.
+    // Calls visit(number of the triangle, place of the first lane, fragments) for each pack of texels of a row that
+    // triangles of its prism come near; places count row by row. Lanes outside of the picture have no fragments.
     template <class Visit> void for_each_pack(const Visit& visit) const
     {
         for (const setup& s : setups_) {
             const drawn_prism p = drawn(s);
             for (int y = p.first_row; y <= p.last_row; ++y) visit_row(p, y, s.number, visit);
         }
+    }
+
+    // The texel of a map at a place.
+    std::uint32_t texel(std::uint32_t place) const
+    {
+        const auto width = std::uint32_t(resolution_);
+        return std::uint32_t(range_map<float>::texel(width, place % width, place / width));
     }
 
   private:
@@ -75,28 +82,15 @@ class prism_rasterizer {
             std::size_t count = 0;
             for (std::size_t k = 0; k < triangles; ++k) {
                 if (!(parts[k].low < float(x + lanes) && float(x) <= parts[k].high)) continue;
-                prism_fragment<prism_pack> f = prism_fragment_at(p.packs[k], s_x, prism_pack(s_y));
+                prism_fragment<prism_pack> f = prism_fragment_at(p.packs[k], s_x, prism_pack(s_y), prism_pack(0.f));
                 f.covered *= inside;
-                f.depth = depth_of(f.depth);
                 if (gnomon_any(f.covered > prism_pack(0.f))) fragments[count++] = f;
             }
             if (count > 0) visit(number, std::uint32_t(y * resolution_ + x), std::span(fragments).first(count));
         }
     }
 
-    prism_pack depth_of(const prism_pack& screen_depth) const
-    {
-        if (!perspective_) return screen_depth;
-        const prism_pack distance =
-            prism_pack(2 * far_ * near_) / (prism_pack(far_ + near_) - screen_depth * prism_pack(far_ - near_));
-        const prism_pack z =
-            ((distance - prism_pack(near_)) - (prism_pack(far_) - distance)) / prism_pack(far_ - near_);
-        return gnomon_max(gnomon_min(z, prism_pack(1.f)), prism_pack(-1.f));
-    }
-
     int resolution_;
-    bool perspective_;
-    float near_, far_; // distances of the planes
     std::vector<setup> setups_;
 };
 

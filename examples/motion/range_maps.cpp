@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <gnomon/motion/coverage_map.h>
 #include <gnomon/motion/range_list.h>
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -28,17 +27,11 @@ using lanes = std::array<float, pack::size>;
 
 constexpr std::size_t range_bytes = sizeof(depth_time_range<float>), head_bytes = sizeof(std::uint32_t);
 
-double one_core_ms(auto&& run)
-{
-    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    return 1e3 * seconds(run);
-}
-
 // The lesser of two times: the first run has to ask the system for memory.
 double steady_ms(auto&& run)
 {
-    const double first = one_core_ms(run);
-    return std::min(first, one_core_ms(run));
+    const double first = seconds_on_one_core(run);
+    return 1e3 * std::min(first, seconds_on_one_core(run));
 }
 
 range_shadow_map empty_map(std::string method, std::string format, int resolution)
@@ -48,7 +41,10 @@ range_shadow_map empty_map(std::string method, std::string format, int resolutio
     return result;
 }
 
-std::size_t texels_of(int resolution) { return std::size_t(resolution) * std::size_t(resolution); }
+std::size_t texels_of(int resolution)
+{
+    return range_map<float>::texels(std::size_t(resolution), std::size_t(resolution));
+}
 
 std::size_t list_bytes(const range_shadow_map& m)
 {
@@ -66,8 +62,10 @@ range_shadow_map rasterized(std::string method, const moving_scene& world, const
     range_shadow_map result = empty_map(std::move(method), "20 B ranges", resolution);
     range_rasterizer rasterize;
     const range_lists* lists = nullptr;
-    result.build_ms =
-        steady_ms([&] { lists = &rasterize(world, light, resolution, resolution, {.resolved = resolved}); });
+    result.build_ms = steady_ms([&] {
+        lists = &rasterize(world, light, resolution, resolution,
+                           {.resolved = resolved, .depth_tolerance = depth_tolerance});
+    });
     result.first = lists->first, result.ranges = lists->ranges;
     result.pairs = lists->counts.pairs;
     result.resolved = resolved;
@@ -102,17 +100,19 @@ bool between_planes(const depth_time_range<float>& r)
 template <class Keep> std::size_t add_prism_ranges(const prism_rasterizer& prisms, const Keep& keep, loose_ranges& to)
 {
     std::size_t count = 0;
-    prisms.for_each_pack([&](std::uint32_t number, std::uint32_t texel, const auto& fragments) {
+    prisms.for_each_pack([&](std::uint32_t number, std::uint32_t place, const auto& fragments) {
         prism_pair<pack> pair = prism_pair_begin(pack(float(number)));
         for (const prism_fragment<pack>& f : fragments) pair = prism_pair_add(pair, f);
         const auto found = prism_pair_end(pair);
         lanes fragment_counts;
         pair.count.store_unaligned(fragment_counts.data());
         for (std::uint32_t i = 0; i < pack::size; ++i) {
-            if (!(fragment_counts[i] > 0) || !keep(texel + i)) continue;
+            if (!(fragment_counts[i] > 0)) continue;
+            const std::uint32_t texel = prisms.texel(place + i);
+            if (!keep(texel)) continue;
             count += std::size_t(fragment_counts[i]);
             for (const auto& r : {range_in_lane(found.first, i), range_in_lane(found.second, i)})
-                if (r.t0 <= r.t1 && between_planes(r)) to.texels.push_back(texel + i), to.ranges.push_back(r);
+                if (r.t0 <= r.t1 && between_planes(r)) to.texels.push_back(texel), to.ranges.push_back(r);
         }
     });
     return count;
@@ -121,34 +121,35 @@ template <class Keep> std::size_t add_prism_ranges(const prism_rasterizer& prism
 // Calls visit(texel, fragment) for each.
 template <class Visit> void for_each_fragment(const prism_rasterizer& prisms, const Visit& visit)
 {
-    prisms.for_each_pack([&](std::uint32_t number, std::uint32_t texel, const auto& fragments) {
+    prisms.for_each_pack([&](std::uint32_t number, std::uint32_t place, const auto& fragments) {
         for (const prism_fragment<pack>& f : fragments) {
             lanes covered, time, depth;
             f.covered.store_unaligned(covered.data());
             f.time.store_unaligned(time.data()), f.depth.store_unaligned(depth.data());
             for (std::uint32_t i = 0; i < pack::size; ++i)
-                if (covered[i] > 0) visit(texel + i, moment_fragment<float>{time[i], depth[i], float(number)});
+                if (covered[i] > 0)
+                    visit(prisms.texel(place + i), moment_fragment<float>{time[i], depth[i], float(number)});
         }
     });
 }
 
-// The lists of a row of texels, a pack of them at a time.
-template <int N> struct listed_row {
+// The lists of some texels, a pack of them at a time.
+template <int N> struct listed_texels {
     std::vector<depth_time_range<float>> ranges;
     std::vector<std::uint32_t> counts;
     double spent = 0, time_added = 0, depth_added = 0;
     float most_time_added = 0, most_depth_added = 0;
 
-    void add(const range_map<float>& from, std::size_t x, std::size_t y)
+    void add(const range_map<float>& from, std::size_t texel)
     {
         std::array<std::span<const depth_time_range<float>>, pack::size> lists;
         std::size_t longest = 0;
-        for (std::size_t i = 0; i < pack::size && x + i < from.width; ++i) {
-            lists[i] = from(x + i, y);
+        for (std::size_t i = 0; i < pack::size; ++i) {
+            lists[i] = from[texel + i];
             longest = std::max(longest, lists[i].size());
         }
         if (longest == 0) {
-            counts.insert(counts.end(), std::min(pack::size, from.width - x), 0);
+            counts.insert(counts.end(), pack::size, 0);
             return;
         }
         range_list<pack, N> list = range_list_of<pack, N>(range_empty(pack(0.f)));
@@ -162,7 +163,7 @@ template <int N> struct listed_row {
             list = range_list_insert(list, {packed(0), packed(1), packed(2), packed(3), packed(4)});
         }
         list = range_list_resolve(list);
-        for (std::size_t i = 0; i < pack::size && x + i < from.width; ++i) {
+        for (std::size_t i = 0; i < pack::size; ++i) {
             const std::size_t before = ranges.size();
             for (int k = 0; k < N; ++k) {
                 const auto span = range_in_lane(list.ranges[k], i);
@@ -181,24 +182,27 @@ template <int N> range_shadow_map listed(const range_shadow_map& exact)
     range_shadow_map result =
         empty_map(fmt::format("interval lists of {}", N), fmt::format("{} x 20 B + 8 B", N), exact.resolution);
     const range_map<float> from = exact.map();
-    std::vector<listed_row<N>> rows(from.height);
-    tbb::parallel_for(std::size_t(0), rows.size(), [&](std::size_t y) {
-        rows[y].spent = seconds([&] {
-            for (std::size_t x = 0; x < from.width; x += pack::size) rows[y].add(from, x, y);
+    constexpr std::size_t chunk = 16 * range_map<float>::block * range_map<float>::block;
+    static_assert(chunk % pack::size == 0);
+    const std::size_t texels = from.first.size() - 1;
+    std::vector<listed_texels<N>> chunks((texels + chunk - 1) / chunk);
+    tbb::parallel_for(std::size_t(0), chunks.size(), [&](std::size_t c) {
+        chunks[c].spent = seconds([&] {
+            for (std::size_t i = c * chunk; i < std::min((c + 1) * chunk, texels); i += pack::size)
+                chunks[c].add(from, i);
         });
     });
     result.first = {0};
     double time_added = 0, depth_added = 0;
     result.build_ms = exact.build_ms;
-    for (const listed_row<N>& row : rows) {
-        for (const std::uint32_t count : row.counts) result.first.push_back(result.first.back() + count);
-        result.ranges.insert(result.ranges.end(), row.ranges.begin(), row.ranges.end());
-        result.build_ms += 1e3 * row.spent;
-        time_added += row.time_added, depth_added += row.depth_added;
-        result.most_time_added = std::max(result.most_time_added, row.most_time_added);
-        result.most_depth_added = std::max(result.most_depth_added, row.most_depth_added);
+    for (const listed_texels<N>& some : chunks) {
+        for (const std::uint32_t count : some.counts) result.first.push_back(result.first.back() + count);
+        result.ranges.insert(result.ranges.end(), some.ranges.begin(), some.ranges.end());
+        result.build_ms += 1e3 * some.spent;
+        time_added += some.time_added, depth_added += some.depth_added;
+        result.most_time_added = std::max(result.most_time_added, some.most_time_added);
+        result.most_depth_added = std::max(result.most_depth_added, some.most_depth_added);
     }
-    const std::size_t texels = texels_of(exact.resolution);
     result.mean_time_added = float(time_added / double(texels));
     result.mean_depth_added = float(depth_added / double(texels));
     result.bytes = texels * (std::size_t(N) * range_bytes + 2 * sizeof(float));

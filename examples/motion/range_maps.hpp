@@ -28,8 +28,12 @@ struct range_shadow_map {
     // What merging has cost the texel that it has cost most, and the mean over all texels; see range_list.
     float most_time_added = 0, most_depth_added = 0, mean_time_added = 0, mean_depth_added = 0;
 
+    double bytes_per_texel() const { return double(bytes) / (double(resolution) * double(resolution)); }
     range_map<float> map() const { return {std::size_t(resolution), std::size_t(resolution), first, ranges}; }
 };
+
+// Ranges of the exact maps are split where depth is further from a line, over depths from -1 to 1.
+inline constexpr float depth_tolerance = 2e-4f;
 
 // All ranges, exact by edge functions in time. As for all others, memory has been used before when time is taken.
 range_shadow_map exact_ranges(const toolbox::moving_scene& world, const toolbox::moving_camera& light, int resolution);

@@ -1,6 +1,8 @@
 #include "resting_receivers.hpp"
 
 #include <fmt/format.h>
+#include <gnomon/simd/range_look_up.hpp>
+#include <gnomon/simd/xsimd.hpp>
 
 #include <cmath>
 #include <glm/vec2.hpp>
@@ -29,6 +31,7 @@ class ground_receivers {
     ground_receivers(float factor, const motion_sizes& size)
         : factor_(factor), scenery_(random_cubes(1, cubes, factor * longest)), size_(size), rays_(scenery_.world)
     {
+        size_.map_resolution *= 2;
         // As close as a camera's pixels, so that maps are read as they would be; every fourth along either axis is
         // traced.
         const int side = size.reference_samples < 1024 ? 64 : 256;
@@ -64,35 +67,45 @@ class ground_receivers {
     void add_rays(int count)
     {
         std::vector<float> found(traced_.size());
-        const double spent = on_one_core([&] { rays_.mean_visibility(scenery_.light, traced_, count, found); });
+        const double spent = seconds_on_one_core([&] { rays_.mean_visibility(scenery_.light, traced_, count, found); });
         add(fmt::format("{} rays", count), "Embree", 0, 0, spent, found);
     }
 
     void add_maps(int count)
     {
         accumulated_maps maps;
-        const double build =
-            on_one_core([&] { maps = accumulate(scenery_.world, scenery_.light, size_.map_resolution, count); });
+        const double build = seconds_on_one_core(
+            [&] { maps = accumulate(scenery_.world, scenery_.light, size_.map_resolution, count); });
         const seen_motion at_times = seen_at_times(seen_, maps);
         std::vector<float> found;
-        const double spent = on_one_core(
+        const double spent = seconds_on_one_core(
             [&] { found = mean_visibility(at_times, accumulated_visibility(at_times, scenery_.light, maps)).pixels; });
         add(fmt::format("accumulation of {}", count), "32 bit depth", 4.0 * count, 1e3 * build, spent, found);
     }
 
     void add_ranges()
     {
-        const owned_range_map map = resolved_range_map(scenery_.world, scenery_.light, size_.map_resolution);
+        const range_shadow_map map = resolved_ranges(scenery_.world, scenery_.light, size_.map_resolution);
         const std::vector<light_receiver> receivers = light_receivers_of(seen_, scenery_.light, size_.map_resolution);
         std::vector<float> found(receivers.size());
-        const double spent = on_one_core([&] {
+        const double spent = seconds_on_one_core([&] {
             for (std::size_t i = 0; i < found.size(); ++i) found[i] = analytic_visibility(map.map(), receivers[i]);
         });
-        add(map.name + ", receivers analytic", map.format, map.bytes_per_texel(), map.build_ms, spent, found);
+        add(map.method + ", receivers analytic", map.format, map.bytes_per_texel(), map.build_ms, spent, found);
+
+        std::vector<placed_receiver<float>> placed;
+        for (const light_receiver& r : receivers)
+            placed.push_back({r.path.x0 / r.path.w0, r.path.y0 / r.path.w0,
+                              static_receiver_begin(r.path.depth.z0, r.path.depth.id, 0.f, 1.f)});
+        const double packed =
+            seconds_on_one_core([&] { static_shadows<xsimd::batch<float>>(map.map(), placed, found); });
+        for (float& x : found) x = 1 - x;
+        add(fmt::format("{}, receivers analytic, by packs", map.method), map.format, map.bytes_per_texel(),
+            map.build_ms, packed, found, int(xsimd::batch<float>::size));
     }
 
     void add(const std::string& method, const std::string& format, double bytes, double build_ms, double seconds,
-             const std::vector<float>& found)
+             const std::vector<float>& found, int lanes = 1)
     {
         std::vector<float> estimate, expected;
         for (std::size_t i = 0; i < reference_.size(); ++i)
@@ -109,7 +122,8 @@ class ground_receivers {
                              .bytes_per_texel = bytes,
                              .errors = compare(estimate, expected),
                              .ns_per_receiver = ns,
-                             .build_ms = build_ms};
+                             .build_ms = build_ms,
+                             .lanes = lanes};
         if (results_.rows.empty()) rays_ns_ = ns;
         results_.rows.push_back(row);
         results_.facts.push_back(
@@ -118,7 +132,7 @@ class ground_receivers {
 
     float factor_;
     moving_stage scenery_;
-    motion_sizes size_;
+    motion_sizes size_; // of a map, twice that of other scenes
     tracer rays_;
     seen_motion seen_;
     std::vector<receiver_course> traced_;

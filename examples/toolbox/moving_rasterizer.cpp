@@ -17,6 +17,8 @@ namespace gnomon::toolbox {
 
 namespace {
 
+using map = range_map<float>;
+
 // A pack of ranges, and which of them there are.
 struct range_lanes {
     texel_lanes t0, t1, z0, z1, exists; // 1 or 0
@@ -166,21 +168,32 @@ void add_ranges(const moving_setup& s, const moving_tile& where, float tolerance
                 range_lanes lanes;
                 opening.store_unaligned(lanes.t0.data()), closing.store_unaligned(lanes.t1.data());
                 depth0.store_unaligned(lanes.z0.data()), depth1.store_unaligned(lanes.z1.data());
-                gnomon_select(seen, texel_pack(1.f), texel_pack(0.f)).store_unaligned(lanes.exists.data());
+                const auto store = [&](const auto& mask) {
+                    gnomon_select(mask, texel_pack(1.f), texel_pack(0.f)).store_unaligned(lanes.exists.data());
+                };
                 std::array<std::uint32_t, texel_pack::size> texels;
                 for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = tile_triangle::texel(block, begin + int(i));
                 const auto id = float(s.number);
+                std::size_t added = 0;
                 if (tolerance > 0) {
-                    for (std::size_t i = 0; i < texels.size(); ++i)
-                        if (lanes.exists[i] > 0) {
-                            counts.pairs += k == 0;
+                    // Depth that bends departs from its line most somewhere in the middle.
+                    const texel_pack half(0.5f), middle = half * (opening + closing);
+                    const texel_pack bend =
+                        moving_triangle_linear_depth(depths, edges, middle) - half * (depth0 + depth1);
+                    const auto bent = seen && gnomon_abs(bend) > texel_pack(0.5f * tolerance);
+                    if (gnomon_any(bent)) {
+                        store(bent);
+                        for (std::size_t i = 0; i < texels.size(); ++i) {
+                            if (!(lanes.exists[i] > 0)) continue;
+                            ++added;
                             add_pieces({lanes.t0[i], lanes.t1[i], lanes.z0[i], lanes.z1[i], id},
                                        depths_of<float>(s.corners), edges_in_lane(edges, i), tolerance, texels[i], to);
                         }
-                } else {
-                    const std::size_t added = to.add(texels.data(), lanes, id);
-                    if (k == 0) counts.pairs += added;
-                }
+                    }
+                    store(seen && !bent);
+                } else store(seen);
+                added += to.add(texels.data(), lanes, id);
+                if (k == 0) counts.pairs += added;
             }
         }
     });
@@ -196,7 +209,7 @@ void sample_instants(const moving_setup& s, const moving_tile& where, int sample
         const auto instant = [&](std::size_t lane, int k) -> depth_time_range<float>* {
             const glm::ivec2 at = tile_triangle::place(block, begin + int(lane));
             if (!triangle.contains(at)) return nullptr;
-            return &nearest[std::size_t(where.texel(at)) * std::size_t(samples) + std::size_t(k)];
+            return &nearest[where.pixel(at) * std::size_t(samples) + std::size_t(k)];
         };
         for (int k = 0; k < samples; ++k) {
             texel_lanes time{}, least, most, z;
@@ -230,6 +243,15 @@ float jitter(std::uint32_t sample)
     return float((x ^ (x >> 15)) >> 8) * 0x1p-24f;
 }
 
+// Calls visit(first texel in the tile, in the map, number of texels) for the rows of blocks of a tile: the texels of
+// each are one after the other in the tile as in the map.
+template <class Visit> void for_each_row_of_blocks(const moving_tile& where, const Visit& visit)
+{
+    const std::size_t count = map::blocks(std::size_t(where.size.x)) * map::block * map::block;
+    for (int y = 0; y < where.size.y; y += int(map::block))
+        visit(map::texel(moving_tile_size, 0, std::size_t(y)), where.texel({0, y}), count);
+}
+
 } // namespace
 
 struct range_rasterizer::scratch {
@@ -254,18 +276,19 @@ struct range_rasterizer::scratch {
             throw std::length_error("moving rasterizer: more than 2^32 ranges");
         if (lists.ranges.size() < end) lists.ranges.resize(std::max(end, 2 * lists.ranges.size()));
         const moving_tile left = scenery.tile(row * parts.size());
-        const auto first = lists.first.begin() + left.texel({0, 0});
-        std::exclusive_scan(first, first + left.size.y * left.picture_width + 1, first, std::uint32_t(begin));
+        const auto first = lists.first.begin() + std::ptrdiff_t(left.texel({0, 0}));
+        const std::size_t texels = map::texels(std::size_t(left.picture_width), std::size_t(left.size.y));
+        std::exclusive_scan(first, first + std::ptrdiff_t(texels) + 1, first, std::uint32_t(begin));
 
         tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t column) {
             const moving_tile where = scenery.tile(row * parts.size() + column);
             auto from = parts[column].of->begin() + std::ptrdiff_t(parts[column].begin);
-            for (int y = 0; y < where.size.y; ++y) {
-                const std::uint32_t* begins = &lists.first[where.texel({0, y})];
-                const auto count = std::ptrdiff_t(begins[where.size.x] - begins[0]);
-                std::copy_n(from, count, lists.ranges.begin() + begins[0]);
-                from += count;
-            }
+            for_each_row_of_blocks(where, [&](std::size_t, std::size_t in_map, std::size_t count) {
+                const std::uint32_t to = lists.first[in_map];
+                const auto size = std::ptrdiff_t(lists.first[in_map + count] - to);
+                std::copy_n(from, size, lists.ranges.begin() + to);
+                from += size;
+            });
         });
         return end;
     }
@@ -286,11 +309,10 @@ struct range_rasterizer::scratch {
         });
         if (how.resolved) resolve_loose(t);
         const auto sorted = sort_loose(t);
-        for (int y = 0; y < where.size.y; ++y) {
-            const std::uint32_t* begins = &t.first[std::size_t(y) * moving_tile_size];
-            std::uint32_t* count = &counts[where.texel({0, y})];
-            for (int x = 0; x < where.size.x; ++x) count[x] = begins[x + 1] - begins[x];
-        }
+        for_each_row_of_blocks(where, [&](std::size_t in_tile, std::size_t in_map, std::size_t count) {
+            for (std::size_t i = 0; i < count; ++i)
+                counts[in_map + i] = t.first[in_tile + i + 1] - t.first[in_tile + i];
+        });
         const tile_part part{&t.finished, t.finished.size()};
         t.finished.insert(t.finished.end(), sorted.begin(), sorted.end());
         return part;
@@ -305,7 +327,7 @@ const range_lists& range_rasterizer::operator()(const moving_scene& world, const
 {
     const tiled_triangles scenery(world, eye, width, height, how.visible);
     lists_.width = width, lists_.height = height, lists_.counts = {};
-    lists_.first.assign(std::size_t(width) * std::size_t(height) + 1, 0);
+    lists_.first.assign(map::texels(std::size_t(width), std::size_t(height)) + 1, 0);
     for (thread_state& t : scratch_->threads) t.counts = {};
     std::size_t size = 0;
     for (std::size_t row = 0; row < scenery.rows(); ++row) size = scratch_->add_row(scenery, row, how, size, lists_);

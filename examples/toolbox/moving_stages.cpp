@@ -1,5 +1,7 @@
 #include "moving_stages.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -228,7 +230,7 @@ moving_stage cube_over_plane(double aspect, float degrees, float height, float z
 {
     mesh cube = painted("cube", clay);
     add_box(cube, upright({-0.75f, height, z}, glm::vec3(0.8f)));
-    moving_scene casters{{"cube over plane", {}}, {}};
+    moving_scene casters{{fmt::format("cube over plane, {:g} degrees", degrees), {}}, {}};
     add(casters, cube, {1.5f, 0, 0});
     const auto plane = [](float angle) {
         mesh result = painted("plane", stone);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <gnomon/motion/edge_field.h>
+#include <gnomon/passes/range_map.hpp>
 #include <gnomon/simd/xsimd.hpp>
 
 #include <algorithm>
@@ -36,9 +37,15 @@ struct moving_tile {
     glm::ivec2 corner, size; // size: of what lies in the picture
     int picture_width;
 
-    std::uint32_t texel(const glm::ivec2& inside) const
+    // Numbers of a place in the tile: row by row in the picture, and as range_map counts.
+    std::size_t pixel(const glm::ivec2& inside) const
     {
-        return static_cast<std::uint32_t>((corner.y + inside.y) * picture_width + corner.x + inside.x);
+        return std::size_t(corner.y + inside.y) * std::size_t(picture_width) + std::size_t(corner.x + inside.x);
+    }
+    std::size_t texel(const glm::ivec2& inside) const
+    {
+        return range_map<float>::texel(std::size_t(picture_width), std::size_t(corner.x + inside.x),
+                                       std::size_t(corner.y + inside.y));
     }
 };
 
@@ -131,7 +138,8 @@ class tile_triangle {
                              0.5f * (size - 1) + margin, visit_block);
     }
 
-    // Where in the tile a sample of a block is, its number there, and whether that is in the picture.
+    // Where in the tile a sample of a block is, its number there as range_map counts, and whether that is in the
+    // picture.
     static glm::ivec2 place(const glm::ivec2& block, int sample)
     {
         return moving_block_size * block + glm::ivec2(sample % moving_block_size, sample / moving_block_size);
@@ -139,7 +147,8 @@ class tile_triangle {
     static std::uint32_t texel(const glm::ivec2& block, int sample)
     {
         const glm::ivec2 at = place(block, sample);
-        return static_cast<std::uint32_t>(at.y * moving_tile_size + at.x);
+        return static_cast<std::uint32_t>(
+            range_map<float>::texel(moving_tile_size, std::size_t(at.x), std::size_t(at.y)));
     }
     bool contains(const glm::ivec2& place) const { return place.x <= last_.x && place.y <= last_.y; }
     // The same for a pack of samples.

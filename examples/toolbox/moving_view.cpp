@@ -74,11 +74,16 @@ seen_motion analytic_visibility(const moving_scene& world, const camera& eye, in
     range_rasterizer rasterize;
     const range_lists& lists = rasterize(world, {eye}, width, height, {.resolved = true, .depth_tolerance = tolerance});
     const surfaces of(world, eye, width, height);
-    seen_motion result{width, height, lists.first, std::vector<seen_course>(lists.ranges.size())};
-    tbb::parallel_for(std::size_t(0), result.first.size() - 1, [&](std::size_t pixel) {
-        for (std::size_t i = result.first[pixel]; i < result.first[pixel + 1]; ++i) {
-            result.courses[i] = of.at(pixel, lists.ranges[i]);
-            result.courses[i].weight = range_duration(lists.ranges[i]);
+    const range_map<float> map = lists.map();
+    const auto list = [&](std::size_t pixel) { return map(pixel % map.width, pixel / map.width); };
+    seen_motion result{width, height, {0}, std::vector<seen_course>(lists.ranges.size())};
+    for (std::size_t pixel = 0; pixel < map.width * map.height; ++pixel)
+        result.first.push_back(result.first.back() + std::uint32_t(list(pixel).size()));
+    tbb::parallel_for(std::size_t(0), map.width * map.height, [&](std::size_t pixel) {
+        std::size_t i = result.first[pixel];
+        for (const depth_time_range<float>& r : list(pixel)) {
+            result.courses[i] = of.at(pixel, r);
+            result.courses[i++].weight = range_duration(r);
         }
     });
     return result;

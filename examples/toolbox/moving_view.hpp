@@ -26,7 +26,7 @@ struct seen_course {
 
 struct seen_motion {
     int width = 0, height = 0;
-    std::vector<std::uint32_t> first; // as in range_map
+    std::vector<std::uint32_t> first; // pixel i, row by row, has the courses first[i] to first[i + 1] - 1
     std::vector<seen_course> courses;
 
     std::span<const seen_course> operator()(std::size_t pixel) const

@@ -100,3 +100,28 @@ TEST_CASE_TEMPLATE("no pass allocates", Format, gnomon::exponential_variance_hal
     CHECK(allocations == before);
     CHECK(shadow >= 0);
 }
+
+TEST_CASE("no pass over ranges allocates")
+{
+    using namespace gnomon;
+    using map = range_map<float>;
+    using pack = xsimd::batch<float>;
+    const std::array<depth_time_range<float>, 3> loose{{{0, 0.75f, 0, 0, 1}, {0.25f, 1, -1, 1, 2}, {0, 1, 0.5f, 0, 3}}};
+    std::array<visible_span<float>, resolve_capacity(3)> spans{};
+    std::array<std::uint32_t, 16> texels{};
+    std::array<std::uint32_t, map::texels(12, 9) + 1> first{};
+    std::array<depth_time_range<float>, texels.size()> some{}, ranges{};
+    const std::array<placed_receiver<float>, 2> receivers{{{0, 1, {}}, {2, 3, {}}}};
+    std::array<float, 2> shadows{};
+    const receiver_path<float> path{{0, 1, 0, 0, 4}, 1, 1, 1, 5, 6, 1};
+    const long before = allocations;
+    const auto resolved = resolve_ranges<float>(loose, spans);
+    for (std::size_t i = 0; i < resolved.size(); ++i) some[i] = range_of<float>(loose, resolved[i]);
+    sort_into_lists<float>(texels, some, first, ranges);
+    const map lists{12, 9, first, ranges};
+    static_shadows<pack>(lists, receivers, std::span<float>(shadows));
+    const float shadow = static_shadow(lists, 0.5f, 0.5f, static_receiver_begin(0.f, 4.f, 0.f, 1.f)) +
+                         moving_shadow(lists, path, 0.f, 1.f) + sampled_shadow(lists, path, 0.f, 16.f);
+    CHECK(allocations == before);
+    CHECK(shadow > 0);
+}

@@ -172,15 +172,15 @@ inline constexpr input_family<T> input_families[] = {
      }},
     // Prisms and covers.
     {"part", 1, [](auto put, const situation&, bit_source& bits) { put(double(bits.below(14))); }},
-    {"prism", 39,
+    {"prism", 48,
      [](auto put, const situation&, bit_source& bits) {
          put(prism_of(any_seen_triangle<T>(bits).triangle, T(bits.chance(0.5))));
      }},
-    {"prism_vertex", 4,
+    {"prism_vertex", 5,
      [](auto put, const situation&, bit_source& bits) {
          put(any_seen_prism_triangle(any_seen_triangle<T>(bits).triangle, bits).triangle.a);
      }},
-    {"prism_triangle_and_sample", 14,
+    {"prism_triangle_and_sample", 17,
      [](auto put, const situation&, bit_source& bits) {
          put(any_seen_prism_triangle(any_seen_triangle<T>(bits).triangle, bits));
      }},

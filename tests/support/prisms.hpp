@@ -27,10 +27,11 @@ template <class T> seen_prism_triangle<T> any_seen_prism_triangle(const moving_t
 }
 
 /// All fragments of a prism at a sample.
-template <class T> prism_pair<T> pair_at(const prism<T>& p, T s_x, T s_y)
+template <class T> prism_pair<T> pair_at(const prism<T>& p, T s_x, T s_y, T divided = 1)
 {
     prism_pair<T> pair = prism_pair_begin(T(7));
-    for (int k = 0; k < 14; ++k) pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_of(p, T(k)), s_x, s_y));
+    for (int k = 0; k < 14; ++k)
+        pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_of(p, T(k)), s_x, s_y, divided));
     return pair;
 }
 

@@ -196,7 +196,7 @@ TEST_CASE("covers of carried triangles, from prisms and from covered times")
             m[k] = {v[0], v[1], v[2]};
             const prism<double> p = prism_of(m[k], 1.0);
             for (int j = 0; j < 14; ++j) {
-                const auto f = prism_fragment_at(prism_triangle_of(p, double(j)), 0.0, 0.0);
+                const auto f = prism_fragment_at(prism_triangle_of(p, double(j)), 0.0, 0.0, 1.0);
                 if (f.covered > 0) all.push_back({f.time, f.depth, double(k)});
             }
             const moving_edges<double> e = moving_triangle_edges(m[k], 0.0, 0.0);

@@ -57,6 +57,7 @@ TEST_CASE("an edge crosses itself where both of its places do")
             REQUIRE(std::abs(exact(side.centre.x) - between(a.x1, b.x1, v)) <= tolerance);
             REQUIRE(std::abs(exact(side.centre.y) - between(a.y1, b.y1, v)) <= tolerance);
             REQUIRE(side.centre.z == (a.z0 + a.z1) / 2);
+            REQUIRE(std::abs(side.centre.inverse_w - 1) <= double(tolerance));
         } else {
             REQUIRE(side.centre.x == (a.x0 + b.x0 + a.x1 + b.x1) / 4);
             REQUIRE(side.centre.y == (a.y0 + b.y0 + a.y1 + b.y1) / 4);
@@ -76,6 +77,23 @@ TEST_CASE("a crossing has the mean depth of what crosses")
     CHECK(side.centre.x == 0.5);
     CHECK(side.centre.y == 0);
     CHECK(side.centre.z == (-0.25 + 0.75) / 2);
+    CHECK(side.centre.inverse_w == 1);
+}
+
+TEST_CASE("a crossing in perspective: as deep as the edges are there in space, with the mean 1 / w")
+{
+    // Distances 1 to 4 and 2 to 4; on the screen as above. In space the edges are 3/7 and 3/5 of the way there.
+    const moving_vertex<double> a{-1, 0, -1, 1, 1, -6, 0, 2}, b{4, 0, 0, 4, 2, 4, 1, 4};
+    const prism_side<double> linear = prism_side_of(a, b, 0.0), divided = prism_side_of(a, b, 1.0);
+    for (const auto& side : {linear, divided}) {
+        CHECK(side.crosses == 1);
+        CHECK(side.centre.x == 0.5);
+        CHECK(side.centre.y == 0);
+        CHECK(side.centre.inverse_w == ((0.25 * 1 + 0.75 * 0.25) + (0.25 * 0.5 + 0.75 * 0.25)) / 2);
+    }
+    // At open weights 1/4 : 3/16, at close 1/8 : 3/16.
+    CHECK(linear.centre.z == doctest::Approx((-4 / 7.0 + 3 / 5.0) / 2).epsilon(1e-15));
+    CHECK(divided.centre.z == (-0.25 + 0.75 * 0.25) / 2);
 }
 
 // Whole and quarter numbers: every edge function is exact.
@@ -106,7 +124,7 @@ TEST_CASE("triangles of a prism: its corners in turn, two a side where it crosse
         const moving_triangle<double> m{lattice_vertex(bits, 9), lattice_vertex(bits, 9), lattice_vertex(bits, 9)};
         const prism<double> p = prism_of(m, 1.0);
         const auto same_place = [](const prism_vertex<double>& a, const prism_vertex<double>& b) {
-            return a.x == b.x && a.y == b.y && a.z == b.z && a.t == b.t;
+            return a.x == b.x && a.y == b.y && a.z == b.z && a.t == b.t && a.inverse_w == b.inverse_w;
         };
         const std::array<prism_vertex<double>, 3> open{p.a0, p.b0, p.c0}, close{p.a1, p.b1, p.c1};
         const std::array<prism_side<double>, 3> sides{p.ab, p.bc, p.ca};
@@ -120,7 +138,7 @@ TEST_CASE("triangles of a prism: its corners in turn, two a side where it crosse
                 REQUIRE(same_place(t.a, loop[k]));
                 REQUIRE(same_place(t.b, none ? t.a : loop[k + 1]));
                 REQUIRE(same_place(t.c, none ? t.a : sides[side].centre));
-                if (none) REQUIRE(prism_fragment_at(t, t.a.x, t.a.y).covered == 0);
+                if (none) REQUIRE(prism_fragment_at(t, t.a.x, t.a.y, 1.0).covered == 0);
             }
         }
         for (const auto& [k, corners] : {std::pair{12.0, open}, std::pair{13.0, close}}) {
@@ -133,7 +151,7 @@ TEST_CASE("triangles of a prism: its corners in turn, two a side where it crosse
 }
 
 // The bounds that prism_fragment_at states.
-TEST_CASE_TEMPLATE("fragments: time and depth are those of the plane, whatever the winding", T, float, double)
+TEST_CASE_TEMPLATE("fragments: time and depth are those of the plane in space, whatever the winding", T, float, double)
 {
     bit_source bits(4);
     std::int64_t covered = 0, asked = 0;
@@ -142,7 +160,8 @@ TEST_CASE_TEMPLATE("fragments: time and depth are those of the plane, whatever t
         const auto seen = any_seen_prism_triangle(rounded_triangle<T>(scene.triangle), bits);
         const prism_triangle<T>& v = seen.triangle;
         const std::array<prism_vertex<T>, 3> p{v.a, v.b, v.c};
-        const auto f = prism_fragment_at(v, seen.s_x, seen.s_y);
+        const T divided = T(bits.below(2));
+        const auto f = prism_fragment_at(v, seen.s_x, seen.s_y, divided);
         std::array<exact, 3> e;
         exact x = 0, y = 0, largest = 0;
         const exact s_x = exact(seen.s_x), s_y = exact(seen.s_y);
@@ -153,7 +172,7 @@ TEST_CASE_TEMPLATE("fragments: time and depth are those of the plane, whatever t
             y = std::max(y, std::abs(exact(p[k].y) - s_y));
             largest = std::max(largest, std::abs(exact(p[k].z)));
         }
-        const exact tolerance = 8 * exact(u<T>) * x * y, sum = e[0] + e[1] + e[2];
+        const exact tolerance = 8 * exact(u<T>) * x * y;
         const bool front = e[0] > tolerance && e[1] > tolerance && e[2] > tolerance;
         const bool back = e[0] < -tolerance && e[1] < -tolerance && e[2] < -tolerance;
         const exact least = std::min({e[0], e[1], e[2]}), most = std::max({e[0], e[1], e[2]});
@@ -163,16 +182,22 @@ TEST_CASE_TEMPLATE("fragments: time and depth are those of the plane, whatever t
         if (least < -tolerance && most > tolerance) REQUIRE(f.covered == 0);
         if (f.covered == 0) continue;
         // Rounding alone may put the sample inside; then it is within the tolerance of the triangle.
-        const exact bound = (48 * x * y / std::abs(sum) + 8) * exact(u<T>);
-        exact time = 0, depth = 0;
-        for (std::size_t k = 0; k < 3; ++k) time += e[k] / sum * exact(p[k].t), depth += e[k] / sum * exact(p[k].z);
-        if (bound < 0.1L) {
-            REQUIRE(std::abs(exact(f.time) - std::clamp(time, 0.0L, 1.0L)) <= bound);
-            REQUIRE(std::abs(exact(f.depth) - std::clamp(depth, -1.0L, 1.0L)) <= bound * largest);
-        }
+        const auto require_mean = [&](T found, T prism_vertex<T>::*of, bool weighted, exact least_value, exact unit) {
+            exact mean = 0, weight = 0, most_weight = 0;
+            for (const std::size_t k : {0u, 1u, 2u}) {
+                const exact v_k = weighted ? exact(p[k].inverse_w) : 1;
+                mean += e[k] * v_k * exact(p[k].*of), weight += e[k] * v_k;
+                most_weight = std::max(most_weight, v_k);
+            }
+            const exact bound = (48 * x * y * most_weight / std::abs(weight) + 10) * exact(u<T>);
+            if (bound < 0.1L)
+                REQUIRE(std::abs(exact(found) - std::clamp(mean / weight, least_value, 1.0L)) <= bound * unit);
+        };
+        require_mean(f.time, &prism_vertex<T>::t, true, 0, 1);
+        require_mean(f.depth, &prism_vertex<T>::z, divided == 0, -1, largest);
         if (p[0].t == p[1].t && p[1].t == p[2].t) REQUIRE(f.time == p[0].t);
         // The other winding is the same, and a neighbour across an edge has the sample on its other side.
-        REQUIRE(prism_fragment_at(prism_triangle<T>{v.b, v.a, v.c}, seen.s_x, seen.s_y).covered == 1);
+        REQUIRE(prism_fragment_at(prism_triangle<T>{v.b, v.a, v.c}, seen.s_x, seen.s_y, divided).covered == 1);
         const T side = prism_edge_side(v.a, v.b, prism_edge(v.a, v.b, seen.s_x, seen.s_y));
         REQUIRE(prism_edge_side(v.b, v.a, prism_edge(v.b, v.a, seen.s_x, seen.s_y)) == -side);
     }
@@ -240,11 +265,12 @@ TEST_CASE_TEMPLATE("anything in: fragments and ranges within their limits", T, f
         for (T& x : numbers)
             if (kind > 0 || bits.chance(0.1)) x = kind == 1 ? hostile.special() : hostile.pattern();
         std::memcpy(&m, numbers.data(), sizeof m);
-        const prism<T> p = prism_of(m, T(bits.chance(0.5)));
+        const T divided = T(bits.chance(0.5));
+        const prism<T> p = prism_of(m, divided);
         prism_pair<T> pair = prism_pair_begin(T(1));
         for (int k = 0; k < 15; ++k) {
             const T which = k < 14 ? T(k) : hostile.pattern();
-            prism_fragment<T> f = prism_fragment_at(prism_triangle_of(p, which), numbers[24], numbers[25]);
+            prism_fragment<T> f = prism_fragment_at(prism_triangle_of(p, which), numbers[24], numbers[25], divided);
             REQUIRE((f.covered == 0 || f.covered == 1));
             REQUIRE((f.time >= 0 && f.time <= 1));
             REQUIRE(std::abs(f.depth) <= 1);

@@ -5,6 +5,8 @@
 
 #include <gnomon/passes/range_look_up.hpp>
 #include <gnomon/passes/resolve.hpp>
+#include <gnomon/simd/range_look_up.hpp>
+#include <gnomon/simd/xsimd.hpp>
 
 #include <doctest/doctest.h>
 
@@ -124,6 +126,25 @@ TEST_CASE_TEMPLATE("sampled_shadow: more samples are nearer to the closed form",
     }
     CHECK(few > 0);
     CHECK(many < few / 3);
+}
+
+TEST_CASE_TEMPLATE("static_shadows: the bits of static_shadow, however long lists are", T, float, double)
+{
+    bit_source bits(64);
+    for (std::int64_t n = 0; n < test::effort(200); ++n) {
+        const random_map<T> random(bits);
+        const int look_ups = 1 + int(bits.below(8)); // 81 lists are more than the queue holds
+        std::vector<placed_receiver<T>> receivers(bits.below(300));
+        for (auto& r : receivers)
+            r = {T(bits.uniform(-2, 14)), T(bits.uniform(-2, 12)),
+                 static_receiver_begin(T(bits.uniform(-1, 1)), T(bits.below(5)), T(0), T(bits.uniform(0.5, 1)))};
+        if (!receivers.empty()) receivers[0].x = std::numeric_limits<T>::quiet_NaN();
+        std::vector<T> found(receivers.size());
+        static_shadows<xsimd::batch<T>>(random.map(), receivers, std::span(found), look_ups);
+        for (std::size_t i = 0; i < found.size(); ++i)
+            REQUIRE(found[i] ==
+                    static_shadow(random.map(), receivers[i].x, receivers[i].y, receivers[i].state, look_ups));
+    }
 }
 
 TEST_CASE_TEMPLATE("outside of the map, and nowhere, it is lit; a shutter of one's own", T, float, double)

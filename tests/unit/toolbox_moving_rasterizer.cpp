@@ -29,7 +29,9 @@ moving_scene any_scene(std::uint64_t seed, int boxes)
 {
     bit_source bits(seed);
     const auto real = [&](double low, double high) { return static_cast<float>(bits.uniform(low, high)); };
-    const auto point = [&](float reach) { return glm::vec3(real(-reach, reach), real(0, reach), real(-reach, reach)); };
+    const auto point = [&](double reach) {
+        return glm::vec3(real(-reach, reach), real(0, reach), real(-reach, reach));
+    };
     moving_scene world{{"boxes", {}}, {}};
     mesh open{}, close{};
     for (int i = 0; i < boxes; ++i) {

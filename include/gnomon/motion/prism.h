@@ -8,19 +8,24 @@
 // product, A + s (B - A) = C + u (D - C) gives, times D - C and times B - A,
 //     s = (C - A) x (D - C) / (B - A) x (D - C),   u = (C - A) x (B - A) / (B - A) x (D - C)
 // (equation 1, whose printed terms have the factors in the other order and hence lack a sign). The paper does not say
-// what time and depth the crossing has. The edge is there twice, at time 0 and depth z_AB(s), at time 1 and depth
-// z_CD(u), and what is interpolated linearly there can be no more right than the mean of both: time 1/2, mean depth, at
-// most half a shutter and half their distance wrong, and with any other number more so on one of the two.
+// what the crossing has of what is interpolated. The edge is there twice, at time 0 and depth z_AB(s), at time 1 and
+// depth z_CD(u), and one vertex can be no more right than the mean of both: time 1/2, mean depth, at most half a
+// shutter and half their distance wrong, and with any other number more so on one of the two. So 1 / w is a mean, too;
+// a centre without crossing has that of the midpoint.
 //
-// Vertices are projected, and time and depth are interpolated along the screen, as hardware does without perspective
-// correction. So all of it is an approximation wherever a side is not plane, and in perspective, where time along a
-// straight path and depth linear in view distance do not go linearly along the screen; z / w does, on the caps. It is
-// exact in orthographic views for translations. Of triangles that turn or deform, 10 to 13 in 100 are there at wrong
-// times for more than 5% of the shutter (tests/unit/motion_prism_ranges.cpp). So this is what to compare
-// moving_triangle.h with, which is exact and the default. One triangle and texel at a time:
+// Between vertices time and depth go as rasterizers take them by default, linearly in space (the paper names no other
+// way): the screen's weight of corner k, its edge function e_k, times 1 / w_k,
+//     time = sum_k e_k t_k / w_k / sum_k e_k / w_k
+// and depth linear in view distance likewise. Depth z / w goes linearly along the screen: e_k alone. All of this is
+// exact where sides are plane and time is linear on them, hence for translations, in perspective, too: these have no
+// bow ties, unless a side is seen edge on and has no area. Elsewhere it is an approximation: of triangles that turn or
+// deform, 10 to 13 in 100 are there at wrong times for more than 5% of the shutter
+// (tests/unit/motion_prism_ranges.cpp). So this is what to compare moving_triangle.h with, which is exact and the
+// default. One triangle and texel at a time:
 //     prism p = prism_of(m, divided);
 //     prism_pair pair = prism_pair_begin(id);
-//     for (k = 0; k < 14; ++k) pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_of(p, k), s_x, s_y));
+//     for (k = 0; k < 14; ++k)
+//         pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_of(p, k), s_x, s_y, divided));
 //     prism_ranges ranges = prism_pair_end(pair);
 #ifndef GNOMON_MOTION_PRISM_H
 #define GNOMON_MOTION_PRISM_H
@@ -28,8 +33,8 @@
 #include "range.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// On the screen, with depth and time.
-GNOMON_STRUCT prism_vertex { Real x, y, z, t; };
+/// On the screen, with depth and time, and 1 / w, which is 1 in orthographic views.
+GNOMON_STRUCT prism_vertex { Real x, y, z, t, inverse_w; };
 
 GNOMON_STRUCT prism_triangle { GNOMON_T(prism_vertex) a, b, c; };
 
@@ -76,6 +81,7 @@ GNOMON_KERNEL GNOMON_T(prism_vertex) prism_vertex_of(Real x, Real y, Real z, Rea
     r.y = y / divisor;
     r.z = gnomon_select(Real(0) < divided, z / divisor, z);
     r.t = t;
+    r.inverse_w = Real(1) / divisor;
     return r;
 }
 
@@ -89,6 +95,28 @@ GNOMON_KERNEL GNOMON_T(prism_vertex) prism_vertex_open(GNOMON_T(moving_vertex) v
 GNOMON_KERNEL GNOMON_T(prism_vertex) prism_vertex_close(GNOMON_T(moving_vertex) v, GNOMON_SETTING divided)
 {
     return prism_vertex_of(v.x1, v.y1, v.z1, v.w1, Real(1), divided);
+}
+
+/// What a vertex weighs in depth, beside the screen's weight: as much as in time, or 1 where depth is divided.
+GNOMON_KERNEL Real prism_depth_weight(GNOMON_T(prism_vertex) v, GNOMON_SETTING divided)
+{
+    return gnomon_select(Real(0) < divided, Real(1), v.inverse_w);
+}
+
+/// So far along the screen from a to b, at the time of a.
+GNOMON_KERNEL GNOMON_T(prism_vertex)
+    prism_vertex_between(GNOMON_T(prism_vertex) a, GNOMON_T(prism_vertex) b, Real passed, GNOMON_SETTING divided)
+{
+    Real left = Real(1) - passed;
+    Real weight_a = left * prism_depth_weight(a, divided);
+    Real weight_b = passed * prism_depth_weight(b, divided);
+    GNOMON_T(prism_vertex) r;
+    r.x = a.x * left + b.x * passed;
+    r.y = a.y * left + b.y * passed;
+    r.z = (weight_a * a.z + weight_b * b.z) / (weight_a + weight_b);
+    r.t = a.t;
+    r.inverse_w = a.inverse_w * left + b.inverse_w * passed;
+    return r;
 }
 
 /// What the edge from a to b sweeps; exchanging a and b leaves a centre without a crossing the same bit for bit.
@@ -116,13 +144,14 @@ GNOMON_KERNEL GNOMON_T(prism_side)
     Real z = Real(0.25) * ((a.z0 + b.z0) + (a.z1 + b.z1));
     Real w = Real(0.25) * ((a.w0 + b.w0) + (a.w1 + b.w1));
     GNOMON_T(prism_vertex) middle = prism_vertex_of(x, y, z, w, Real(0.5), divided);
-    Real depth_open = a0.z * (Real(1) - s) + b0.z * s;
-    Real depth_close = a1.z * (Real(1) - u) + b1.z * u;
+    GNOMON_T(prism_vertex) open = prism_vertex_between(a0, b0, s, divided);
+    GNOMON_T(prism_vertex) close = prism_vertex_between(a1, b1, u, divided);
     GNOMON_T(prism_side) r;
-    r.centre.x = gnomon_select(crosses, a0.x * (Real(1) - s) + b0.x * s, middle.x);
-    r.centre.y = gnomon_select(crosses, a0.y * (Real(1) - s) + b0.y * s, middle.y);
-    r.centre.z = gnomon_select(crosses, Real(0.5) * (depth_open + depth_close), middle.z);
+    r.centre.x = gnomon_select(crosses, open.x, middle.x);
+    r.centre.y = gnomon_select(crosses, open.y, middle.y);
+    r.centre.z = gnomon_select(crosses, Real(0.5) * (open.z + close.z), middle.z);
     r.centre.t = Real(0.5);
+    r.centre.inverse_w = gnomon_select(crosses, Real(0.5) * (open.inverse_w + close.inverse_w), middle.inverse_w);
     r.crosses = gnomon_select(crosses, Real(1), Real(0));
     return r;
 }
@@ -154,6 +183,7 @@ GNOMON_KERNEL GNOMON_T(prism_vertex)
     r.y = gnomon_select(is_first, first.y, gnomon_select(is_second, second.y, third.y));
     r.z = gnomon_select(is_first, first.z, gnomon_select(is_second, second.z, third.z));
     r.t = gnomon_select(is_first, first.t, gnomon_select(is_second, second.t, third.t));
+    r.inverse_w = gnomon_select(is_first, first.inverse_w, gnomon_select(is_second, second.inverse_w, third.inverse_w));
     return r;
 }
 
@@ -207,22 +237,32 @@ GNOMON_KERNEL Real prism_edge_side(GNOMON_T(prism_vertex) p, GNOMON_T(prism_vert
 /// where the sample is, and where it is on edges or vertices all take it for the same sample nearby: the fill rule of
 /// rasterizers, for either winding. A surface that encloses a volume has an even number of fragments then. An odd
 /// number is left where an edge function has the wrong sign by rounding, and beside crossings, which sides and caps
-/// share only up to rounding. Coordinates that are NaN or edge functions beyond 2^60 are not covered, nor is a triangle
-/// without area. A cap's time is exactly 0 or 1. Error of time, and of depth in units of the largest |z|: (48 X Y /
-/// |sum_k e_k| + 8) 2^-p, X and Y the distances along each axis from the sample to the vertex that is farthest.
-GNOMON_KERNEL GNOMON_T(prism_fragment) prism_fragment_at(GNOMON_T(prism_triangle) v, Real s_x, Real s_y)
+/// share only up to rounding. Coordinates that are NaN, edge functions e_k or weights e_k / w_k beyond 2^60 are not
+/// covered, nor is a triangle without area. A cap's time is exactly 0 or 1. Divided as for moving_depth_at. Error of
+/// time, and of depth in units of the largest |z|: (48 X Y max_k v_k / |sum_k e_k v_k| + 10) 2^-p, X and Y the
+/// distances along each axis from the sample to the vertex that is farthest, v_k = 1 / w_k, but 1 for depth that is
+/// divided.
+GNOMON_KERNEL GNOMON_T(prism_fragment)
+    prism_fragment_at(GNOMON_T(prism_triangle) v, Real s_x, Real s_y, GNOMON_SETTING divided)
 {
     Real a = prism_edge(v.b, v.c, s_x, s_y);
     Real b = prism_edge(v.c, v.a, s_x, s_y);
     Real c = prism_edge(v.a, v.b, s_x, s_y);
     Real sides = (prism_edge_side(v.b, v.c, a) + prism_edge_side(v.c, v.a, b)) + prism_edge_side(v.a, v.b, c);
-    Real sum = (a + b) + c;
-    GNOMON_MASK known = (gnomon_abs(a) + gnomon_abs(b)) + gnomon_abs(c) < GNOMON_LITERAL(moving_edge_limit);
-    GNOMON_MASK inside = known && gnomon_abs(sides) == Real(3);
-    Real depth = ((a * v.a.z + b * v.b.z) + c * v.c.z) / sum;
+    Real depth_a = a * prism_depth_weight(v.a, divided);
+    Real depth_b = b * prism_depth_weight(v.b, divided);
+    Real depth_c = c * prism_depth_weight(v.c, divided);
+    Real depth = ((depth_a * v.a.z + depth_b * v.b.z) + depth_c * v.c.z) / ((depth_a + depth_b) + depth_c);
+    Real time_a = gnomon_product(a, v.a.inverse_w); // not contracted: a cap's time is 0 or the sum over itself
+    Real time_b = gnomon_product(b, v.b.inverse_w);
+    Real time_c = gnomon_product(c, v.c.inverse_w);
+    Real weight = (time_a + time_b) + time_c;
+    Real size = gnomon_abs((a + b) + c); // inside all have one sign
+    Real limit = GNOMON_LITERAL(moving_edge_limit);
+    GNOMON_MASK known = Real(0) < size && size < limit && Real(0) < gnomon_abs(weight) && gnomon_abs(weight) < limit;
     GNOMON_T(prism_fragment) f;
-    f.covered = gnomon_select(inside && !(sum == Real(0)) && depth == depth, Real(1), Real(0));
-    f.time = saturate_or_zero(((a * v.a.t + b * v.b.t) + c * v.c.t) / sum);
+    f.covered = gnomon_select(known && gnomon_abs(sides) == Real(3) && depth == depth, Real(1), Real(0));
+    f.time = saturate_or_zero(((time_a * v.a.t + time_b * v.b.t) + time_c * v.c.t) / weight);
     f.depth = gnomon_max(gnomon_min(depth, Real(1)), Real(-1)); // a NaN becomes 1
     return f;
 }

@@ -28,6 +28,12 @@ struct box_shutter {
     }
 };
 
+/// A receiver at rest and its texel position.
+template <class T> struct placed_receiver {
+    T x, y;
+    static_receiver<T> state;
+};
+
 namespace detail {
 
 /// Calls visit(i, j, list) for the texels from (column, row) on that are in the map, K + 1 along either axis.
@@ -47,16 +53,25 @@ void for_each_list(const range_map<T>& map, T column, T row, int look_ups, const
     }
 }
 
+/// Calls visit(weight, list) for the texels around (x, y).
+template <class T, class Visit>
+void for_each_static_list(const range_map<T>& map, T x, T y, int look_ups, const Visit& visit)
+{
+    const T k = T(look_ups), left = x - T(0.5) * k, top = y - T(0.5) * k;
+    const T column = texel_below(left), row = texel_below(top), u = left - column, v = top - row;
+    for_each_list(map, column, row, look_ups, [&](int i, int j, std::span<const depth_time_range<T>> list) {
+        visit(texel_weight(u, T(i), k) * texel_weight(v, T(j), k), list);
+    });
+}
+
 } // namespace detail
 
 /// A receiver at rest at texel position (x, y), of resolved lists; add(state, range) is the shutter.
 template <class T, class Add = box_shutter>
 T static_shadow(const range_map<T>& map, T x, T y, static_receiver<T> state, int look_ups = 1, const Add& add = {})
 {
-    const T k = T(look_ups), column = texel_below(x - T(0.5) * k), row = texel_below(y - T(0.5) * k);
-    const T u = x - T(0.5) * k - column, v = y - T(0.5) * k - row;
-    detail::for_each_list(map, column, row, look_ups, [&](int i, int j, std::span<const depth_time_range<T>> list) {
-        state = static_receiver_weigh(state, texel_weight(u, T(i), k) * texel_weight(v, T(j), k));
+    detail::for_each_static_list(map, x, y, look_ups, [&](T weight, std::span<const depth_time_range<T>> list) {
+        state = static_receiver_weigh(state, weight);
         for (const depth_time_range<T>& r : list) state = add(state, r);
     });
     return static_receiver_end(state);
@@ -84,16 +99,14 @@ T moving_shadow(const range_map<T>& map, const receiver_path<T>& path, T begin, 
 /// At one time; lists need not be resolved.
 template <class T> T shadow_at(const range_map<T>& map, const receiver_path<T>& path, T t, T bias, int look_ups = 1)
 {
-    const T k = T(look_ups), z = range_depth(path.depth, t);
+    const T z = range_depth(path.depth, t);
     const texel_position<T> at = receiver_path_at(path, t);
-    const T column = texel_below(at.x - T(0.5) * k), row = texel_below(at.y - T(0.5) * k);
-    const T u = at.x - T(0.5) * k - column, v = at.y - T(0.5) * k - row;
     T shadow = 0;
-    detail::for_each_list(map, column, row, look_ups, [&](int i, int j, std::span<const depth_time_range<T>> list) {
+    detail::for_each_static_list(map, at.x, at.y, look_ups, [&](T weight, std::span<const depth_time_range<T>> list) {
         T hidden = 0;
         for (const depth_time_range<T>& r : list)
             hidden = std::max(hidden, range_intensity(r, t, z, path.depth.id, bias));
-        shadow += hidden * texel_weight(u, T(i), k) * texel_weight(v, T(j), k);
+        shadow += weight * hidden;
     });
     return saturate_or_zero(shadow);
 }

@@ -32,10 +32,13 @@ template <class T> struct range_map {
         return ((y / block) * blocks(width) + x / block) * (block * block) + y % block * block + x % block;
     }
 
+    std::span<const depth_time_range<T>> operator[](std::size_t i) const
+    {
+        return ranges.subspan(first[i], first[i + 1] - first[i]);
+    }
     std::span<const depth_time_range<T>> operator()(std::size_t x, std::size_t y) const
     {
-        const std::size_t i = texel(width, x, y);
-        return ranges.subspan(first[i], first[i + 1] - first[i]);
+        return (*this)[texel(width, x, y)];
     }
 };
 
