@@ -271,8 +271,8 @@ TEST_CASE_TEMPLATE("leaving out what the cover hides changes no shadow test, bit
     CHECK(5 * shadowed > asked);
 }
 
-// Level ranges a few roundings behind a level cover, and receivers just behind them. Now and then range_depth puts the
-// range in front: what the margin is for.
+// Nearly level ranges a few roundings behind a level cover, and receivers just behind them. Now and then range_depth
+// puts the range in front: what the margin is for.
 TEST_CASE_TEMPLATE("a range that rounding puts in front of the cover is not left out", T, float, double)
 {
     bit_source bits(6);
@@ -281,12 +281,13 @@ TEST_CASE_TEMPLATE("a range that rounding puts in front of the cover is not left
         const T far_depth = T(bits.uniform(-1, 1)), begin = T(bits.uniform(0, 0.7)), end = begin + T(0.25);
         T z = far_depth;
         for (std::size_t n = bits.below(4); n > 0; --n) z = std::nextafter(z, T(2));
-        const depth_time_range<T> cover{0, 1, far_depth, far_depth, 0}, r{begin, end, z, z, 1};
+        const depth_time_range<T> cover{0, 1, far_depth, far_depth, 0};
+        const depth_time_range<T> r{begin, end, z, std::nextafter(z, T(2)), 1};
         const T t = begin + T(bits.uniform(0, 0.25)), behind = std::nextafter(range_depth(r, t), T(2));
         const T whole = shadow<T>({cover, r}, t, behind, T(2), T(0));
         const bool kept = range_cover_hides(cover, r) == 0;
         REQUIRE(shadow<T>(kept ? list<T>{cover, r} : list<T>{cover}, t, behind, T(2), T(0)) == whole);
-        reversed += z > far_depth && range_depth(r, t) < range_depth(cover, t);
+        reversed += range_depth(r, t) < range_depth(cover, t);
     }
     CHECK(reversed > 0);
 }
