@@ -271,23 +271,23 @@ TEST_CASE_TEMPLATE("leaving out what the cover hides changes no shadow test, bit
     CHECK(5 * shadowed > asked);
 }
 
-// Nearly level ranges a few roundings behind a level cover, and receivers just behind them. Now and then range_depth
-// puts the range in front: what the margin is for.
+// Ranges that are all but level, a few roundings behind a cover that is, and receivers just behind them. Now and then
+// range_depth puts the range in front: what the margin is for.
 TEST_CASE_TEMPLATE("a range that rounding puts in front of the cover is not left out", T, float, double)
 {
     bit_source bits(6);
-    std::int64_t reversed = 0;
-    for (std::int64_t i = 0; i < effort(1'000'000); ++i) {
+    std::int64_t reversed = 0; // rare, so the count does not depend on effort
+    for (std::int64_t i = 0; i < 1'000'000; ++i) {
         const T far_depth = T(bits.uniform(-1, 1)), begin = T(bits.uniform(0, 0.7)), end = begin + T(0.25);
         T z = far_depth;
         for (std::size_t n = bits.below(4); n > 0; --n) z = std::nextafter(z, T(2));
-        const depth_time_range<T> cover{0, 1, far_depth, far_depth, 0};
+        const depth_time_range<T> cover{0, 1, far_depth, std::nextafter(far_depth, T(-2)), 0};
         const depth_time_range<T> r{begin, end, z, std::nextafter(z, T(2)), 1};
         const T t = begin + T(bits.uniform(0, 0.25)), behind = std::nextafter(range_depth(r, t), T(2));
         const T whole = shadow<T>({cover, r}, t, behind, T(2), T(0));
         const bool kept = range_cover_hides(cover, r) == 0;
         REQUIRE(shadow<T>(kept ? list<T>{cover, r} : list<T>{cover}, t, behind, T(2), T(0)) == whole);
-        reversed += range_depth(r, t) < range_depth(cover, t);
+        reversed += z > far_depth && range_depth(r, t) < range_depth(cover, t);
     }
     CHECK(reversed > 0);
 }
