@@ -22,8 +22,8 @@ namespace gnomon::toolbox {
 
 struct range_options {
     faces visible = faces::both;
-    bool resolved = false;                          // lists of what is in front, without overlaps
-    float depth_tolerance = 0;                      // a range whose depth is further from a line is split; 0: never
+    bool resolved = false;     // lists of what is in front, without overlaps
+    float depth_tolerance = 0; // lines are this close to depth, where halfway it departs by half as much; 0: one line
     std::size_t tile_budget = std::size_t(1) << 20; // ranges that a tile may hold before it resolves its lists
 };
 

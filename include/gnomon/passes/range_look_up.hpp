@@ -28,12 +28,6 @@ struct box_shutter {
     }
 };
 
-/// A receiver at rest and its texel position.
-template <class T> struct placed_receiver {
-    T x, y;
-    static_receiver<T> state;
-};
-
 namespace detail {
 
 /// Calls visit(i, j, list) for the texels from (column, row) on that are in the map, K + 1 along either axis.

@@ -14,6 +14,12 @@
 
 namespace gnomon {
 
+/// A receiver at rest and its texel position.
+template <class T> struct placed_receiver {
+    T x, y;
+    static_receiver<T> state;
+};
+
 namespace detail {
 
 /// Pairs that wait for the kernel; those of one receiver are one after the other.
@@ -84,6 +90,12 @@ void static_shadows(const range_map<lane_t<Pack>>& map, std::span<const placed_r
     using lane = lane_t<Pack>;
     GNOMON_EXPECTS(shadows.size() == receivers.size(),
                    mismatch("static_shadows", "shadows.size()", shadows.size(), "receivers.size()", receivers.size()));
+    GNOMON_EXPECTS(map.first.size() == map.texels(map.width, map.height) + 1,
+                   mismatch("static_shadows", "map.first.size()", map.first.size(), "texels of the map, and one",
+                            map.texels(map.width, map.height) + 1));
+    GNOMON_EXPECTS(
+        map.first.back() <= map.ranges.size(),
+        mismatch("static_shadows", "map.first.back()", map.first.back(), "map.ranges.size()", map.ranges.size()));
     std::ranges::fill(shadows, lane(0));
     detail::loss_queue<Pack> queue(shadows);
     for (std::size_t i = 0; i < receivers.size(); ++i) {
