@@ -1,5 +1,6 @@
 // Moving triangles, a sample of the shadow map each, seen at some time three times in four: covered times from edges
 // on. The baseline is the usual way, without its list of intervals: six roots sorted, the middle of every two tried.
+// Depth at the ends of an interval, as the mean of the vertices' and by a field for many samples.
 // Prisms of Hong & Oh give about the same times; and a texel's ranges are searched for a cover, four of them, beside
 // their shadow tests.
 #include "measure.hpp"
@@ -8,9 +9,13 @@
 #include "../tests/support/prisms.hpp"
 
 #include <gnomon/motion/coverage_map.h>
+#include <gnomon/motion/edge_field.h>
 #include <gnomon/motion/moving_triangle.h>
 #include <gnomon/motion/prism.h>
 #include <gnomon/numerics/quadratic.h>
+
+#include <algorithm>
+#include <bit>
 
 namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {
 
@@ -113,6 +118,62 @@ struct prism_pairs : triangle_and_sample {
     }
 };
 
+// Edge functions and depths of a triangle around a sample, as a rasterizer has them for a tile.
+struct field_and_sample : compilation {
+    static constexpr std::size_t inputs = 51;
+    static std::vector<std::array<double, inputs>> samples(std::size_t count, std::uint64_t seed)
+    {
+        std::vector<std::array<double, inputs>> result(count);
+        const auto triangles = triangle_and_sample::samples(count, seed);
+        for (std::size_t i = 0; i < count; ++i) {
+            const moving_triangle<double> m = triangle_and_sample::triangle(triangles[i]);
+            const moving_field<double> field = moving_field_of(m, triangles[i][24], triangles[i][25]);
+            const auto edges = std::bit_cast<std::array<double, 9>>(moving_field_edges(field, 0.0, 0.0));
+            const auto depths = std::bit_cast<std::array<double, 16>>(depth_field_of(field, m));
+            auto at = std::copy(edges.begin(), edges.end(), result[i].begin());
+            at = std::copy(depths.begin(), depths.end(), at);
+            *at++ = 0;
+            *at++ = 0;
+            std::copy_n(triangles[i].begin(), 24, at);
+        }
+        return result;
+    }
+
+    template <class Real> static GNOMON_INLINE constexpr moving_edges<Real> edges(const std::array<Real, inputs>& x)
+    {
+        return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}};
+    }
+};
+
+struct vertex_depths : field_and_sample {
+    static constexpr auto name = "two depths of the vertices";
+    template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
+    {
+        using real = std::common_type_t<Reals...>;
+        const std::array<real, inputs> x{operands...};
+        std::array<real, 26> vertices;
+        for (std::size_t i = 0; i < 24; ++i) vertices[i] = x[27 + i];
+        const moving_triangle<real> m = triangle_and_sample::triangle(vertices);
+        return moving_triangle_linear_depth(m, edges(x), real(0.25)) +
+               moving_triangle_linear_depth(m, edges(x), real(0.75));
+    }
+};
+
+struct field_depths : field_and_sample {
+    static constexpr auto name = "two depths of a field";
+    template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
+    {
+        using real = std::common_type_t<Reals...>;
+        const std::array<real, inputs> x{operands...};
+        const auto plane = [&](std::size_t k) GNOMON_BENCH_INLINE {
+            return sample_plane<real>{x[k], x[k + 1], x[k + 2]};
+        };
+        const depth_field<real> field{plane(9), plane(12), plane(15), plane(18), x[21], x[22], x[23], x[24]};
+        const depth_curve<real> curve = moving_depth_curve(field, edges(x), x[25], x[26]);
+        return depth_curve_at(curve, real(0.25)) + depth_curve_at(curve, real(0.75));
+    }
+};
+
 struct texel_of_ranges : compilation {
     static constexpr std::size_t inputs = 20;
     static std::vector<std::array<double, inputs>> samples(std::size_t count, std::uint64_t seed)
@@ -161,6 +222,7 @@ struct cover_search : texel_of_ranges {
 
 [[maybe_unused]] const bool registered =
     add_kernels<sorted_roots, sorted_roots, coverage, depth, prism_pairs>("motion") &&
+    add_kernels<vertex_depths, vertex_depths, field_depths>("motion") &&
     add_kernels<shadow_tests, shadow_tests, cover_search>("motion");
 
 } // namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC

@@ -182,7 +182,7 @@ template <int N> range_shadow_map listed(const range_shadow_map& exact)
     range_shadow_map result =
         empty_map(fmt::format("interval lists of {}", N), fmt::format("{} x 20 B + 8 B", N), exact.resolution);
     const range_map<float> from = exact.map();
-    constexpr std::size_t chunk = 16 * range_map<float>::block * range_map<float>::block;
+    constexpr std::size_t chunk = range_map<float>::texels_per_tile;
     static_assert(chunk % pack::size == 0);
     const std::size_t texels = from.first.size() - 1;
     std::vector<listed_texels<N>> chunks((texels + chunk - 1) / chunk);

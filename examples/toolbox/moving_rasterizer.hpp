@@ -4,8 +4,8 @@
 //
 // Work grows with what is covered, not with bounding boxes of what moves: triangles are tested against tiles, against
 // blocks of 4 x 4 texels and then against texels, by one kernel in space and time (motion/edge_field.h), a pack at a
-// time. A tile counts its ranges before it lays out its lists, and resolves them early where they would take more
-// memory than it may have. Tiles of one row have their lists put one after the other before the next row's begin.
+// time. A tile goes through its blocks and keeps their ranges by packs, counted for each texel; where they would take
+// more memory than they may have they are resolved early. Then each goes to its place in the map, once, from a cache.
 #pragma once
 
 #include <gnomon/passes/range_map.hpp>
@@ -24,14 +24,20 @@ struct range_options {
     faces visible = faces::both;
     bool resolved = false;     // lists of what is in front, without overlaps
     float depth_tolerance = 0; // lines are this close to depth, where halfway it departs by half as much; 0: one line
-    std::size_t tile_budget = std::size_t(1) << 20; // ranges that a tile may hold before it resolves its lists
+    std::size_t budget = std::size_t(1) << 14; // ranges that a pack of texels has room for before it resolves them
 };
 
 // What rasterization took.
 struct range_counts {
     std::size_t pairs = 0;          // of a texel and a triangle that covers it at some time, for either facing
     std::size_t tested = 0;         // texels tested against triangles
-    std::size_t early_resolves = 0; // of tiles, since their budget was used up
+    std::size_t early_resolves = 0; // of packs of texels, since their budget was used up
+
+    range_counts& operator+=(const range_counts& other)
+    {
+        pairs += other.pairs, tested += other.tested, early_resolves += other.early_resolves;
+        return *this;
+    }
 };
 
 struct range_lists {

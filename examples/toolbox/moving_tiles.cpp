@@ -14,6 +14,7 @@
 #include <glm/matrix.hpp>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace gnomon::toolbox {
 
@@ -33,7 +34,7 @@ struct moving_view {
 };
 
 // Which sides of it are seen: the sign of the determinant of the corners' (x, y, w), a cubic in time, by its Bernstein
-// coefficients.
+// coefficients. One that only turns its negative side is turned around.
 void set_facing(moving_setup& s, faces visible)
 {
     const auto column = [](const moving_vertex<double>& v, bool late) {
@@ -51,6 +52,9 @@ void set_facing(moving_setup& s, faces visible)
     // Texels count rows downwards: what turns its front to the eye runs clockwise.
     s.positive = most > 0 && visible != faces::front;
     s.negative = least < 0 && visible != faces::back;
+    if (s.positive || !s.negative) return;
+    std::swap(s.corners.b, s.corners.c);
+    std::swap(s.positive, s.negative);
 }
 
 // Where its corners are seen at both ends, and hence in between; everywhere if one is ever behind the eye.
@@ -66,7 +70,9 @@ bool set_extent(moving_setup& s, const moving_view& from)
         least_w = std::min({least_w, v->w0, v->w1});
     }
     if (!(nearest <= 1) || !(farthest >= -1)) return false;
-    if (!(least_w > 0)) low = glm::dvec2(0), high = from.size;
+    s.before_eye = least_w > 0;
+    s.between_planes = -1 < nearest && farthest < 1;
+    if (!s.before_eye) low = glm::dvec2(0), high = from.size;
     s.first = glm::ivec2(glm::clamp(glm::ceil(low - 0.5 - double(tile_triangle::margin)), glm::dvec2(0), from.size));
     s.last =
         glm::ivec2(glm::clamp(glm::floor(high - 0.5 + double(tile_triangle::margin)), glm::dvec2(-1), from.size - 1.0));
@@ -94,6 +100,29 @@ std::vector<moving_setup> set_up(const moving_scene& world, const moving_view& f
     return all;
 }
 
+// Calls visit(tile) for those in which it is seen at some time.
+template <class Visit> void for_each_tile(const moving_setup& s, const Visit& visit)
+{
+    const glm::ivec2 low = s.first / moving_tile_size, extent = s.last / moving_tile_size - low + 1;
+    const int count = extent.x * extent.y;
+    if (count == 1) return visit(low);
+    const glm::dvec2 origin = double(moving_tile_size) * (glm::dvec2(low) + 0.5 * glm::dvec2(extent));
+    const touched_cells touched(numbers_as<float>(moving_field_of(s.corners, origin.x, origin.y)), s,
+                                0.5f * float(moving_tile_size) + tile_triangle::margin);
+    const auto tile = [&](int i) { return low + glm::ivec2(i % extent.x, i / extent.x); };
+    for (int begin = 0; begin < count; begin += int(texel_pack::size)) {
+        texel_lanes x, y;
+        for (std::size_t i = 0; i < texel_pack::size; ++i) {
+            const glm::dvec2 middle = double(moving_tile_size) * (glm::dvec2(tile(begin + int(i))) + 0.5) - origin;
+            x[i] = float(middle.x), y[i] = float(middle.y);
+        }
+        for_each_bit(touched(texel_pack::load_unaligned(x.data()), texel_pack::load_unaligned(y.data())),
+                     [&](std::size_t lane) {
+                         if (begin + int(lane) < count) visit(tile(begin + int(lane)));
+                     });
+    }
+}
+
 } // namespace
 
 tiled_triangles::tiled_triangles(const moving_scene& world, const moving_camera& eye, int width, int height,
@@ -118,24 +147,13 @@ void tiled_triangles::sort_into_tiles()
     struct member {
         std::uint32_t tile, triangle;
     };
-    constexpr float size = float(moving_tile_size);
     tbb::enumerable_thread_specific<std::vector<member>> local;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, setups_.size(), 64), [&](const auto& some) {
         std::vector<member>& found = local.local();
-        for (std::size_t i = some.begin(); i < some.end(); ++i) {
-            const moving_setup& s = setups_[i];
-            const glm::ivec2 low = s.first / moving_tile_size, high = s.last / moving_tile_size;
-            const auto add = [&](const glm::ivec2& tile) {
+        for (std::size_t i = some.begin(); i < some.end(); ++i)
+            for_each_tile(setups_[i], [&](const glm::ivec2& tile) {
                 found.push_back({static_cast<std::uint32_t>(tile.y * grid_.x + tile.x), static_cast<std::uint32_t>(i)});
-            };
-            if (low == high) {
-                add(low);
-                continue;
-            }
-            const glm::vec2 origin = 0.5f * size * glm::vec2(low + high + 1);
-            for_each_touched(texel_field(s, origin), s, low, high, 0.5f * size - origin, size,
-                             0.5f * size + tile_triangle::margin, add);
-        }
+            });
     });
     first_.assign(static_cast<std::size_t>(grid_.x * grid_.y) + 1, 0);
     for (const auto& found : local)
@@ -151,20 +169,33 @@ void tiled_triangles::sort_into_tiles()
     });
 }
 
-moving_field<texel_pack> texel_field(const moving_setup& s, const glm::dvec2& origin)
-{
-    const auto exact = std::bit_cast<std::array<double, 27>>(moving_field_of(s.corners, origin.x, origin.y));
-    std::array<texel_pack, 27> rounded;
-    std::ranges::transform(exact, rounded.begin(), [](double x) { return texel_pack(static_cast<float>(x)); });
-    return std::bit_cast<moving_field<texel_pack>>(rounded);
-}
-
 tile_triangle::tile_triangle(const moving_setup& s, const moving_tile& where)
-    : setup_(s),
+    : setup_(&s),
       last_(glm::min(s.last - where.corner, where.size - 1)),
       low_(glm::max(s.first - where.corner, 0) / moving_block_size),
       high_(last_ / moving_block_size),
-      field_(texel_field(s, glm::dvec2(where.corner) + 0.5 * moving_tile_size))
-{}
+      whole_(s.between_planes && where.size == glm::ivec2(moving_tile_size))
+{
+    const glm::dvec2 origin = glm::dvec2(where.corner) + 0.5 * moving_tile_size;
+    const moving_field<double> field = moving_field_of(s.corners, origin.x, origin.y);
+    field_ = numbers_as<float>(field);
+    depths_ = numbers_as<float>(depth_field_of(field, s.corners));
+}
+
+texel_pack tile_triangle::depth_of_corners(moving_edges<texel_pack> edges, const texel_pack& t) const
+{
+    return moving_triangle_linear_depth(corners(), edges, t);
+}
+
+void tile_members::assign(const tiled_triangles& scenery, std::size_t tile)
+{
+    triangles_.clear();
+    for (auto& members : blocks_) members.clear();
+    const moving_tile where = scenery.tile(tile);
+    scenery.for_each(tile, [&](const moving_setup& s) {
+        const auto number = static_cast<std::uint32_t>(triangles_.size());
+        triangles_.emplace_back(s, where).for_each_block([&](std::size_t block) { blocks_[block].push_back(number); });
+    });
+}
 
 } // namespace gnomon::toolbox

@@ -9,10 +9,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "moving_scene.hpp"
@@ -23,13 +25,35 @@ namespace gnomon::toolbox {
 using texel_pack = xsimd::batch<float>;
 using texel_lanes = std::array<float, texel_pack::size>;
 
-inline constexpr int moving_tile_size = 32, moving_block_size = 4;
+// A bit for each lane; xsimd 8 has no such function.
+inline std::uint64_t bits_of(const xsimd::batch_bool<float>& lanes)
+{
+    if constexpr (std::is_integral_v<decltype(lanes.data)>) return lanes.data;
+    else {
+        std::array<bool, texel_pack::size> each;
+        lanes.store_unaligned(each.data());
+        std::uint64_t bits = 0;
+        for (std::size_t i = 0; i < each.size(); ++i) bits |= std::uint64_t(each[i]) << i;
+        return bits;
+    }
+}
+
+template <class Visit> void for_each_bit(std::uint64_t bits, const Visit& visit)
+{
+    for (; bits != 0; bits &= bits - 1) visit(std::size_t(std::countr_zero(bits)));
+}
+
+// As maps of ranges count.
+inline constexpr int moving_tile_size = int(range_map<float>::tile), moving_block_size = int(range_map<float>::block);
+inline constexpr int moving_blocks = moving_tile_size / moving_block_size; // along a side of a tile
 
 // A triangle: x and y in texels times w, z the linear depth, by which lists are sorted.
 struct moving_setup {
     moving_triangle<double> corners;
     glm::ivec2 first, last;  // texels that it may cover, both included
     bool positive, negative; // whether its edge functions are ever all positive, and all negative
+    bool before_eye;         // all of it, all of the time
+    bool between_planes;     // near and far
     std::uint32_t number;    // counted through all meshes
 };
 
@@ -37,15 +61,10 @@ struct moving_tile {
     glm::ivec2 corner, size; // size: of what lies in the picture
     int picture_width;
 
-    // Numbers of a place in the tile: row by row in the picture, and as range_map counts.
+    // Row by row in the picture.
     std::size_t pixel(const glm::ivec2& inside) const
     {
         return std::size_t(corner.y + inside.y) * std::size_t(picture_width) + std::size_t(corner.x + inside.x);
-    }
-    std::size_t texel(const glm::ivec2& inside) const
-    {
-        return range_map<float>::texel(std::size_t(picture_width), std::size_t(corner.x + inside.x),
-                                       std::size_t(corner.y + inside.y));
     }
 };
 
@@ -56,8 +75,6 @@ class tiled_triangles {
     tiled_triangles(const moving_scene& world, const moving_camera& eye, int width, int height, faces visible);
 
     std::size_t tiles() const { return first_.size() - 1; }
-    std::size_t columns() const { return std::size_t(grid_.x); }
-    std::size_t rows() const { return std::size_t(grid_.y); }
     moving_tile tile(std::size_t i) const;
 
     // Calls visit(setup) for the triangles of a tile, in the order of their numbers.
@@ -74,100 +91,178 @@ class tiled_triangles {
     std::vector<std::uint32_t> first_, members_;
 };
 
-// The edge functions of a setup around a place of the picture.
-moving_field<texel_pack> texel_field(const moving_setup& s, const glm::dvec2& origin);
-
-// Calls visit(cell) for each cell from low to high of a grid whose samples, within reach of its middle, the triangle
-// covers at some time; the middle of the cell (0, 0) is at start from the field's origin.
-template <class Visit>
-void for_each_touched(const moving_field<texel_pack>& field, const moving_setup& s, const glm::ivec2& low,
-                      const glm::ivec2& high, const glm::vec2& start, float step, float reach, const Visit& visit)
+// A struct of numbers, as float and in every lane of a pack.
+template <class To, template <class, class> class Struct, class From>
+Struct<To, To> numbers_as(const Struct<From, From>& x)
 {
-    const auto next = [&](glm::ivec2& cell) {
-        if (++cell.x > high.x) cell = {low.x, cell.y + 1};
-    };
-    texel_lanes x, y, duration;
-    for (glm::ivec2 begin = low, end = low; begin.y <= high.y; begin = end) {
-        for (std::size_t i = 0; i < texel_pack::size; ++i, next(end))
-            x[i] = start.x + step * float(end.x), y[i] = start.y + step * float(end.y);
-        const texel_pack s_x = texel_pack::load_unaligned(x.data()), s_y = texel_pack::load_unaligned(y.data());
-        texel_pack covered(0.f);
-        for (const float facing : {1.f, -1.f})
-            if (facing > 0 ? s.positive : s.negative)
-                covered += coverage_duration(moving_coverage(
-                    moving_field_block(field, s_x, s_y, texel_pack(reach), texel_pack(reach), texel_pack(facing)),
-                    texel_pack(facing)));
-        covered.store_unaligned(duration.data());
-        glm::ivec2 cell = begin;
-        for (std::size_t i = 0; i < texel_pack::size && cell.y <= high.y; ++i, next(cell))
-            if (duration[i] > 0) visit(cell);
-    }
+    const auto given = std::bit_cast<std::array<From, sizeof x / sizeof(From)>>(x);
+    std::array<To, given.size()> result;
+    std::ranges::transform(given, result.begin(), [](From r) { return To(static_cast<float>(r)); });
+    return std::bit_cast<Struct<To, To>>(result);
 }
 
-// Where the samples of a tile's first block are from the middle of the tile, along x or y; a pack may be longer than
-// they are.
-template <bool Row> constexpr auto moving_block_samples()
+// The same in every lane; member by member, which compilers keep in registers.
+GNOMON_INLINE sample_plane<texel_pack> in_lanes(const sample_plane<float>& p) { return {p.x, p.y, p.c}; }
+GNOMON_INLINE edge_field<texel_pack> in_lanes(const edge_field<float>& f)
 {
-    constexpr int count = moving_block_size * moving_block_size;
-    std::array<float, std::max<std::size_t>(count, texel_pack::size)> result{};
-    for (int i = 0; i < int(result.size()); ++i)
-        result[std::size_t(i)] =
-            float(Row ? i / moving_block_size : i % moving_block_size) + 0.5f - 0.5f * float(moving_tile_size);
+    return {in_lanes(f.e0), in_lanes(f.e1), in_lanes(f.e2)};
+}
+GNOMON_INLINE moving_field<texel_pack> in_lanes(const moving_field<float>& f)
+{
+    return {in_lanes(f.a), in_lanes(f.b), in_lanes(f.c)};
+}
+GNOMON_INLINE depth_field<texel_pack> in_lanes(const depth_field<float>& d)
+{
+    return {in_lanes(d.n0), in_lanes(d.n1), in_lanes(d.n2), in_lanes(d.n3), d.z0, d.z1, d.least, d.most};
+}
+
+// Which cells, the samples within reach of their middles, a triangle covers at some time.
+class touched_cells {
+  public:
+    touched_cells(const moving_field<float>& field, const moving_setup& s, float reach)
+        : setup_(s),
+          positive_(moving_field_around(field, reach, reach, 1.f)),
+          negative_(moving_field_around(field, reach, reach, -1.f))
+    {}
+
+    // A bit for each lane.
+    std::uint64_t operator()(const texel_pack& middle_x, const texel_pack& middle_y) const
+    {
+        const auto touched = [&](const moving_field<float>& around, float facing) {
+            const auto edges = moving_field_edges(in_lanes(around), middle_x, middle_y);
+            return bits_of(moving_coverage(edges, texel_pack(facing)).count > texel_pack(0.f));
+        };
+        return (setup_.positive ? touched(positive_, 1) : 0) | (setup_.negative ? touched(negative_, -1) : 0);
+    }
+
+  private:
+    const moving_setup& setup_;
+    moving_field<float> positive_, negative_;
+};
+
+// Where things of some size, in rows of some length, are from the middle of a tile, along x or y.
+template <int Count, int Row, int Size, bool Y> constexpr auto moving_places()
+{
+    std::array<float, std::size_t(Count)> result{};
+    for (int i = 0; i < Count; ++i)
+        result[std::size_t(i)] = float(Size) * (float(Y ? i / Row : i % Row) + 0.5f) - 0.5f * float(moving_tile_size);
     return result;
 }
+
+// A pack of the samples of a tile, as range_map counts them.
+struct moving_samples {
+    static constexpr int per_block = moving_block_size * moving_block_size;
+    static constexpr std::size_t packs_per_block = std::size_t(per_block) / texel_pack::size,
+                                 packs_per_tile = range_map<float>::texels_per_tile / texel_pack::size;
+    static_assert(std::size_t(per_block) % texel_pack::size == 0, "packs are parts of a block");
+
+    glm::ivec2 block;
+    int begin; // of the block's samples
+    texel_pack x, y;
+
+    explicit moving_samples(std::size_t number)
+        : block(int(number / packs_per_block) % moving_blocks, int(number / packs_per_block) / moving_blocks),
+          begin(int(number % packs_per_block * texel_pack::size))
+    {
+        static constexpr auto first_x = moving_places<per_block, moving_block_size, 1, false>(),
+                              first_y = moving_places<per_block, moving_block_size, 1, true>();
+        const glm::vec2 corner(block * moving_block_size);
+        x = texel_pack::load_unaligned(&first_x[std::size_t(begin)]) + texel_pack(corner.x);
+        y = texel_pack::load_unaligned(&first_y[std::size_t(begin)]) + texel_pack(corner.y);
+    }
+
+    // Where in the tile one of them is.
+    glm::ivec2 place(std::size_t lane) const
+    {
+        const int sample = begin + int(lane);
+        return moving_block_size * block + glm::ivec2(sample % moving_block_size, sample / moving_block_size);
+    }
+};
+
+// What of a triangle a pack of samples sees.
+struct moving_sight {
+    moving_edges<texel_pack> edges;
+    depth_curve<texel_pack> curve;
+};
 
 // A triangle in one tile.
 class tile_triangle {
   public:
     tile_triangle(const moving_setup& s, const moving_tile& where);
 
-    // Calls visit(block, first sample, edge functions) for packs of samples in the blocks that it touches.
-    template <class Visit> void for_each_pack(const Visit& visit) const
+    const moving_setup& setup() const { return *setup_; }
+
+    // Calls visit(number of the block) for blocks whose samples it covers at some time.
+    template <class Visit> void for_each_block(const Visit& visit) const
     {
-        const auto visit_block = [&](const glm::ivec2& block) {
-            const glm::vec2 corner(block * moving_block_size);
-            for (std::size_t begin = 0; begin < samples_x.size(); begin += texel_pack::size)
-                visit(block, int(begin),
-                      moving_field_edges(field_, texel_pack::load_unaligned(&samples_x[begin]) + texel_pack(corner.x),
-                                         texel_pack::load_unaligned(&samples_y[begin]) + texel_pack(corner.y)));
-        };
-        constexpr float size = float(moving_block_size);
-        if (low_ == high_) visit_block(low_);
-        else
-            for_each_touched(field_, setup_, low_, high_, glm::vec2(0.5f * (size - float(moving_tile_size))), size,
-                             0.5f * (size - 1) + margin, visit_block);
+        constexpr int count = moving_blocks * moving_blocks;
+        static constexpr auto middle_x = moving_places<count, moving_blocks, moving_block_size, false>(),
+                              middle_y = moving_places<count, moving_blocks, moving_block_size, true>();
+        if (low_ == high_) return visit(std::size_t(low_.y * moving_blocks + low_.x));
+        const touched_cells touched(field_, *setup_, 0.5f * float(moving_block_size - 1) + margin);
+        const std::size_t lanes = texel_pack::size, end = std::size_t((high_.y + 1) * moving_blocks);
+        std::uint64_t blocks = 0;
+        for (std::size_t i = std::size_t(low_.y * moving_blocks) / lanes * lanes; i < end; i += lanes)
+            blocks |= touched(texel_pack::load_unaligned(&middle_x[i]), texel_pack::load_unaligned(&middle_y[i])) << i;
+        // Not beyond where its corners are seen.
+        const std::uint64_t columns = (std::uint64_t(2) << high_.x) - (std::uint64_t(1) << low_.x);
+        for_each_bit(blocks & columns * 0x0101010101010101, visit);
     }
 
-    // Where in the tile a sample of a block is, its number there as range_map counts, and whether that is in the
-    // picture.
-    static glm::ivec2 place(const glm::ivec2& block, int sample)
+    GNOMON_INLINE moving_sight seen_by(const moving_samples& s) const
     {
-        return moving_block_size * block + glm::ivec2(sample % moving_block_size, sample / moving_block_size);
+        const moving_edges<texel_pack> edges = moving_field_edges(in_lanes(field_), s.x, s.y);
+        return {edges, moving_depth_curve(in_lanes(depths_), edges, s.x, s.y)};
     }
-    static std::uint32_t texel(const glm::ivec2& block, int sample)
+
+    GNOMON_INLINE texel_pack depth(const moving_sight& of, const texel_pack& t) const
     {
-        const glm::ivec2 at = place(block, sample);
-        return static_cast<std::uint32_t>(
-            range_map<float>::texel(moving_tile_size, std::size_t(at.x), std::size_t(at.y)));
+        return setup_->before_eye ? depth_curve_at(of.curve, t) : depth_of_corners(of.edges, t);
+    }
+
+    // What depth is computed from without a field: linear depths, and weights that say what is before the eye.
+    moving_triangle<texel_pack> corners() const { return numbers_as<texel_pack>(setup_->corners); }
+
+    // Whether it is in the picture wherever it covers the tile.
+    bool whole() const { return whole_; }
+
+    // Whether samples are in the picture, and their depths at two times not both before the near plane or at the far.
+    auto contains(const moving_samples& s, const texel_pack& z0, const texel_pack& z1) const
+    {
+        const glm::vec2 beyond = glm::vec2(last_) + 1.f - 0.5f * float(moving_tile_size);
+        const texel_pack near_plane(-1.f), far_plane(1.f);
+        return s.x < texel_pack(beyond.x) && s.y < texel_pack(beyond.y) && (near_plane < z0 || near_plane < z1) &&
+               (z0 < far_plane || z1 < far_plane);
     }
     bool contains(const glm::ivec2& place) const { return place.x <= last_.x && place.y <= last_.y; }
-    // The same for a pack of samples.
-    auto contains(const glm::ivec2& block, int sample) const
-    {
-        const glm::vec2 beyond = glm::vec2(last_ - moving_block_size * block) + 1.f - 0.5f * float(moving_tile_size);
-        return texel_pack::load_unaligned(&samples_x[std::size_t(sample)]) < texel_pack(beyond.x) &&
-               texel_pack::load_unaligned(&samples_y[std::size_t(sample)]) < texel_pack(beyond.y);
-    }
 
     // What blocks are tested for beyond their samples, in texels: more than rounding takes from them.
     static constexpr float margin = 0.05f;
 
   private:
-    static constexpr auto samples_x = moving_block_samples<false>(), samples_y = moving_block_samples<true>();
+    texel_pack depth_of_corners(moving_edges<texel_pack> edges, const texel_pack& t) const;
 
-    const moving_setup& setup_;
+    const moving_setup* setup_;
     glm::ivec2 last_, low_, high_; // texel, blocks
-    moving_field<texel_pack> field_;
+    bool whole_;
+    moving_field<float> field_;
+    depth_field<float> depths_;
+};
+
+// The triangles of a tile, by the blocks that they touch.
+class tile_members {
+  public:
+    void assign(const tiled_triangles& scenery, std::size_t tile);
+
+    // Calls visit(triangle) for those of a block, in the order of their numbers.
+    template <class Visit> void for_each(std::size_t block, const Visit& visit) const
+    {
+        for (const std::uint32_t i : blocks_[block]) visit(triangles_[i]);
+    }
+
+  private:
+    std::vector<tile_triangle> triangles_;
+    std::array<std::vector<std::uint32_t>, std::size_t(moving_blocks* moving_blocks)> blocks_;
 };
 
 } // namespace gnomon::toolbox

@@ -101,9 +101,30 @@ template <class T> seen_triangle<T> any_seen_triangle(bit_source& bits)
     return {triangle, moving_triangle_edges(triangle, T(scene.s_x), T(scene.s_y))};
 }
 
-template <class T> moving_field<T> any_moving_field(bit_source& bits)
+/// A moving triangle and its edge functions around some origin.
+template <class T> struct field_and_triangle {
+    moving_field<T> field;
+    moving_triangle<T> triangle;
+};
+
+template <class T> field_and_triangle<T> any_field_and_triangle(bit_source& bits)
 {
-    return moving_field_of(any_seen_triangle<T>(bits).triangle, T(bits.uniform(-1, 1)), T(bits.uniform(-1, 1)));
+    const moving_triangle<T> m = any_seen_triangle<T>(bits).triangle;
+    return {moving_field_of(m, T(bits.uniform(-1, 1)), T(bits.uniform(-1, 1))), m};
+}
+
+template <class T> depth_field<T> any_depth_field(bit_source& bits)
+{
+    const field_and_triangle<T> x = any_field_and_triangle<T>(bits);
+    return depth_field_of(x.field, x.triangle);
+}
+
+/// Depth at a sample near the origin.
+template <class T> depth_curve<T> any_depth_curve(bit_source& bits)
+{
+    const field_and_triangle<T> x = any_field_and_triangle<T>(bits);
+    const T s_x = T(bits.uniform(-1, 1)), s_y = T(bits.uniform(-1, 1));
+    return moving_depth_curve(depth_field_of(x.field, x.triangle), moving_field_edges(x.field, s_x, s_y), s_x, s_y);
 }
 
 /// A receiver on its way over some texels, by an orthographic light or by one in perspective, and as it leaves some

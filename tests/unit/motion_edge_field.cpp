@@ -30,6 +30,28 @@ template <class T, class F> void for_each_scene(std::int64_t scenes, F f)
     }
 }
 
+// A vertex relative to a sample; its extents are what errors are proportional to.
+struct seen_vertex {
+    exact x0, y0, x1, y1, size_x, size_y;
+};
+
+exact products(const seen_vertex& i, const seen_vertex& j) { return i.size_x * j.size_y + i.size_y * j.size_x; }
+
+template <class T> std::array<seen_vertex, 3> seen_vertices(const moving_triangle<T>& m, T o_x, T o_y, T s_x, T s_y)
+{
+    const exact at_x = exact(o_x) + exact(s_x), at_y = exact(o_y) + exact(s_y);
+    const auto seen = [&](const moving_vertex<T>& v) -> seen_vertex {
+        const exact w0 = exact(v.w0), w1 = exact(v.w1);
+        const auto size = [&](T at0, T at1, T origin, T sample) {
+            const exact reach = exact(std::abs(origin)) + exact(std::abs(sample));
+            return std::max(exact(std::abs(at0)) + reach * std::abs(w0), exact(std::abs(at1)) + reach * std::abs(w1));
+        };
+        return {exact(v.x0) - at_x * w0, exact(v.y0) - at_y * w0,    exact(v.x1) - at_x * w1,
+                exact(v.y1) - at_y * w1, size(v.x0, v.x1, o_x, s_x), size(v.y0, v.y1, o_y, s_y)};
+    };
+    return {seen(m.a), seen(m.b), seen(m.c)};
+}
+
 } // namespace
 
 TEST_CASE_TEMPLATE("moving_field_edges: the triangle's edge functions, within the stated error", T, float, double)
@@ -37,25 +59,10 @@ TEST_CASE_TEMPLATE("moving_field_edges: the triangle's edge functions, within th
     for_each_scene<T>(100'000, [](const moving_triangle<T>& m, T o_x, T o_y, bit_source& bits) {
         const T s_x = T(bits.uniform(-0.2, 0.2)), s_y = T(bits.uniform(-0.2, 0.2));
         const auto found = listed(moving_field_edges(moving_field_of(m, o_x, o_y), s_x, s_y));
-        const std::array<moving_vertex<T>, 3> v{m.a, m.b, m.c};
-        struct seen {
-            exact x0, y0, x1, y1, size_x, size_y;
-        };
-        std::array<seen, 3> p;
-        const exact at_x = exact(o_x) + exact(s_x), at_y = exact(o_y) + exact(s_y);
+        const std::array<seen_vertex, 3> p = seen_vertices(m, o_x, o_y, s_x, s_y);
         for (std::size_t k = 0; k < 3; ++k) {
-            const exact w0 = exact(v[k].w0), w1 = exact(v[k].w1);
-            const auto size = [&](T at0, T at1, T origin, T sample) {
-                const exact reach = exact(std::abs(origin)) + exact(std::abs(sample));
-                return std::max(exact(std::abs(at0)) + reach * std::abs(w0),
-                                exact(std::abs(at1)) + reach * std::abs(w1));
-            };
-            p[k] = {exact(v[k].x0) - at_x * w0, exact(v[k].y0) - at_y * w0,       exact(v[k].x1) - at_x * w1,
-                    exact(v[k].y1) - at_y * w1, size(v[k].x0, v[k].x1, o_x, s_x), size(v[k].y0, v[k].y1, o_y, s_y)};
-        }
-        for (std::size_t k = 0; k < 3; ++k) {
-            const seen &i = p[(k + 1) % 3], &j = p[(k + 2) % 3];
-            const exact error = 64 * exact(u<T>) * (i.size_x * j.size_y + i.size_y * j.size_x);
+            const seen_vertex &i = p[(k + 1) % 3], &j = p[(k + 2) % 3];
+            const exact error = 64 * exact(u<T>) * products(i, j);
             REQUIRE(std::abs(exact(found[k].e0) - (i.x0 * j.y0 - i.y0 * j.x0)) <= error);
             REQUIRE(std::abs(exact(found[k].e1) - (i.x0 * j.y1 - i.y0 * j.x1 + i.x1 * j.y0 - i.y1 * j.x0) / 2) <=
                     error);
@@ -78,7 +85,7 @@ TEST_CASE_TEMPLATE("edge fields of neighbours are opposite, bit for bit, at ever
     });
 }
 
-TEST_CASE_TEMPLATE("moving_field_block: no sample of the block is covered at a time that the block is not", T, float,
+TEST_CASE_TEMPLATE("moving_field_around: no sample of the block is covered at a time that the block is not", T, float,
                    double)
 {
     std::int64_t covered = 0, culled = 0;
@@ -86,8 +93,8 @@ TEST_CASE_TEMPLATE("moving_field_block: no sample of the block is covered at a t
         const moving_field<T> field = moving_field_of(m, o_x, o_y);
         const T facing = bits.chance(0.5) ? T(1) : T(-1), h = T(std::exp2(bits.uniform(-8, -2)));
         const T x = T(bits.uniform(-0.5, 0.5)), y = T(bits.uniform(-0.5, 0.5));
-        const coverage_times<T> block =
-            moving_coverage(moving_field_block(field, x, y, h * T(1.01), h * T(1.01), facing), facing);
+        const coverage_times<T> block = moving_coverage(
+            moving_field_edges(moving_field_around(field, h * T(1.01), h * T(1.01), facing), x, y), facing);
         culled += block.count == 0;
         for (int k = 0; k < 8; ++k) {
             const T s_x = x + h * T(bits.uniform(-1, 1)), s_y = y + h * T(bits.uniform(-1, 1));
@@ -103,4 +110,46 @@ TEST_CASE_TEMPLATE("moving_field_block: no sample of the block is covered at a t
     });
     CHECK(covered > 0);
     CHECK(culled > 0);
+}
+
+TEST_CASE_TEMPLATE("depth_curve_at: the mean of the vertices' depths, within the stated error", T, float, double)
+{
+    std::int64_t covered = 0, close = 0;
+    for_each_scene<T>(200'000, [&](const moving_triangle<T>& m, T o_x, T o_y, bit_source& bits) {
+        for (const moving_vertex<T>& v : {m.a, m.b, m.c})
+            if (!(v.w0 > 0 && v.w1 > 0)) return;
+        const T s_x = T(bits.uniform(-0.1, 0.1)), s_y = T(bits.uniform(-0.1, 0.1)), t = T(bits.uniform(0, 1));
+        const moving_field<T> field = moving_field_of(m, o_x, o_y);
+        const depth_field<T> depths = depth_field_of(field, m);
+        const T found = depth_curve_at(moving_depth_curve(depths, moving_field_edges(field, s_x, s_y), s_x, s_y), t);
+        REQUIRE(found >= depths.least);
+        REQUIRE(found <= depths.most);
+
+        const std::array<seen_vertex, 3> p = seen_vertices(m, o_x, o_y, s_x, s_y);
+        const exact passed = exact(t), left = 1 - passed;
+        std::array<exact, 3> e, sizes;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const seen_vertex &i = p[(k + 1) % 3], &j = p[(k + 2) % 3];
+            e[k] = (i.x0 * left + i.x1 * passed) * (j.y0 * left + j.y1 * passed) -
+                   (i.y0 * left + i.y1 * passed) * (j.x0 * left + j.x1 * passed);
+            sizes[k] = products(i, j);
+        }
+        if (!((e[0] > 0 && e[1] > 0 && e[2] > 0) || (e[0] < 0 && e[1] < 0 && e[2] < 0))) return;
+        ++covered;
+        const exact sum = e[0] + e[1] + e[2];
+        const auto z = [&](const moving_vertex<T>& v) { return exact(v.z0) * left + exact(v.z1) * passed; };
+        const auto from_c = [&](const moving_vertex<T>& v) {
+            return std::max(std::abs(exact(v.z0) - exact(m.c.z0)), std::abs(exact(v.z1) - exact(m.c.z1)));
+        };
+        const exact expected = (e[0] * z(m.a) + e[1] * z(m.b) + e[2] * z(m.c)) / sum;
+        const exact error = u<T> * (96 *
+                                        (sizes[0] * from_c(m.a) + sizes[1] * from_c(m.b) +
+                                         std::abs(expected - z(m.c)) * (sizes[0] + sizes[1] + sizes[2])) /
+                                        std::abs(sum) +
+                                    8);
+        REQUIRE(std::abs(exact(found) - std::clamp(expected, exact(-1), exact(1))) <= error);
+        close += error < 1000 * exact(u<T>);
+    });
+    CHECK(covered > effort(200'000) / 50);
+    CHECK(close > covered / 4);
 }

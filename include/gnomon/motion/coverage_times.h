@@ -50,40 +50,43 @@ GNOMON_KERNEL Real moving_edge_size(GNOMON_T(moving_edge) e)
 /// Coefficients beyond that, or NaN: none.
 GNOMON_KERNEL GNOMON_T(edge_times) moving_edge_inside(GNOMON_T(moving_edge) e, GNOMON_SETTING facing)
 {
-    GNOMON_MASK back = facing < Real(0);
-    Real c0 = gnomon_select(back, Real(-1) * e.e0, e.e0);
-    Real c1 = gnomon_select(back, Real(-1) * e.e1, e.e1);
-    Real c2 = gnomon_select(back, Real(-1) * e.e2, e.e2);
-    // Where all coefficients have one sign there is no root; where the ends do not, there is one in [0, 1], by one
-    // formula or the other; else two, in the order of the formulas.
-    GNOMON_MASK rises = c0 < Real(0) && Real(0) < c2;
-    GNOMON_MASK falls = Real(0) < c0 && c2 < Real(0);
-    GNOMON_MASK inside = Real(0) <= c0 && Real(0) <= c2 && c1 < Real(0);
-    GNOMON_MASK outside = c0 <= Real(0) && c2 <= Real(0) && (c0 < Real(0) || c2 < Real(0));
-    GNOMON_MASK twice = inside || (outside && Real(0) < c1);
-    Real r = Real(0);
-    Real first = Real(0);
-    Real second = Real(0);
-    if (gnomon_any(rises || falls || twice)) {
-        r = gnomon_sqrt(gnomon_max(c1 * c1 - c0 * c2, Real(0)));
-        // The last case keeps q odd in e where c1 = 0.
-        GNOMON_MASK negative = Real(0) < c1 || (c1 == Real(0) && Real(0) < c2);
-        Real q = gnomon_select(negative, Real(-1) * (c1 + r), r - c1);
-        GNOMON_MASK late = (rises && c1 < Real(0)) || (falls && Real(0) < c1);
-        first = saturate_or_zero(gnomon_select(late, q, c0) / (gnomon_select(late, c2, c0) + q));
-        second = first;
-        if (gnomon_any(twice)) second = gnomon_select(twice, saturate_or_zero(q / (q + c2)), first);
-    }
-
-    GNOMON_MASK turns = Real(0) < r;
-    GNOMON_MASK known = moving_edge_size(e) < GNOMON_LITERAL(moving_edge_limit);
-    GNOMON_MASK some = known && !(outside && !(turns && Real(0) < c1));
-    GNOMON_MASK gap = inside && turns && first < second;
+    Real side = gnomon_select(facing < Real(0), Real(-1), Real(1));
+    Real c0 = side * e.e0;
+    Real c1 = side * e.e1;
+    Real c2 = side * e.e2;
     GNOMON_T(edge_times) x;
-    x.begin = gnomon_select(some, gnomon_select(Real(0) <= c0, Real(0), first), Real(1));
-    x.end = gnomon_select(some, gnomon_select(Real(0) <= c2, Real(1), second), Real(0));
-    x.gap_begin = gnomon_select(gap, first, GNOMON_LITERAL(coverage_none));
-    x.gap_end = gnomon_select(gap, second, GNOMON_LITERAL(coverage_none));
+    x.begin = Real(0);
+    x.end = Real(1);
+    x.gap_begin = GNOMON_LITERAL(coverage_none);
+    x.gap_end = GNOMON_LITERAL(coverage_none);
+    GNOMON_MASK before = c0 < Real(0); // outside at shutter open
+    GNOMON_MASK after = c2 < Real(0);
+    if (gnomon_any(before || after || c1 < Real(0))) {
+        // The sign of q is that of -e1. Where e1 is 0 it is that of e0, which keeps q odd in e and finds the root in
+        // [0, 1].
+        GNOMON_MASK up = Real(0) < c1 || (c1 == Real(0) && before);
+        GNOMON_MASK late = before != up;
+        GNOMON_MASK once = before != after;
+        // Otherwise there are two roots, in the order of the formulas, or none where all coefficients have one sign.
+        GNOMON_MASK twice = !(once || late);
+        Real r = gnomon_sqrt(gnomon_max(c1 * c1 - c0 * c2, Real(0)));
+        Real q = gnomon_select(up, Real(-1) * (c1 + r), r - c1);
+        Real first = saturate_or_zero(gnomon_select(late, q, c0) / (gnomon_select(late, c2, c0) + q));
+        Real second = first;
+        if (gnomon_any(twice)) {
+            second = gnomon_select(twice, saturate_or_zero(q / (q + c2)), first);
+            twice = twice && Real(0) < r;
+            GNOMON_MASK gap = twice && !before && first < second;
+            x.gap_begin = gnomon_select(gap, first, x.gap_begin);
+            x.gap_end = gnomon_select(gap, second, x.gap_end);
+        }
+        GNOMON_MASK some = once || twice || !before;
+        x.begin = gnomon_select(some, gnomon_select(before, first, Real(0)), Real(1));
+        x.end = gnomon_select(some, gnomon_select(after, second, Real(1)), Real(0));
+    }
+    GNOMON_MASK known = moving_edge_size(e) < GNOMON_LITERAL(moving_edge_limit);
+    x.begin = gnomon_select(known, x.begin, Real(1));
+    x.end = gnomon_select(known, x.end, Real(0));
     return x;
 }
 

@@ -10,8 +10,17 @@
 // all times at which the triangle covers any sample of the block: one kernel shades and culls, in space and in time.
 //
 //     field = moving_field_of(triangle, origin_x, origin_y);                    once for a tile
-//     times = moving_coverage(moving_field_block(field, s_x, s_y, h_x, h_y, facing), facing);   none: skip the block
+//     blocks = moving_field_around(field, h_x, h_y, facing);
+//     times = moving_coverage(moving_field_edges(blocks, s_x, s_y), facing);   none: skip the block
 //     times = moving_coverage(moving_field_edges(field, s_x, s_y), facing);
+//
+// Depth follows suit. With z linear in view distance, and measured from that of vertex c,
+//     z(t) = z_c(t) + N(t) / D(t),   N = e_a (z_a - z_c) + e_b (z_b - z_c),   D = e_a + e_b + e_c
+// N is a cubic whose four Bernstein coefficients are affine in the sample, too, and D is at hand: a third of the
+// operations that the vertices' mean takes (moving_triangle.h), and nothing large cancels.
+//
+//     curve = moving_depth_curve(depths, edges, s_x, s_y);   depths = depth_field_of(field, triangle), once for a tile
+//     z = depth_curve_at(curve, t);
 #ifndef GNOMON_MOTION_EDGE_FIELD_H
 #define GNOMON_MOTION_EDGE_FIELD_H
 #include "moving_triangle.h"
@@ -25,6 +34,17 @@ GNOMON_STRUCT edge_field { GNOMON_T(sample_plane) e0, e1, e2; };
 
 /// Those across from the vertices a, b, c of a triangle.
 GNOMON_STRUCT moving_field { GNOMON_T(edge_field) a, b, c; };
+
+/// Bernstein coefficients of N over the samples, the middle ones times 3; z_c at shutter open and close; the least and
+/// the most of all vertices' depths, in [-1, 1].
+GNOMON_STRUCT depth_field
+{
+    GNOMON_T(sample_plane) n0, n1, n2, n3;
+    Real z0, z1, least, most;
+};
+
+/// The same at a sample, and the coefficients of D, the middle one times 2.
+GNOMON_STRUCT depth_curve { Real n0, n1, n2, n3, d0, d1, d2, z0, z1, least, most; };
 
 /// The line through two points of the plane, homogeneous.
 GNOMON_KERNEL GNOMON_T(sample_plane) homogeneous_line(Real a_x, Real a_y, Real a_w, Real b_x, Real b_y, Real b_w)
@@ -82,12 +102,6 @@ GNOMON_KERNEL Real sample_plane_at(GNOMON_T(sample_plane) p, Real s_x, Real s_y)
     return (gnomon_product(p.x, s_x) + gnomon_product(p.y, s_y)) + p.c;
 }
 
-/// How far it rises within h_x and h_y.
-GNOMON_KERNEL Real sample_plane_reach(GNOMON_T(sample_plane) p, Real h_x, Real h_y)
-{
-    return gnomon_abs(p.x) * h_x + gnomon_abs(p.y) * h_y;
-}
-
 GNOMON_KERNEL GNOMON_T(moving_edge) edge_field_at(GNOMON_T(edge_field) f, Real s_x, Real s_y)
 {
     GNOMON_T(moving_edge) e;
@@ -108,28 +122,106 @@ GNOMON_KERNEL GNOMON_T(moving_edges) moving_field_edges(GNOMON_T(moving_field) f
     return e;
 }
 
-/// The edge function's bound: above where facing is 1, below where it is -1.
-GNOMON_KERNEL GNOMON_T(moving_edge)
-    edge_field_block(GNOMON_T(edge_field) f, Real s_x, Real s_y, Real h_x, Real h_y, GNOMON_SETTING facing)
+/// The plane that is as much higher everywhere as this one rises within h_x and h_y; lower where facing is -1.
+GNOMON_KERNEL GNOMON_T(sample_plane)
+    sample_plane_around(GNOMON_T(sample_plane) p, Real h_x, Real h_y, GNOMON_SETTING facing)
 {
-    GNOMON_T(moving_edge) e = edge_field_at(f, s_x, s_y);
-    e.e0 = e.e0 + facing * sample_plane_reach(f.e0, h_x, h_y);
-    e.e1 = e.e1 + facing * sample_plane_reach(f.e1, h_x, h_y);
-    e.e2 = e.e2 + facing * sample_plane_reach(f.e2, h_x, h_y);
-    return e;
+    p.c = p.c + facing * (gnomon_abs(p.x) * h_x + gnomon_abs(p.y) * h_y);
+    return p;
 }
 
-/// Bounds of the edge functions over the samples within h_x and h_y of (s_x, s_y), for moving_coverage with the same
-/// facing, 1 or -1: outside of those times no sample of the block is covered by a triangle of this facing. Rounding
-/// may take 8 2^-p of the extents of the tile from h_x and h_y: ask for a little more.
-GNOMON_KERNEL GNOMON_T(moving_edges)
-    moving_field_block(GNOMON_T(moving_field) f, Real s_x, Real s_y, Real h_x, Real h_y, GNOMON_SETTING facing)
+GNOMON_KERNEL GNOMON_T(edge_field) edge_field_around(GNOMON_T(edge_field) f, Real h_x, Real h_y, GNOMON_SETTING facing)
 {
-    GNOMON_T(moving_edges) e;
-    e.a = edge_field_block(f.a, s_x, s_y, h_x, h_y, facing);
-    e.b = edge_field_block(f.b, s_x, s_y, h_x, h_y, facing);
-    e.c = edge_field_block(f.c, s_x, s_y, h_x, h_y, facing);
-    return e;
+    f.e0 = sample_plane_around(f.e0, h_x, h_y, facing);
+    f.e1 = sample_plane_around(f.e1, h_x, h_y, facing);
+    f.e2 = sample_plane_around(f.e2, h_x, h_y, facing);
+    return f;
+}
+
+/// Bounds of the edge functions over the samples within h_x and h_y of each sample: above where facing is 1, below
+/// where it is -1. Asked at (s_x, s_y), moving_coverage with the same facing has all times at which a triangle of this
+/// facing covers any sample of the block around it. Rounding may take 8 2^-p of the extents of the tile from h_x and
+/// h_y: ask for a little more.
+GNOMON_KERNEL GNOMON_T(moving_field)
+    moving_field_around(GNOMON_T(moving_field) f, Real h_x, Real h_y, GNOMON_SETTING facing)
+{
+    f.a = edge_field_around(f.a, h_x, h_y, facing);
+    f.b = edge_field_around(f.b, h_x, h_y, facing);
+    f.c = edge_field_around(f.c, h_x, h_y, facing);
+    return f;
+}
+
+/// The plane a times k_a and b times k_b.
+GNOMON_KERNEL GNOMON_T(sample_plane)
+    sample_planes_weighed(GNOMON_T(sample_plane) a, Real k_a, GNOMON_T(sample_plane) b, Real k_b)
+{
+    GNOMON_T(sample_plane) r;
+    r.x = a.x * k_a + b.x * k_b;
+    r.y = a.y * k_a + b.y * k_b;
+    r.c = a.c * k_a + b.c * k_b;
+    return r;
+}
+
+/// Twice the middle coefficient of an edge times the one end of a depth, and an outer one times the other end.
+GNOMON_KERNEL GNOMON_T(sample_plane)
+    depth_field_middle(GNOMON_T(sample_plane) outer, Real across, GNOMON_T(sample_plane) middle, Real beside)
+{
+    return sample_planes_weighed(outer, across, middle, Real(2) * beside);
+}
+
+/// Depths of the triangle that the field is of; its z is linear in view distance. Samples are the field's.
+GNOMON_KERNEL GNOMON_T(depth_field) depth_field_of(GNOMON_T(moving_field) f, GNOMON_T(moving_triangle) m)
+{
+    Real a0 = m.a.z0 - m.c.z0;
+    Real a1 = m.a.z1 - m.c.z1;
+    Real b0 = m.b.z0 - m.c.z0;
+    Real b1 = m.b.z1 - m.c.z1;
+    GNOMON_T(depth_field) d;
+    d.n0 = sample_planes_weighed(f.a.e0, a0, f.b.e0, b0);
+    d.n1 = sample_planes_weighed(depth_field_middle(f.a.e0, a1, f.a.e1, a0), Real(1),
+                                 depth_field_middle(f.b.e0, b1, f.b.e1, b0), Real(1));
+    d.n2 = sample_planes_weighed(depth_field_middle(f.a.e2, a0, f.a.e1, a1), Real(1),
+                                 depth_field_middle(f.b.e2, b0, f.b.e1, b1), Real(1));
+    d.n3 = sample_planes_weighed(f.a.e2, a1, f.b.e2, b1);
+    d.z0 = m.c.z0;
+    d.z1 = m.c.z1;
+    Real least = gnomon_min(gnomon_min(gnomon_min(m.a.z0, m.a.z1), gnomon_min(m.b.z0, m.b.z1)), gnomon_min(d.z0, d.z1));
+    Real most = gnomon_max(gnomon_max(gnomon_max(m.a.z0, m.a.z1), gnomon_max(m.b.z0, m.b.z1)), gnomon_max(d.z0, d.z1));
+    d.least = gnomon_max(gnomon_min(least, Real(1)), Real(-1));
+    d.most = gnomon_max(gnomon_min(most, Real(1)), Real(-1));
+    return d;
+}
+
+/// Edge functions as of moving_field_edges, at the same sample.
+GNOMON_KERNEL GNOMON_T(depth_curve)
+    moving_depth_curve(GNOMON_T(depth_field) d, GNOMON_T(moving_edges) e, Real s_x, Real s_y)
+{
+    GNOMON_T(depth_curve) r;
+    r.n0 = sample_plane_at(d.n0, s_x, s_y);
+    r.n1 = sample_plane_at(d.n1, s_x, s_y);
+    r.n2 = sample_plane_at(d.n2, s_x, s_y);
+    r.n3 = sample_plane_at(d.n3, s_x, s_y);
+    r.d0 = (e.a.e0 + e.b.e0) + e.c.e0;
+    r.d1 = Real(2) * ((e.a.e1 + e.b.e1) + e.c.e1);
+    r.d2 = (e.a.e2 + e.b.e2) + e.c.e2;
+    r.z0 = d.z0;
+    r.z1 = d.z1;
+    r.least = d.least;
+    r.most = d.most;
+    return r;
+}
+
+/// Depth of the point at the sample at time t in [0, 1], where the triangle covers it and all w > 0; within the limits
+/// of all vertices' depths whatever comes. Where D is 0, as at a turn of the facing, one of these limits.
+/// Error: 96 2^-p (S_a |z_a - z_c| + S_b |z_b - z_c| + |z - z_c| (S_a + S_b + S_c)) / |D| and 8 2^-p, S_k the products
+/// X_i Y_j + Y_i X_j that the error of edge k is given by, |z_k - z_c| the larger one of the shutter's ends.
+GNOMON_KERNEL Real depth_curve_at(GNOMON_T(depth_curve) c, Real t)
+{
+    Real s = Real(1) - t;
+    Real numerator = (c.n0 * s + c.n1 * t) * (s * s) + (c.n2 * s + c.n3 * t) * (t * t);
+    Real denominator = (c.d0 * s + c.d1 * t) * s + c.d2 * (t * t);
+    Real z = (c.z0 * s + c.z1 * t) + numerator / denominator;
+    return gnomon_max(gnomon_min(z, c.most), c.least); // a NaN becomes the most
 }
 
 GNOMON_NAMESPACE_END

@@ -13,23 +13,25 @@
 
 namespace gnomon {
 
-/// Texel i, by range_map::texel, has the ranges first[i] to first[i + 1] - 1. Texels are counted by blocks of 8 x 8,
-/// row by row of blocks and row by row in each, so that neighbours along either axis are near one another in memory;
-/// blocks are whole, so first holds texels(width, height) + 1 numbers.
+/// Texel i, by range_map::texel, has the ranges first[i] to first[i + 1] - 1. Texels are counted by tiles of 32 x 32, in
+/// these by blocks of 4 x 4, and row by row in each, so that neighbours along either axis are near one another in memory
+/// and a rasterizer lays out tile after tile; tiles are whole, so first holds texels(width, height) + 1 numbers.
 template <class T> struct range_map {
     std::size_t width = 0, height = 0;
     std::span<const std::uint32_t> first;
     std::span<const depth_time_range<T>> ranges;
 
-    static constexpr std::size_t block = 8;
-    static constexpr std::size_t blocks(std::size_t texels) { return (texels + block - 1) / block; }
+    static constexpr std::size_t tile = 32, block = 4, texels_per_tile = tile * tile;
+    static constexpr std::size_t tiles(std::size_t texels) { return (texels + tile - 1) / tile; }
     static constexpr std::size_t texels(std::size_t width, std::size_t height)
     {
-        return blocks(width) * blocks(height) * (block * block);
+        return tiles(width) * tiles(height) * texels_per_tile;
     }
     static constexpr std::size_t texel(std::size_t width, std::size_t x, std::size_t y)
     {
-        return ((y / block) * blocks(width) + x / block) * (block * block) + y % block * block + x % block;
+        const std::size_t in_block = y % block * block + x % block;
+        const std::size_t in_tile = (y % tile / block * (tile / block) + x % tile / block) * (block * block) + in_block;
+        return (y / tile * tiles(width) + x / tile) * texels_per_tile + in_tile;
     }
 
     std::span<const depth_time_range<T>> operator[](std::size_t i) const
