@@ -82,6 +82,19 @@ struct receiver_at_rest : path_and_range {
     }
 };
 
+struct receiver_behind : path_and_range {
+    static constexpr auto name = "receiver at rest behind a total";
+    template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
+    {
+        using real = std::common_type_t<Reals...>;
+        const std::array<real, 16> x{operands...};
+        const range_total<real> total{x[13], x[12]};
+        const auto state = static_receiver_begin(x[2], x[4], real(0), real(1));
+        const real behind = static_receiver_is_behind(state, total);
+        return behind * static_receiver_end(static_receiver_add_total(state, total));
+    }
+};
+
 struct receiver_moving : path_and_range {
     static constexpr auto name = "moving receiver, one range";
     static constexpr bool has_error = true;
@@ -117,8 +130,7 @@ struct receiver_sweep : path_and_range {
     }
 };
 
-[[maybe_unused]] const bool registered =
-    add_kernels<five_samples, five_samples, receiver_at_rest, receiver_moving, receiver_filtered, receiver_sweep>(
-        "receivers");
+[[maybe_unused]] const bool registered = add_kernels<five_samples, five_samples, receiver_at_rest, receiver_behind,
+                                                     receiver_moving, receiver_filtered, receiver_sweep>("receivers");
 
 } // namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC

@@ -193,8 +193,9 @@ def memory(out, folder, facts):
     return f"""<h3>Memory and time</h3>
 <p>The curves of Hong & Oh: random cubes, seen by shadow maps of {size} x {size} texels, more and more of them on the left, faster
 and faster on the right. The longest way of a cube is {found["longest"]:g} times the speed. Prisms need memory for the fragments
-that they pair. Coverage leaves out what is hidden where one triangle covers a texel for the whole time. Packed are the ranges of
-a resolved map, in fewer bits.</p>
+that they pair. Coverage leaves out what is hidden where one triangle covers a texel for the whole time. Resolved lists have what
+is in front when. Those of casters leave out the backdrop as well, what is behind all else in a texel for the whole time, as the
+ground often is: it shadows nothing. Packed are the same in fewer bits.</p>
 {chart(folder, "chart-memory", '''From top to bottom: what a map takes once it is built, how long that takes, and how long for each
 texel that a triangle covers at some time.''')}"""
 
@@ -235,7 +236,7 @@ with no noise and no bands. Accumulation, what one would use instead, is the mea
 <p>Maps keep all ranges, <i>exact</i> by edge functions in time or by <i>prisms</i> (Hong & Oh, <i>Motion Blurred Shadows
 Utilizing a Depth-Time Ranges Shadow Map</i>), each also <i>with coverage</i>, without what is hidden for the whole time (Hong &
 Oh, <i>Efficient Motion Blurred Shadows Using a Temporal Shadow Map</i>, 2017); or they are <i>resolved</i> to what is in front
-when; or <i>lists</i> of a fixed capacity merge what is most similar (Gribel et al. 2010; Palm&eacute;r, <i>Analytical Motion
+when, <i>casters</i> also without what is behind all else; or <i>lists</i> of a fixed capacity merge what is most similar (Gribel et al. 2010; Palm&eacute;r, <i>Analytical Motion
 Blurred Shadows</i>, 2011). Receivers ask at one time for each sample of the camera, or for all the time in which a pixel sees a
 surface: as if that were at rest, by samples, in closed form within a texel (semi-analytic), or in closed form along its way
 (analytic). Scenes are from these papers and from Andersson et al., <i>Filtered Stochastic Shadow Mapping Using a Layered

@@ -8,7 +8,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator
 
 from charts import plt, save, set_error_scale
 
-COLOURS = ("#7f7f7f", "#9467bd", "#ff7f0e", "#2ca02c", "#d62728", "#17becf", "#8c6d31")
+COLOURS = ("#7f7f7f", "#9467bd", "#ff7f0e", "#2ca02c", "#d62728", "#17becf", "#8c6d31", "#e377c2")
 SATURATED = 0.98  # how dark the darkest channel of an error's colour is at most
 MARKERS = ("^", "s", "D", "o", "v", "P", "X", "*", "<", ">")
 

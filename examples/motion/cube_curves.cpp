@@ -37,6 +37,9 @@ nlohmann::json row_of(const cube_case& at, int resolution)
     const range_shadow_map resolved = resolved_ranges(stage.world, stage.light, resolution);
     add(resolved);
     add(packed_ranges(resolved));
+    const range_shadow_map casters = caster_ranges(stage.world, stage.light, resolution);
+    add(casters);
+    add(packed_ranges(casters));
     add(prism_ranges(stage.world, stage.light, resolution));
     add(covered_prism_ranges(stage.world, stage.light, resolution));
     return row;

@@ -80,6 +80,7 @@ class motion_comparison {
         add_courses(resolved, "sampled", sampled_visibility);
         add_courses(resolved, "semi-analytic", semi_analytic_visibility);
         add_courses(resolved, "analytic", demo::analytic_visibility);
+        add_courses(with_totals(caster_ranges(world, light, resolution)), "analytic", demo::analytic_visibility);
         add_courses(interval_lists(exact, 4), "analytic", demo::analytic_visibility);
         add_courses(interval_lists(exact, 8), "analytic", demo::analytic_visibility);
         add_courses(interval_lists(exact, 16), "analytic", demo::analytic_visibility);

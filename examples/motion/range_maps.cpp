@@ -57,18 +57,15 @@ std::span<const depth_time_range<float>> list_of(const range_shadow_map& m, std:
 }
 
 range_shadow_map rasterized(std::string method, const moving_scene& world, const moving_camera& light, int resolution,
-                            bool resolved)
+                            const range_options& how)
 {
     range_shadow_map result = empty_map(std::move(method), "20 B ranges", resolution);
     range_rasterizer rasterize;
     const range_lists* lists = nullptr;
-    result.build_ms = steady_ms([&] {
-        lists = &rasterize(world, light, resolution, resolution,
-                           {.resolved = resolved, .depth_tolerance = depth_tolerance});
-    });
+    result.build_ms = steady_ms([&] { lists = &rasterize(world, light, resolution, resolution, how); });
     result.first = lists->first, result.ranges = lists->ranges;
     result.pairs = lists->counts.pairs;
-    result.resolved = resolved;
+    result.resolved = how.resolved;
     result.bytes = list_bytes(result);
     return result;
 }
@@ -215,17 +212,33 @@ template <int N> range_shadow_map listed(const range_shadow_map& exact)
 
 range_shadow_map exact_ranges(const moving_scene& world, const moving_camera& light, int resolution)
 {
-    return rasterized("exact ranges", world, light, resolution, false);
+    return rasterized("exact ranges", world, light, resolution, {.depth_tolerance = depth_tolerance});
 }
 
 range_shadow_map resolved_ranges(const moving_scene& world, const moving_camera& light, int resolution)
 {
-    return rasterized("resolved ranges", world, light, resolution, true);
+    return rasterized("resolved ranges", world, light, resolution,
+                      {.resolved = true, .depth_tolerance = depth_tolerance});
+}
+
+range_shadow_map caster_ranges(const moving_scene& world, const moving_camera& light, int resolution)
+{
+    return rasterized("caster ranges", world, light, resolution,
+                      {.resolved = true, .backdrops = false, .depth_tolerance = depth_tolerance});
+}
+
+range_shadow_map with_totals(range_shadow_map resolved)
+{
+    resolved.method += " with totals", resolved.format += ", 8 B totals";
+    resolved.totals.resize(texels_of(resolved.resolution));
+    resolved.build_ms += steady_ms([&] { set_totals(resolved.map(), std::span(resolved.totals)); });
+    resolved.bytes += resolved.totals.size() * sizeof resolved.totals[0];
+    return resolved;
 }
 
 range_shadow_map packed_ranges(const range_shadow_map& resolved)
 {
-    range_shadow_map result = empty_map("resolved ranges, packed", "10 B spans", resolved.resolution);
+    range_shadow_map result = empty_map(resolved.method + ", packed", "10 B spans", resolved.resolution);
     const std::size_t texels = texels_of(resolved.resolution);
     packed_spans spans;
     const double ms = steady_ms([&] {

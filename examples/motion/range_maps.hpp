@@ -18,10 +18,11 @@ struct range_shadow_map {
     int resolution = 0;
     std::vector<std::uint32_t> first; // as in range_map
     std::vector<depth_time_range<float>> ranges;
-    std::size_t bytes = 0; // of all that a receiver may ask
-    double build_ms = 0;   // on one core
-    std::size_t pairs = 0; // of a texel and a triangle that covers it at some time
-    bool resolved = false; // lists are in order of time, and none of their ranges overlap
+    std::vector<range_total<float>> totals; // of each texel, or none
+    std::size_t bytes = 0;                  // of all that a receiver may ask
+    double build_ms = 0;                    // on one core
+    std::size_t pairs = 0;                  // of a texel and a triangle that covers it at some time
+    bool resolved = false;                  // lists are in order of time, and none of their ranges overlap
 
     std::size_t covers = 0; // texels that one triangle covers for the whole of the shutter
 
@@ -29,7 +30,7 @@ struct range_shadow_map {
     float most_time_added = 0, most_depth_added = 0, mean_time_added = 0, mean_depth_added = 0;
 
     double bytes_per_texel() const { return double(bytes) / (double(resolution) * double(resolution)); }
-    range_map<float> map() const { return {std::size_t(resolution), std::size_t(resolution), first, ranges}; }
+    range_map<float> map() const { return {std::size_t(resolution), std::size_t(resolution), first, ranges, totals}; }
 };
 
 // Ranges of the exact maps are split where depth is further from a line, over depths from -1 to 1.
@@ -42,7 +43,13 @@ range_shadow_map exact_ranges(const toolbox::moving_scene& world, const toolbox:
 range_shadow_map resolved_ranges(const toolbox::moving_scene& world, const toolbox::moving_camera& light,
                                  int resolution);
 
-// The same, packed into half the memory (packed_spans.hpp); ranges are what is unpacked.
+// The same without backdrops: what shadows something.
+range_shadow_map caster_ranges(const toolbox::moving_scene& world, const toolbox::moving_camera& light, int resolution);
+
+// Resolved ranges, and for each texel what they hide together, for receivers at rest behind all of them.
+range_shadow_map with_totals(range_shadow_map resolved);
+
+// Resolved ranges packed into half the memory (packed_spans.hpp); ranges are what is unpacked.
 range_shadow_map packed_ranges(const range_shadow_map& resolved);
 
 // The temporal shadow map of Hong & Oh 2017 in one pass: where one range covers a texel, what it hides is left out.

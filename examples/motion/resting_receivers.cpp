@@ -59,7 +59,9 @@ class ground_receivers {
         add_rays(32);
         add_maps(16);
         add_maps(32);
-        add_ranges();
+        const auto& [world, eye, light, interests] = scenery_;
+        add_ranges(resolved_ranges(world, light, size_.map_resolution));
+        add_ranges(with_totals(caster_ranges(world, light, size_.map_resolution)));
         return std::move(results_);
     }
 
@@ -83,9 +85,8 @@ class ground_receivers {
         add(fmt::format("accumulation of {}", count), "32 bit depth", 4.0 * count, 1e3 * build, spent, found);
     }
 
-    void add_ranges()
+    void add_ranges(const range_shadow_map& map)
     {
-        const range_shadow_map map = resolved_ranges(scenery_.world, scenery_.light, size_.map_resolution);
         const std::vector<light_receiver> receivers = light_receivers_of(seen_, scenery_.light, size_.map_resolution);
         std::vector<float> found(receivers.size());
         const double spent = seconds_on_one_core([&] {

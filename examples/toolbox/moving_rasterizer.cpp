@@ -41,6 +41,7 @@ template <class T> class stack {
   public:
     std::size_t size() const { return size_; }
     std::span<const T> used() const { return std::span(room_).first(size_); }
+    std::span<T> used() { return std::span(room_).first(size_); }
     void clear() { size_ = 0; }
     T* room_for(std::size_t count)
     {
@@ -92,16 +93,18 @@ class texel_lists {
     }
 
     // They become what of them is in front.
-    void resolve()
+    void resolve(bool backdrops)
     {
         std::array<std::uint32_t, texel_pack::size> counts;
         lists_.clear();
         append_to(lists_, counts);
         clear();
-        std::span<const depth_time_range<float>> list = lists_.used();
-        for (std::size_t i = 0; i < texel_pack::size; ++i, list = list.subspan(counts[i - 1])) {
-            spans_.resize(std::max(spans_.size(), resolve_capacity(counts[i])));
-            const auto spans = resolve_ranges<float>(list.first(counts[i]), spans_);
+        std::span<depth_time_range<float>> rest = lists_.used();
+        for (std::size_t i = 0; i < texel_pack::size; rest = rest.subspan(counts[i++])) {
+            const auto whole = rest.first(counts[i]);
+            const std::span<const depth_time_range<float>> list = backdrops ? whole : without_backdrop(whole);
+            spans_.resize(std::max(spans_.size(), resolve_capacity(list.size())));
+            const auto spans = resolve_ranges(list, std::span(spans_));
             for (const visible_span<float>& s : spans) held_.push_back(range_of(list, s));
             held_counts_[i] = static_cast<std::uint32_t>(spans.size());
         }
@@ -207,10 +210,10 @@ void rasterize_tile(const tiled_triangles& scenery, std::size_t tile, const rang
             if (triangle.setup().negative) to.counts.pairs += add_turned(at, sight);
             if (to.texels.room() <= budget) return;
             ++to.counts.early_resolves;
-            to.texels.resolve();
+            to.texels.resolve(true); // what comes may be behind a backdrop
             budget = std::max(budget, 2 * to.texels.room());
         });
-        if (how.resolved) to.texels.resolve();
+        if (how.resolved) to.texels.resolve(how.backdrops);
         to.texels.append_to(to.lists, std::span(to.sizes).subspan(i * texel_pack::size).first<texel_pack::size>());
     }
 }

@@ -113,6 +113,45 @@ TEST_CASE_TEMPLATE("static receiver: nothing, everything, its own surface, half,
     }
 }
 
+TEST_CASE_TEMPLATE("range_total: what a list hides from a receiver behind it, within the stated error", T, float,
+                   double)
+{
+    constexpr T nan = std::numeric_limits<T>::quiet_NaN();
+    bit_source bits(16);
+    for (std::int64_t i = 0; i < effort(100'000); ++i) {
+        auto list = resolved_list<T>(bits);
+        range_total<T> total = range_total_begin(T(-1));
+        for (const auto& r : list) total = range_total_add(total, r);
+        // Nobody sees these.
+        for (const auto& r : {depth_time_range<T>{T(0), T(1), nan, T(2), T(1)},
+                              {T(1), T(0), T(2), T(2), T(1)},
+                              {nan, T(1), T(2), T(2), T(1)}})
+            total = range_total_add(total, r);
+        T farthest = T(-1);
+        for (const auto& r : list)
+            if (r.t0 < r.t1) farthest = std::max({farthest, r.z0, r.z1});
+        REQUIRE(total.farthest == farthest);
+
+        const T weight = T(bits.uniform(0, 1));
+        const auto at = [&](T z, T begin, T end) {
+            return static_receiver_weigh(static_receiver_begin(z, T(9), begin, end), weight);
+        };
+        REQUIRE(static_receiver_is_behind(at(farthest, T(0), T(1)), total) == 0);
+        REQUIRE(static_receiver_is_behind(at(T(2), T(0.5), T(1)), total) == 0);
+        REQUIRE(static_receiver_is_behind(at(T(2), T(0), T(0.5)), total) == 0);
+        REQUIRE(static_receiver_is_behind(at(nan, T(0), T(1)), total) == 0);
+        static_receiver<T> one_by_one = at(T(2), T(0), T(1)), at_once = one_by_one;
+        REQUIRE(static_receiver_is_behind(at_once, total) == 1);
+        at_once = static_receiver_add_total(at_once, total);
+        wide expected = 0;
+        for (const auto& r : list) expected += wide(weight) * std::max(wide(r.t1) - wide(r.t0), wide(0));
+        for (const auto& r : list) one_by_one = static_receiver_add_box(one_by_one, r);
+        const wide error = wide(list.size()) * 2 * wide(std::numeric_limits<T>::epsilon());
+        REQUIRE(std::abs(wide(at_once.shadowed) - expected) <= error);
+        REQUIRE(std::abs(wide(one_by_one.shadowed) - expected) <= 9 * error);
+    }
+}
+
 TEST_CASE_TEMPLATE("static receiver: filtered, it is the weighted mean of its texels", T, float, double)
 {
     bit_source bits(15);

@@ -153,6 +153,39 @@ TEST_CASE_TEMPLATE("static_shadows: the bits of static_shadow, however long list
     }
 }
 
+TEST_CASE_TEMPLATE("totals change nothing but roundings, one by one and by packs", T, float, double)
+{
+    bit_source bits(66);
+    std::int64_t behind = 0, before = 0;
+    for (std::int64_t n = 0; n < test::effort(200); ++n) {
+        const random_map<T> random(bits);
+        range_map<T> with_totals = random.map();
+        std::vector<range_total<T>> totals(random.first.size() - 1);
+        set_totals(with_totals, std::span(totals));
+        with_totals.totals = totals;
+        const int look_ups = 1 + int(bits.below(3));
+        std::vector<placed_receiver<T>> receivers(bits.below(100));
+        for (auto& r : receivers) {
+            const T begin = bits.chance(0.2) ? T(0.25) : T(0); // totals are of the whole shutter
+            r = {T(bits.uniform(-2, 14)), T(bits.uniform(-2, 12)),
+                 static_receiver_begin(T(bits.uniform(-1, 1.5)), T(9), begin, T(1))};
+        }
+        std::vector<T> found(receivers.size());
+        static_shadows<xsimd::batch<T>>(with_totals, receivers, std::span(found), look_ups);
+        // 16 texels of at most 6 ranges, or rather what of them is in front when, 4 roundings each.
+        const T slack = T(16 * 11 * 4) * std::numeric_limits<T>::epsilon();
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const auto& [x, y, state] = receivers[i];
+            const T expected = static_shadow(random.map(), x, y, state, look_ups);
+            REQUIRE(std::abs(static_shadow(with_totals, x, y, state, look_ups) - expected) <= slack);
+            REQUIRE(std::abs(found[i] - expected) <= slack);
+            (state.depth > 1 ? behind : before) += expected > 0;
+        }
+    }
+    CHECK(behind > 0);
+    CHECK(before > 0);
+}
+
 #if defined(__cpp_exceptions)
 TEST_CASE("static_shadows say what does not fit")
 {
@@ -165,7 +198,7 @@ TEST_CASE("static_shadows say what does not fit")
                          doctest::Contains("shadows.size() is 1, but receivers.size() is 2"), std::invalid_argument);
     shadows.push_back(7);
     range_map<float> map = random.map();
-    map.width += 8;
+    map.width += map.tile;
     CHECK_THROWS_WITH_AS(static_shadows<pack>(map, receivers, std::span(shadows)),
                          doctest::Contains("static_shadows: map.first.size() is"), std::invalid_argument);
     map = random.map();

@@ -128,6 +128,41 @@ TEST_CASE("resolve_ranges: at one depth the lower id is in front")
     CHECK(spans[1].id == 1);
 }
 
+TEST_CASE("without_backdrop: what is behind all else at all times, and nothing else")
+{
+    bit_source bits(44);
+    std::int64_t gone = 0, kept = 0;
+    for (std::int64_t n = 0; n < test::effort(20'000); ++n) {
+        list<float> ranges(bits.below(6));
+        for (auto& r : ranges) {
+            const auto real = [&](double low, double high) { return static_cast<float>(bits.uniform(low, high)); };
+            r = range_between(real(0, 1), real(-1, 0.5), real(0, 1), real(-1, 0.5), float(bits.below(5)));
+            if (bits.chance(0.3)) r.t0 = 0, r.t1 = 1;
+        }
+        const auto deepest = static_cast<float>(bits.uniform(-1, 1));
+        const depth_time_range<float> ground{0, bits.chance(0.8) ? 1 : 0.9f, deepest, deepest, 7};
+        ranges.insert(ranges.begin() + std::ptrdiff_t(bits.below(ranges.size() + 1)), ground);
+        list<float> rest = ranges;
+        const auto left = without_backdrop(std::span(rest));
+        // By definition.
+        const auto is_backdrop = [&](const depth_time_range<float>& b) {
+            return b.t0 == 0 && b.t1 == 1 && std::ranges::all_of(ranges, [&](const depth_time_range<float>& r) {
+                       return &r == &b || std::max(r.z0, r.z1) <= std::min(b.z0, b.z1);
+                   });
+        };
+        const auto expected = std::ranges::find_if(ranges, is_backdrop);
+        REQUIRE(left.size() == ranges.size() - (expected != ranges.end()));
+        (expected != ranges.end() ? gone : kept) += 1;
+        for (std::size_t i = 0, j = 0; i < ranges.size(); ++i) {
+            if (ranges.begin() + std::ptrdiff_t(i) == expected) continue;
+            REQUIRE(left[j].id == ranges[i].id);
+            REQUIRE(left[j++].z0 == ranges[i].z0);
+        }
+    }
+    CHECK(gone > 0);
+    CHECK(kept > 0);
+}
+
 #if defined(__cpp_exceptions)
 TEST_CASE("resolve and range map say what does not fit")
 {

@@ -11,6 +11,11 @@
 // axis. With x - K / 2 = column + u, column a whole number and u in [0, 1), before the ranges of texel (column + i,
 // row + j), i and j from 0 to K:
 //     state = static_receiver_weigh(state, texel_weight(u, i, K) * texel_weight(v, j, K));
+//
+// Most receivers are behind all ranges of a texel, above all where its backdrop is left out (passes/resolve.hpp). They
+// need no list, only its total, two numbers a texel:
+//     total = range_total_begin(-1);   total = range_total_add(total, range);        for every range of the texel
+//     if (static_receiver_is_behind(state, total) > 0) state = static_receiver_add_total(state, total);
 #ifndef GNOMON_MOTION_STATIC_RECEIVER_H
 #define GNOMON_MOTION_STATIC_RECEIVER_H
 #include "range.h"
@@ -20,6 +25,10 @@ GNOMON_NAMESPACE_BEGIN
 /// Depth and id of the receiver, when the shutter opens and closes, what the next ranges weigh, and the share of its
 /// light that is gone so far.
 GNOMON_STRUCT static_receiver { Real depth, id, begin, end, weight, shadowed; };
+
+/// The farthest depth of some ranges, and what they hide together from a receiver behind it, of a shutter that is open
+/// from 0 to 1.
+GNOMON_STRUCT range_total { Real farthest, shadowed; };
 
 /// No range yet. Any z_f; whatever needs a depth bias takes it off z_f first.
 GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_begin(Real z_f, Real id, Real begin, Real end)
@@ -101,6 +110,42 @@ GNOMON_KERNEL GNOMON_T(static_receiver)
     Real share0 = shutter_given(hidden.t0, state.begin, state.end, w);
     Real share1 = shutter_given(hidden.t1, state.begin, state.end, w);
     state.shadowed = state.shadowed + state.weight * receiver_loss(hidden, state.id, share0, share1);
+    return state;
+}
+
+/// No range yet. The near plane, -1, is a depth that receivers are behind.
+GNOMON_KERNEL GNOMON_T(range_total) range_total_begin(Real near_plane)
+{
+    GNOMON_T(range_total) total;
+    total.farthest = near_plane;
+    total.shadowed = Real(0);
+    return total;
+}
+
+/// One range, none of whose time the others have. Empty ones and those with a NaN are left out, as nobody sees them.
+GNOMON_KERNEL GNOMON_T(range_total) range_total_add(GNOMON_T(range_total) total, GNOMON_T(depth_time_range) r)
+{
+    GNOMON_MASK some = r.t0 < r.t1 && r.z0 == r.z0 && r.z1 == r.z1;
+    Real farthest = gnomon_max(total.farthest, gnomon_max(r.z0, r.z1));
+    Real share = saturate_or_zero(r.t1) - saturate_or_zero(r.t0);
+    total.farthest = gnomon_select(some, farthest, total.farthest);
+    total.shadowed = gnomon_select(some, total.shadowed + share, total.shadowed);
+    return total;
+}
+
+/// 1 where the total is all that the receiver needs: it is behind all ranges, and exposed from 0 to 1. Its own surface
+/// must not be among them, as it is not where that is at rest, too, and the depth bias keeps it in front of it.
+GNOMON_KERNEL Real static_receiver_is_behind(GNOMON_T(static_receiver) state, GNOMON_T(range_total) total)
+{
+    GNOMON_MASK whole = state.begin <= Real(0) && Real(1) <= state.end;
+    return gnomon_select(whole && total.farthest < state.depth, Real(1), Real(0));
+}
+
+/// All ranges at once. Error: 4 2^-p for each of them.
+GNOMON_KERNEL GNOMON_T(static_receiver)
+    static_receiver_add_total(GNOMON_T(static_receiver) state, GNOMON_T(range_total) total)
+{
+    state.shadowed = state.shadowed + state.weight * total.shadowed;
     return state;
 }
 

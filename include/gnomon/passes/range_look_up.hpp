@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <type_traits>
 
 namespace gnomon {
 
@@ -30,9 +31,9 @@ struct box_shutter {
 
 namespace detail {
 
-/// Calls visit(i, j, list) for the texels from (column, row) on that are in the map, K + 1 along either axis.
+/// Calls visit(i, j, texel) for the texels from (column, row) on that are in the map, K + 1 along either axis.
 template <class T, class Visit>
-void for_each_list(const range_map<T>& map, T column, T row, int look_ups, const Visit& visit)
+void for_each_texel(const range_map<T>& map, T column, T row, int look_ups, const Visit& visit)
 {
     const T width = T(map.width), height = T(map.height);
     for (int j = 0; j <= look_ups; ++j) {
@@ -41,32 +42,45 @@ void for_each_list(const range_map<T>& map, T column, T row, int look_ups, const
         for (int i = 0; i <= look_ups; ++i) {
             const T x = column + T(i);
             if (!(x >= 0 && x < width)) continue;
-            const auto list = map(std::size_t(x), std::size_t(y));
-            if (!list.empty()) visit(i, j, list);
+            visit(i, j, map.texel(map.width, std::size_t(x), std::size_t(y)));
         }
     }
 }
 
-/// Calls visit(weight, list) for the texels around (x, y).
+/// Calls visit(weight, texel) for the texels around (x, y).
 template <class T, class Visit>
-void for_each_static_list(const range_map<T>& map, T x, T y, int look_ups, const Visit& visit)
+void for_each_static_texel(const range_map<T>& map, T x, T y, int look_ups, const Visit& visit)
 {
     const T k = T(look_ups), left = x - T(0.5) * k, top = y - T(0.5) * k;
     const T column = texel_below(left), row = texel_below(top), u = left - column, v = top - row;
-    for_each_list(map, column, row, look_ups, [&](int i, int j, std::span<const depth_time_range<T>> list) {
-        visit(texel_weight(u, T(i), k) * texel_weight(v, T(j), k), list);
+    for_each_texel(map, column, row, look_ups, [&](int i, int j, std::size_t texel) {
+        visit(texel_weight(u, T(i), k) * texel_weight(v, T(j), k), texel);
     });
+}
+
+/// By its total where that is enough; else by calling add_list(list).
+template <class T, class AddList>
+void add_static_texel(const range_map<T>& map, std::size_t texel, static_receiver<T>& state, const AddList& add_list)
+{
+    if (!map.totals.empty() && static_receiver_is_behind(state, map.totals[texel]) > 0)
+        state = static_receiver_add_total(state, map.totals[texel]);
+    else add_list(map[texel]);
 }
 
 } // namespace detail
 
-/// A receiver at rest at texel position (x, y), of resolved lists; add(state, range) is the shutter.
+/// A receiver at rest at texel position (x, y), of resolved lists; add(state, range) is the shutter. A box asks totals
+/// first, where the map has them.
 template <class T, class Add = box_shutter>
 T static_shadow(const range_map<T>& map, T x, T y, static_receiver<T> state, int look_ups = 1, const Add& add = {})
 {
-    detail::for_each_static_list(map, x, y, look_ups, [&](T weight, std::span<const depth_time_range<T>> list) {
-        state = static_receiver_weigh(state, weight);
+    const auto add_list = [&](std::span<const depth_time_range<T>> list) {
         for (const depth_time_range<T>& r : list) state = add(state, r);
+    };
+    detail::for_each_static_texel(map, x, y, look_ups, [&](T weight, std::size_t texel) {
+        state = static_receiver_weigh(state, weight);
+        if constexpr (std::is_same_v<Add, box_shutter>) detail::add_static_texel(map, texel, state, add_list);
+        else add_list(map[texel]);
     });
     return static_receiver_end(state);
 }
@@ -80,12 +94,13 @@ T moving_shadow(const range_map<T>& map, const receiver_path<T>& path, T begin, 
     moving_receiver<T> state = moving_receiver_begin(path, begin, end);
     texel_sweep<T> sweep = texel_sweep_begin(receiver_path_shifted(path, T(-0.5) * k, T(-0.5) * k));
     for (;; sweep = texel_sweep_next(sweep)) {
-        detail::for_each_list(map, sweep.column, sweep.row, look_ups,
-                              [&](int i, int j, std::span<const depth_time_range<T>> list) {
-                                  state = moving_receiver_tap(state, sweep, T(i), T(j), k);
-                                  for (const depth_time_range<T>& r : list)
-                                      if (r.t0 < sweep.t_end && sweep.t_begin < r.t1) state = add(state, r);
-                              });
+        detail::for_each_texel(map, sweep.column, sweep.row, look_ups, [&](int i, int j, std::size_t texel) {
+            const auto list = map[texel];
+            if (list.empty()) return;
+            state = moving_receiver_tap(state, sweep, T(i), T(j), k);
+            for (const depth_time_range<T>& r : list)
+                if (r.t0 < sweep.t_end && sweep.t_begin < r.t1) state = add(state, r);
+        });
         if (!(sweep.t_end < sweep.path.depth.t1)) return moving_receiver_end(state);
     }
 }
@@ -96,9 +111,9 @@ template <class T> T shadow_at(const range_map<T>& map, const receiver_path<T>& 
     const T z = range_depth(path.depth, t);
     const texel_position<T> at = receiver_path_at(path, t);
     T shadow = 0;
-    detail::for_each_static_list(map, at.x, at.y, look_ups, [&](T weight, std::span<const depth_time_range<T>> list) {
+    detail::for_each_static_texel(map, at.x, at.y, look_ups, [&](T weight, std::size_t texel) {
         T hidden = 0;
-        for (const depth_time_range<T>& r : list)
+        for (const depth_time_range<T>& r : map[texel])
             hidden = std::max(hidden, range_intensity(r, t, z, path.depth.id, bias));
         shadow += weight * hidden;
     });

@@ -4,7 +4,7 @@
 #ifndef GNOMON_PASSES_RANGE_MAP_HPP
 #define GNOMON_PASSES_RANGE_MAP_HPP
 
-#include "../motion/range.h"
+#include "../motion/static_receiver.h"
 #include "expects.hpp"
 
 #include <cstddef>
@@ -13,13 +13,14 @@
 
 namespace gnomon {
 
-/// Texel i, by range_map::texel, has the ranges first[i] to first[i + 1] - 1. Texels are counted by tiles of 32 x 32, in
-/// these by blocks of 4 x 4, and row by row in each, so that neighbours along either axis are near one another in memory
-/// and a rasterizer lays out tile after tile; tiles are whole, so first holds texels(width, height) + 1 numbers.
+/// Texel i, by range_map::texel, has the ranges first[i] to first[i + 1] - 1. Texels are counted by tiles of 32 x 32,
+/// in these by blocks of 4 x 4, and row by row in each, so that neighbours along either axis are near one another in
+/// memory and a rasterizer lays out tile after tile; tiles are whole, so first holds texels(width, height) + 1 numbers.
 template <class T> struct range_map {
     std::size_t width = 0, height = 0;
     std::span<const std::uint32_t> first;
     std::span<const depth_time_range<T>> ranges;
+    std::span<const range_total<T>> totals = {}; // of each texel's ranges, for receivers at rest; or none
 
     static constexpr std::size_t tile = 32, block = 4, texels_per_tile = tile * tile;
     static constexpr std::size_t tiles(std::size_t texels) { return (texels + tile - 1) / tile; }
@@ -43,6 +44,18 @@ template <class T> struct range_map {
         return (*this)[texel(width, x, y)];
     }
 };
+
+/// The totals of a map's resolved lists: a number for each texel.
+template <class T> void set_totals(const range_map<T>& map, std::span<range_total<T>> totals)
+{
+    GNOMON_EXPECTS(
+        totals.size() + 1 == map.first.size(),
+        mismatch("range totals", "totals.size() + 1", totals.size() + 1, "map.first.size()", map.first.size()));
+    for (std::size_t i = 0; i < totals.size(); ++i) {
+        totals[i] = range_total_begin(T(-1));
+        for (const depth_time_range<T>& r : map[i]) totals[i] = range_total_add(totals[i], r);
+    }
+}
 
 /// From how many ranges each texel has to where they begin, in place: the last number becomes the sum of all counts.
 inline void begins_from_counts(std::span<std::uint32_t> counts_then_sum)

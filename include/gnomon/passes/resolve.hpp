@@ -8,7 +8,7 @@
 #ifndef GNOMON_PASSES_RESOLVE_HPP
 #define GNOMON_PASSES_RESOLVE_HPP
 
-#include "../motion/range.h"
+#include "../motion/coverage_map.h"
 #include "expects.hpp"
 
 #include <algorithm>
@@ -52,6 +52,7 @@ template <class T> class range_resolver {
         if (!(r.t0 < r.t1) || !std::isfinite(r.z0) || !std::isfinite(r.z1)) return;
         std::size_t first = 0;
         while (first < count_ && spans_[first].t1 <= r.t0) ++first;
+        if (is_behind(r, first)) return;
         changes_ = 0;
         T reached = r.t0;
         std::size_t next = first;
@@ -83,6 +84,18 @@ template <class T> class range_resolver {
         std::uint32_t early, late;
         T change;
     };
+
+    /// Whether all spans in its time, from the first on, are in front of all of it.
+    bool is_behind(const depth_time_range<T>& r, std::size_t first) const
+    {
+        T reached = r.t0;
+        for (; first < count_ && reached < r.t1 && spans_[first].t0 <= reached; ++first) {
+            const depth_time_range<T>& front = ranges_[spans_[first].range];
+            if (!(std::max(front.z0, front.z1) < std::min(r.z0, r.z1))) return false;
+            reached = spans_[first].t1;
+        }
+        return !(reached < r.t1);
+    }
 
     /// The same whichever comes first. At one depth throughout, the lower id is in front.
     succession succession_of(std::uint32_t i, std::uint32_t j) const
@@ -126,6 +139,26 @@ std::span<const visible_span<T>> resolve_ranges(std::span<const depth_time_range
     range_resolver<T> resolver(ranges, spans);
     for (std::uint32_t i = 0; i < ranges.size(); ++i) resolver.insert(i);
     return resolver.spans();
+}
+
+/// A list without its backdrop, in place: what is there for the whole of the shutter, behind all else, as the ground
+/// often is. It is the cover (coverage_map.h) of the list seen from behind. It shadows nothing that its texel sees, and
+/// where nothing is in front of it no list remains; keep it where receivers come from outside of the map's scene.
+/// A receiver that only part of the texel sees, beside the backdrop's border, may be behind it.
+template <class T> std::span<depth_time_range<T>> without_backdrop(std::span<depth_time_range<T>> list)
+{
+    range_cover<T> from_behind = range_cover_begin(T(1));
+    for (const depth_time_range<T>& r : list)
+        from_behind = range_cover_add(from_behind, {r.t0, r.t1, -r.z0, -r.z1, r.id});
+    const depth_time_range<T> backdrop = range_cover_end(from_behind);
+    const auto is_it = [&](const depth_time_range<T>& r) {
+        return r.id == backdrop.id && r.t0 == backdrop.t0 && r.t1 == backdrop.t1 && r.z0 == -backdrop.z0 &&
+               r.z1 == -backdrop.z1;
+    };
+    const auto found = backdrop.id < 0 ? list.end() : std::find_if(list.begin(), list.end(), is_it);
+    if (found == list.end()) return list;
+    std::copy(found + 1, list.end(), found);
+    return list.first(list.size() - 1);
 }
 
 /// The part of its range that a span shows.

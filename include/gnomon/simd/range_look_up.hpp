@@ -1,7 +1,8 @@
 // Many receivers at rest in a map of depth-time ranges, by packs. Lists are short and of unlike lengths, so lanes are
 // not receivers but pairs of a receiver and a range in front of it: some hundred are fetched, all of them go through
 // the kernel, and each receiver's are added up. Fetching many at once also keeps memory busy, of which a map takes more
-// than any cache holds. The sums have the bits of static_shadow, one receiver at a time.
+// than any cache holds. The sums have the bits of static_shadow, one receiver at a time; where some of its texels say
+// their totals, those are added first.
 #ifndef GNOMON_SIMD_RANGE_LOOK_UP_HPP
 #define GNOMON_SIMD_RANGE_LOOK_UP_HPP
 
@@ -11,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 namespace gnomon {
 
@@ -100,12 +102,17 @@ void static_shadows(const range_map<lane_t<Pack>>& map, std::span<const placed_r
     detail::loss_queue<Pack> queue(shadows);
     for (std::size_t i = 0; i < receivers.size(); ++i) {
         static_receiver<lane> state = receivers[i].state;
-        queue.next(i);
-        detail::for_each_static_list(map, receivers[i].x, receivers[i].y, look_ups,
-                                     [&](lane weight, std::span<const depth_time_range<lane>> list) {
-                                         state = static_receiver_weigh(state, weight);
-                                         queue.add(state, list);
-                                     });
+        bool queued = false;
+        const auto add_list = [&](std::span<const depth_time_range<lane>> list) {
+            if (!std::exchange(queued, true)) queue.next(i);
+            queue.add(state, list);
+        };
+        detail::for_each_static_texel(map, receivers[i].x, receivers[i].y, look_ups,
+                                      [&](lane weight, std::size_t texel) {
+                                          state = static_receiver_weigh(state, weight);
+                                          detail::add_static_texel(map, texel, state, add_list);
+                                      });
+        shadows[i] += state.shadowed; // of totals
     }
     queue.flush();
     for (lane& s : shadows) s = saturate_or_zero(s);
