@@ -46,6 +46,7 @@ template <class Visit> void for_each_bit(std::uint64_t bits, const Visit& visit)
 // As maps of ranges count.
 inline constexpr int moving_tile_size = int(range_map<float>::tile), moving_block_size = int(range_map<float>::block);
 inline constexpr int moving_blocks = moving_tile_size / moving_block_size; // along a side of a tile
+static_assert(moving_blocks * moving_blocks == 64, "a tile has a bit for each block");
 
 // A triangle: x and y in texels times w, z the linear depth, by which lists are sorted.
 struct moving_setup {

@@ -65,8 +65,8 @@ GNOMON_KERNEL GNOMON_T(edge_times) moving_edge_inside(GNOMON_T(moving_edge) e, G
         // The sign of q is that of -e1. Where e1 is 0 it is that of e0, which keeps q odd in e and finds the root in
         // [0, 1].
         GNOMON_MASK up = Real(0) < c1 || (c1 == Real(0) && before);
-        GNOMON_MASK late = before != up;
-        GNOMON_MASK once = before != after;
+        GNOMON_MASK late = (before && !up) || (up && !before);
+        GNOMON_MASK once = (before && !after) || (after && !before);
         // Otherwise there are two roots, in the order of the formulas, or none where all coefficients have one sign.
         GNOMON_MASK twice = !(once || late);
         Real r = gnomon_sqrt(gnomon_max(c1 * c1 - c0 * c2, Real(0)));
