@@ -142,11 +142,11 @@ TEST_CASE_TEMPLATE("depth_curve_at: the mean of the vertices' depths, within the
             return std::max(std::abs(exact(v.z0) - exact(m.c.z0)), std::abs(exact(v.z1) - exact(m.c.z1)));
         };
         const exact expected = (e[0] * z(m.a) + e[1] * z(m.b) + e[2] * z(m.c)) / sum;
-        const exact error = u<T> * (96 *
-                                        (sizes[0] * from_c(m.a) + sizes[1] * from_c(m.b) +
-                                         std::abs(expected - z(m.c)) * (sizes[0] + sizes[1] + sizes[2])) /
-                                        std::abs(sum) +
-                                    8);
+        const exact error = exact(u<T>) * (96 *
+                                               (sizes[0] * from_c(m.a) + sizes[1] * from_c(m.b) +
+                                                std::abs(expected - z(m.c)) * (sizes[0] + sizes[1] + sizes[2])) /
+                                               std::abs(sum) +
+                                           8);
         REQUIRE(std::abs(exact(found) - std::clamp(expected, exact(-1), exact(1))) <= error);
         close += error < 1000 * exact(u<T>);
     });
