@@ -125,7 +125,7 @@ TEST_CASE("a cover changes no shadow test, whoever asks")
             }
         REQUIRE(intensity(by_passes.map()(q.x, q.y), q.t, z, -3) == intensity(prisms.map()(q.x, q.y), q.t, z, -3));
     });
-    CHECK(shadowed > 1000);
+    CHECK(shadowed > effort(20'000) / 20);
 }
 
 TEST_CASE("without backdrops, every surface of the scene gets the shadow it had")
