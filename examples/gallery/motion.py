@@ -210,8 +210,9 @@ def known_answers(facts):
               (row["max_abs"], f"{row['max_abs']:.1e}")] for row in facts["closed_forms"]))
     if facts.get("static"):
         text += """<h3>Receivers at rest</h3>
-<p>Visibility over the whole shutter interval, against ray tracing with motion blur. Errors in thousandths; the ratio is how
-many times as fast as the first method.</p>
+<p>Visibility over the whole shutter interval, against ray tracing with motion blur. Totals are what all ranges of a texel hide
+together: where backdrops are left out, a receiver on the ground needs no list. Errors in thousandths; the ratio is how many
+times as fast as the first method.</p>
 """ + table(("motion", "method", "ns per receiver", "RMSE", "ratio"),
             ([(row["factor"], f"{row['factor']:g} x"), (row["method"], escape(row["method"])), number(row["ns"]),
               number(1e3 * row["rmse"], 2), number(row["ratio"], 1)] for row in facts["static"]))
