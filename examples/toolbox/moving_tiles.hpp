@@ -26,7 +26,7 @@ using texel_pack = xsimd::batch<float>;
 using texel_lanes = std::array<float, texel_pack::size>;
 
 // A bit for each lane; xsimd 8 has no such function.
-inline std::uint64_t bits_of(const xsimd::batch_bool<float>& lanes)
+template <class Mask> std::uint64_t bits_of(const Mask& lanes)
 {
     if constexpr (std::is_integral_v<decltype(lanes.data)>) return lanes.data;
     else {
