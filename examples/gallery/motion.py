@@ -237,8 +237,8 @@ with no noise and no bands. Accumulation, what one would use instead, is the mea
 <p>Maps keep all ranges, <i>exact</i> by edge functions in time or by <i>prisms</i> (Hong & Oh, <i>Motion Blurred Shadows
 Utilizing a Depth-Time Ranges Shadow Map</i>), each also <i>with coverage</i>, without what is hidden for the whole time (Hong &
 Oh, <i>Efficient Motion Blurred Shadows Using a Temporal Shadow Map</i>, 2017); or they are <i>resolved</i> to what is in front
-when, <i>casters</i> also without what is behind all else; or <i>lists</i> of a fixed capacity merge what is most similar (Gribel et al. 2010; Palm&eacute;r, <i>Analytical Motion
-Blurred Shadows</i>, 2011). Receivers ask at one time for each sample of the camera, or for all the time in which a pixel sees a
+when, those of <i>casters</i> without what is behind all else; or <i>lists</i> of a fixed capacity merge what is most similar
+(Gribel et al. 2010; Palm&eacute;r, <i>Analytical Motion Blurred Shadows</i>, 2011). Receivers ask at one time for each sample of the camera, or for all the time in which a pixel sees a
 surface: as if that were at rest, by samples, in closed form within a texel (semi-analytic), or in closed form along its way
 (analytic). Scenes are from these papers and from Andersson et al., <i>Filtered Stochastic Shadow Mapping Using a Layered
 Approach</i> (2015).</p>

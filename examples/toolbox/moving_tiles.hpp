@@ -92,7 +92,7 @@ class tiled_triangles {
     std::vector<std::uint32_t> first_, members_;
 };
 
-// A struct of numbers, as float and in every lane of a pack.
+// A struct of numbers, rounded to float; To: float, or a pack that has it in every lane.
 template <class To, template <class, class> class Struct, class From>
 Struct<To, To> numbers_as(const Struct<From, From>& x)
 {
@@ -120,11 +120,11 @@ GNOMON_INLINE depth_field<texel_pack> in_lanes(const depth_field<float>& d)
 // Which cells, the samples within reach of their middles, a triangle covers at some time.
 class touched_cells {
   public:
-    touched_cells(const moving_field<float>& field, const moving_setup& s, float reach)
-        : setup_(s),
-          positive_(moving_field_around(field, reach, reach, 1.f)),
-          negative_(moving_field_around(field, reach, reach, -1.f))
-    {}
+    touched_cells(const moving_field<float>& field, const moving_setup& s, float reach) : setup_(s)
+    {
+        if (s.positive) positive_ = moving_field_around(field, reach, reach, 1.f);
+        if (s.negative) negative_ = moving_field_around(field, reach, reach, -1.f);
+    }
 
     // A bit for each lane.
     std::uint64_t operator()(const texel_pack& middle_x, const texel_pack& middle_y) const
@@ -138,7 +138,7 @@ class touched_cells {
 
   private:
     const moving_setup& setup_;
-    moving_field<float> positive_, negative_;
+    moving_field<float> positive_, negative_; // of the facings that it has
 };
 
 // Where things of some size, in rows of some length, are from the middle of a tile, along x or y.

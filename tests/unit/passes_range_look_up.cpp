@@ -205,6 +205,13 @@ TEST_CASE("static_shadows say what does not fit")
     map.ranges = map.ranges.first(map.ranges.size() - 1);
     CHECK_THROWS_WITH_AS(static_shadows<pack>(map, receivers, std::span(shadows)),
                          doctest::Contains("but map.ranges.size() is"), std::invalid_argument);
+    map = random.map();
+    std::vector<range_total<float>> totals(map.first.size()), few(3);
+    map.totals = totals;
+    CHECK_THROWS_WITH_AS(static_shadows<pack>(map, receivers, std::span(shadows)),
+                         doctest::Contains("static_shadows: map.totals.size() + 1 is"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(set_totals(random.map(), std::span(few)),
+                         doctest::Contains("range totals: totals.size() + 1 is 4"), std::invalid_argument);
     CHECK(shadows == std::vector<float>(2, 7.f));
 }
 #endif

@@ -213,7 +213,7 @@ GNOMON_KERNEL GNOMON_T(depth_curve)
 
 /// Depth of the point at the sample at time t in [0, 1], where the triangle covers it and all w > 0; within the limits
 /// of all vertices' depths whatever comes. Where D is 0, as at a turn of the facing, one of these limits.
-/// Error: 96 2^-p (S_a |z_a - z_c| + S_b |z_b - z_c| + |z - z_c| (S_a + S_b + S_c)) / |D| and 8 2^-p, S_k the products
+/// Error: 32 2^-p (S_a |z_a - z_c| + S_b |z_b - z_c| + |z - z_c| (S_a + S_b + S_c)) / |D| and 8 2^-p, S_k the products
 /// X_i Y_j + Y_i X_j that the error of edge k is given by, |z_k - z_c| the larger one of the shutter's ends.
 GNOMON_KERNEL Real depth_curve_at(GNOMON_T(depth_curve) c, Real t)
 {

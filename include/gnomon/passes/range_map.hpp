@@ -45,7 +45,7 @@ template <class T> struct range_map {
     }
 };
 
-/// The totals of a map's resolved lists: a number for each texel.
+/// The totals of a map's resolved lists, one for each texel.
 template <class T> void set_totals(const range_map<T>& map, std::span<range_total<T>> totals)
 {
     GNOMON_EXPECTS(

@@ -98,6 +98,9 @@ void static_shadows(const range_map<lane_t<Pack>>& map, std::span<const placed_r
     GNOMON_EXPECTS(
         map.first.back() <= map.ranges.size(),
         mismatch("static_shadows", "map.first.back()", map.first.back(), "map.ranges.size()", map.ranges.size()));
+    GNOMON_EXPECTS(map.totals.empty() || map.totals.size() + 1 == map.first.size(),
+                   mismatch("static_shadows", "map.totals.size() + 1", map.totals.size() + 1, "map.first.size()",
+                            map.first.size()));
     std::ranges::fill(shadows, lane(0));
     detail::loss_queue<Pack> queue(shadows);
     for (std::size_t i = 0; i < receivers.size(); ++i) {
