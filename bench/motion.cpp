@@ -1,6 +1,7 @@
 // Moving triangles, a sample of the shadow map each, seen at some time three times in four: covered times from edges
 // on. The baseline is the usual way, without its list of intervals: six roots sorted, the middle of every two tried.
-// Depth at the ends of an interval, as the mean of the vertices' and by a field for many samples.
+// Depth at the ends of an interval, as the mean of the vertices' and by a field for many samples; and all of what a
+// sample sees of a translated triangle, with what all triangles need and with what translations do.
 // Prisms of Hong & Oh give about the same times; and a texel's ranges are searched for a cover, four of them, beside
 // their shadow tests.
 #include "measure.hpp"
@@ -174,6 +175,74 @@ struct field_depths : field_and_sample {
     }
 };
 
+// A triangle whose vertices move alike, around a sample that sees its front in the midst of the shutter interval.
+struct translated_field : compilation {
+    static constexpr std::size_t inputs = 45;
+    static std::vector<std::array<double, inputs>> samples(std::size_t count, std::uint64_t seed)
+    {
+        std::vector<std::array<double, inputs>> result(count);
+        const auto triangles = triangle_and_sample::samples(count, seed);
+        for (std::size_t i = 0; i < count; ++i) {
+            moving_triangle<double> m = triangle_and_sample::triangle(triangles[i]);
+            double x = 0, y = 0;
+            for (moving_vertex<double>* v : {&m.a, &m.b, &m.c}) {
+                v->x1 = v->x0 + (m.a.x1 - m.a.x0), v->y1 = v->y0 + (m.a.y1 - m.a.y0);
+                v->z1 = v->z0 + (m.a.z1 - m.a.z0), v->w0 = m.a.w0, v->w1 = m.a.w1;
+                x += (v->x0 + v->x1) / (m.a.w0 + m.a.w1) / 3, y += (v->y0 + v->y1) / (m.a.w0 + m.a.w1) / 3;
+            }
+            if (moving_edge_at(moving_triangle_edges(m, x, y).a, 0.5) < 0) std::swap(m.b, m.c);
+            const moving_field<double> field = moving_field_of(m, x, y);
+            const auto edges = std::bit_cast<std::array<double, 27>>(field);
+            const auto depths = std::bit_cast<std::array<double, 16>>(depth_field_of(field, m));
+            std::copy(depths.begin(), depths.end(), std::copy(edges.begin(), edges.end(), result[i].begin()));
+        }
+        return result;
+    }
+
+    template <class Real> static GNOMON_INLINE constexpr moving_field<Real> edges(const std::array<Real, inputs>& x)
+    {
+        const auto edge = [&](std::size_t k) GNOMON_BENCH_INLINE {
+            return edge_field<Real>{
+                {x[k], x[k + 1], x[k + 2]}, {x[k + 3], x[k + 4], x[k + 5]}, {x[k + 6], x[k + 7], x[k + 8]}};
+        };
+        return {edge(0), edge(9), edge(18)};
+    }
+    template <class Real> static GNOMON_INLINE constexpr depth_field<Real> depths(const std::array<Real, inputs>& x)
+    {
+        const auto plane = [&](std::size_t k) GNOMON_BENCH_INLINE {
+            return sample_plane<Real>{x[k], x[k + 1], x[k + 2]};
+        };
+        return {plane(27), plane(30), plane(33), plane(36), x[39], x[40], x[41], x[42]};
+    }
+};
+
+struct any_sight : translated_field {
+    static constexpr auto name = "translated, as any triangle";
+    template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
+    {
+        using real = std::common_type_t<Reals...>;
+        const std::array<real, inputs> x{operands...};
+        const moving_edges<real> e = moving_field_edges(edges(x), x[43], x[44]);
+        const depth_curve<real> depth = moving_depth_curve(depths(x), e, x[43], x[44]);
+        const coverage_times<real> times = moving_coverage(e, real(1));
+        return coverage_duration(times) + depth_curve_at(depth, times.begin0) + depth_curve_at(depth, times.end0);
+    }
+};
+
+struct translated_sight : translated_field {
+    static constexpr auto name = "translated, linear in time";
+    template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
+    {
+        using real = std::common_type_t<Reals...>;
+        const std::array<real, inputs> x{operands...};
+        const moving_edges<real> e = linear_field_edges(edges(x), x[43], x[44]);
+        const depth_curve<real> depth = moving_depth_curve(depths(x), e, x[43], x[44]);
+        const linear_times<real> times = linear_coverage(e);
+        return gnomon_max(times.end - times.begin, real(0)) + linear_depth_at(depth, times.begin) +
+               linear_depth_at(depth, times.end);
+    }
+};
+
 struct texel_of_ranges : compilation {
     static constexpr std::size_t inputs = 20;
     static std::vector<std::array<double, inputs>> samples(std::size_t count, std::uint64_t seed)
@@ -223,6 +292,7 @@ struct cover_search : texel_of_ranges {
 [[maybe_unused]] const bool registered =
     add_kernels<sorted_roots, sorted_roots, coverage, depth, prism_pairs>("motion") &&
     add_kernels<vertex_depths, vertex_depths, field_depths>("motion") &&
+    add_kernels<any_sight, any_sight, translated_sight>("motion") &&
     add_kernels<shadow_tests, shadow_tests, cover_search>("motion");
 
 } // namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC

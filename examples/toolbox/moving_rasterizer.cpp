@@ -128,21 +128,6 @@ struct tile_lists {
     std::array<std::uint32_t, texels_per_tile> sizes;
 };
 
-// Ranges whose depth is further from its line than the tolerance, in pieces (Palmer 2011, chapter 5).
-[[gnu::noinline]] void add_pieces(const tile_triangle& triangle, moving_edges<texel_pack> edges,
-                                  xsimd::batch_bool<float> bent, range_pack whole, float tolerance, texel_lists& to)
-{
-    const moving_triangle<texel_pack> corners = triangle.corners();
-    texel_pack passed = gnomon_select(bent, texel_pack(0.f), texel_pack(1.f));
-    while (gnomon_any(passed < texel_pack(1.f))) {
-        const depth_piece<texel_pack> piece =
-            moving_depth_piece(corners, edges, whole.t0, whole.t1, passed, texel_pack(0.f), texel_pack(tolerance));
-        to.add(bits_of(passed < texel_pack(1.f) && piece.t0 < piece.t1), {piece.t0, piece.t1, piece.z0, piece.z1},
-               float(triangle.setup().number));
-        passed = piece.passed;
-    }
-}
-
 // Where a triangle is seen by samples, and what becomes of that. Large things go by value to functions that are called
 // rarely: they need no memory elsewhere.
 struct sighting {
@@ -152,20 +137,36 @@ struct sighting {
     texel_lists& to;
 };
 
+// Ranges whose depth is further from its line than the tolerance, in pieces (Palmer 2011, chapter 5).
+[[gnu::noinline]] void add_pieces(const sighting& at, xsimd::batch_bool<float> bent, range_pack whole)
+{
+    const moving_triangle<texel_pack> corners = numbers_as<texel_pack>(at.triangle.setup().corners);
+    const moving_edges<texel_pack> edges = at.triangle.curved(at.samples).edges;
+    texel_pack passed = gnomon_select(bent, texel_pack(0.f), texel_pack(1.f));
+    while (gnomon_any(passed < texel_pack(1.f))) {
+        const depth_piece<texel_pack> piece =
+            moving_depth_piece(corners, edges, whole.t0, whole.t1, passed, texel_pack(0.f), texel_pack(at.tolerance));
+        at.to.add(bits_of(passed < texel_pack(1.f) && piece.t0 < piece.t1), {piece.t0, piece.t1, piece.z0, piece.z1},
+                  float(at.triangle.setup().number));
+        passed = piece.passed;
+    }
+}
+
 // One interval of those lanes that have it. Returns which are in the picture, a bit for each.
-GNOMON_INLINE std::uint64_t add_interval(const sighting& at, const moving_sight& sight, xsimd::batch_bool<float> exists,
+template <class Sight>
+GNOMON_INLINE std::uint64_t add_interval(const sighting& at, const Sight& sight, xsimd::batch_bool<float> exists,
                                          const texel_pack& opening, const texel_pack& closing)
 {
-    const range_pack whole{opening, closing, at.triangle.depth(sight, opening), at.triangle.depth(sight, closing)};
+    const range_pack whole{opening, closing, sight.depth(opening), sight.depth(closing)};
     if (!at.triangle.whole()) exists = exists && at.triangle.contains(at.samples, whole.z0, whole.z1);
     const std::uint64_t seen = bits_of(exists);
     std::uint64_t straight = seen;
     if (at.tolerance > 0) {
         // Depth that bends departs from its line most somewhere in the middle.
-        const texel_pack half(0.5f), middle = at.triangle.depth(sight, half * (opening + closing));
+        const texel_pack half(0.5f), middle = sight.depth(half * (opening + closing));
         const auto bent = exists && gnomon_abs(middle - half * (whole.z0 + whole.z1)) > texel_pack(0.5f * at.tolerance);
         if (gnomon_any(bent)) {
-            add_pieces(at.triangle, sight.edges, bent, whole, at.tolerance, at.to);
+            add_pieces(at, bent, whole);
             straight &= ~bits_of(bent);
         }
     }
@@ -173,7 +174,7 @@ GNOMON_INLINE std::uint64_t add_interval(const sighting& at, const moving_sight&
     return seen;
 }
 
-[[gnu::noinline]] void add_further_intervals(const sighting& at, moving_sight sight, coverage_times<texel_pack> times)
+[[gnu::noinline]] void add_further_intervals(const sighting& at, curved_sight sight, coverage_times<texel_pack> times)
 {
     add_interval(at, sight, times.count > texel_pack(1.f), times.begin1, times.end1);
     add_interval(at, sight, times.count > texel_pack(2.f), times.begin2, times.end2);
@@ -181,9 +182,9 @@ GNOMON_INLINE std::uint64_t add_interval(const sighting& at, const moving_sight&
 }
 
 // Of one facing. Returns how many texels it covers.
-GNOMON_INLINE std::size_t add_facing(const sighting& at, const moving_sight& sight, float facing)
+GNOMON_INLINE std::size_t add_facing(const sighting& at, const curved_sight& sight, float facing)
 {
-    const coverage_times<texel_pack> times = moving_coverage(sight.edges, texel_pack(facing));
+    const coverage_times<texel_pack> times = sight.covered(facing);
     const auto covered = times.count > texel_pack(0.f);
     if (!gnomon_any(covered)) return 0;
     const std::uint64_t seen = add_interval(at, sight, covered, times.begin0, times.end0);
@@ -191,7 +192,24 @@ GNOMON_INLINE std::size_t add_facing(const sighting& at, const moving_sight& sig
     return std::size_t(std::popcount(seen));
 }
 
-[[gnu::noinline]] std::size_t add_turned(const sighting& at, moving_sight sight) { return add_facing(at, sight, -1); }
+GNOMON_INLINE std::size_t add_facing(const sighting& at, const linear_sight& sight, float facing)
+{
+    const linear_times<texel_pack> times = sight.covered(facing);
+    const auto covered = times.begin < times.end;
+    if (!gnomon_any(covered)) return 0;
+    return std::size_t(std::popcount(add_interval(at, sight, covered, times.begin, times.end)));
+}
+
+[[gnu::noinline]] std::size_t add_turned(const sighting& at)
+{
+    if (at.triangle.setup().linear) return add_facing(at, at.triangle.linear(at.samples), -1);
+    return add_facing(at, at.triangle.curved(at.samples), -1);
+}
+
+[[gnu::noinline]] std::size_t add_curved(const sighting& at)
+{
+    return add_facing(at, at.triangle.curved(at.samples), 1);
+}
 
 void rasterize_tile(const tiled_triangles& scenery, std::size_t tile, const range_options& how, tile_lists& to)
 {
@@ -204,10 +222,10 @@ void rasterize_tile(const tiled_triangles& scenery, std::size_t tile, const rang
         to.texels.clear();
         to.members.for_each(i / moving_samples::packs_per_block, [&](const tile_triangle& triangle) {
             const sighting at{triangle, samples, how.depth_tolerance, to.texels};
-            const moving_sight sight = triangle.seen_by(samples);
             to.counts.tested += texel_pack::size;
-            if (triangle.setup().positive) to.counts.pairs += add_facing(at, sight, 1);
-            if (triangle.setup().negative) to.counts.pairs += add_turned(at, sight);
+            const moving_setup& s = triangle.setup();
+            if (s.positive) to.counts.pairs += s.linear ? add_facing(at, triangle.linear(samples), 1) : add_curved(at);
+            if (s.negative) to.counts.pairs += add_turned(at);
             if (to.texels.room() <= budget) return;
             ++to.counts.early_resolves;
             to.texels.resolve(true); // what comes may be behind a backdrop
@@ -223,7 +241,7 @@ void sample_instants(const tile_triangle& triangle, const moving_samples& at, co
                      std::vector<depth_time_range<float>>& nearest)
 {
     const moving_setup& s = triangle.setup();
-    const moving_sight sight = triangle.seen_by(at);
+    const curved_sight sight = triangle.curved(at);
     const moving_edges<texel_pack>& edges = sight.edges;
     const auto instant = [&](std::size_t lane, int k) -> depth_time_range<float>* {
         const glm::ivec2 place = at.place(lane);
@@ -238,7 +256,7 @@ void sample_instants(const tile_triangle& triangle, const moving_samples& at, co
         const texel_pack a = moving_edge_at(edges.a, t), b = moving_edge_at(edges.b, t), c = moving_edge_at(edges.c, t);
         gnomon_min(gnomon_min(a, b), c).store_unaligned(least.data());
         gnomon_max(gnomon_max(a, b), c).store_unaligned(most.data());
-        triangle.depth(sight, t).store_unaligned(z.data());
+        sight.depth(t).store_unaligned(z.data());
         for (std::size_t i = 0; i < texel_pack::size; ++i) {
             const bool covered =
                 (s.positive && least[i] >= 0 && most[i] > 0) || (s.negative && most[i] <= 0 && least[i] < 0);

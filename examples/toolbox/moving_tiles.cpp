@@ -8,11 +8,13 @@
 
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -79,9 +81,27 @@ bool set_extent(moving_setup& s, const moving_view& from)
     return s.first.x <= s.last.x && s.first.y <= s.last.y;
 }
 
+// What moves alike but for rounding: that of positions in float, 2^-24 of the picture's extent each. Every edge is
+// asked by itself, for both triangles that share it; only beside a vertex a crack of that size may open.
+void set_linear(moving_setup& s, const moving_view& from)
+{
+    constexpr double rounding = 0x1p-22;
+    moving_vertex<double>&a = s.corners.a, &b = s.corners.b, &c = s.corners.c;
+    if (!s.before_eye) return;
+    const double tolerance = rounding * std::max(from.size.x, from.size.y);
+    s.linear_edges = {moving_edge_bend(b, c) <= tolerance, moving_edge_bend(c, a) <= tolerance,
+                      moving_edge_bend(a, b) <= tolerance};
+    const auto [least, most] = std::minmax({a.z1 - a.z0, b.z1 - b.z0, c.z1 - c.z0});
+    s.linear = glm::all(s.linear_edges) && most - least <= rounding;
+    if (!s.linear) return;
+    for (moving_vertex<double>* v : {&a, &b, &c}) v->z1 = v->z0 + 0.5 * (least + most);
+}
+
 std::vector<moving_setup> set_up(const moving_scene& world, const moving_view& from, faces visible)
 {
     std::vector<moving_setup> all;
+    all.reserve(std::transform_reduce(world.open.meshes.begin(), world.open.meshes.end(), std::size_t(0), std::plus(),
+                                      [](const mesh& part) { return part.triangles.size(); }));
     std::uint32_t number = 0;
     for (std::size_t m = 0; m < world.open.meshes.size(); ++m) {
         const mesh& part = world.open.meshes[m];
@@ -94,7 +114,9 @@ std::vector<moving_setup> set_up(const moving_scene& world, const moving_view& f
             s.number = number++;
             if (!set_extent(s, from)) continue;
             set_facing(s, visible);
-            if (s.positive || s.negative) all.push_back(s);
+            if (!s.positive && !s.negative) continue;
+            set_linear(s, from);
+            all.push_back(s);
         }
     }
     return all;
@@ -182,9 +204,9 @@ tile_triangle::tile_triangle(const moving_setup& s, const moving_tile& where)
     depths_ = numbers_as<float>(depth_field_of(field, s.corners));
 }
 
-texel_pack tile_triangle::depth_of_corners(moving_edges<texel_pack> edges, const texel_pack& t) const
+texel_pack curved_sight::depth_of_corners(const moving_setup& s, moving_edges<texel_pack> edges, const texel_pack& t)
 {
-    return moving_triangle_linear_depth(corners(), edges, t);
+    return moving_triangle_linear_depth(numbers_as<texel_pack>(s.corners), edges, t);
 }
 
 void tile_members::assign(const tiled_triangles& scenery, std::size_t tile)

@@ -14,7 +14,6 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <span>
-#include <type_traits>
 #include <vector>
 
 #include "moving_scene.hpp"
@@ -28,7 +27,7 @@ using texel_lanes = std::array<float, texel_pack::size>;
 // A bit for each lane; xsimd 8 has no such function.
 template <class Mask> std::uint64_t bits_of(const Mask& lanes)
 {
-    if constexpr (std::is_integral_v<decltype(lanes.data)>) return lanes.data;
+    if constexpr (requires { std::uint64_t{lanes.data}; }) return lanes.data;
     else {
         std::array<bool, texel_pack::size> each;
         lanes.store_unaligned(each.data());
@@ -55,6 +54,8 @@ struct moving_setup {
     bool positive, negative; // whether its edge functions are ever all positive, and all negative
     bool before_eye;         // all of it, all of the time
     bool between_planes;     // near and far
+    glm::bvec3 linear_edges; // those across from the corners whose functions are linear in time
+    bool linear;             // all of them, and the corners' depths change alike
     std::uint32_t number;    // counted through all meshes
 };
 
@@ -117,6 +118,12 @@ GNOMON_INLINE depth_field<texel_pack> in_lanes(const depth_field<float>& d)
     return {in_lanes(d.n0), in_lanes(d.n1), in_lanes(d.n2), in_lanes(d.n3), d.z0, d.z1, d.least, d.most};
 }
 
+// Of the same triangle from the other side.
+GNOMON_INLINE moving_edges<texel_pack> turned(const moving_edges<texel_pack>& e)
+{
+    return {{-e.a.e0, -e.a.e1, -e.a.e2}, {-e.b.e0, -e.b.e1, -e.b.e2}, {-e.c.e0, -e.c.e1, -e.c.e2}};
+}
+
 // Which cells, the samples within reach of their middles, a triangle covers at some time.
 class touched_cells {
   public:
@@ -130,6 +137,11 @@ class touched_cells {
     std::uint64_t operator()(const texel_pack& middle_x, const texel_pack& middle_y) const
     {
         const auto touched = [&](const moving_field<float>& around, float facing) {
+            if (setup_.linear) {
+                const auto edges = linear_field_edges(in_lanes(around), middle_x, middle_y);
+                const auto times = linear_coverage(facing < 0 ? turned(edges) : edges);
+                return bits_of(times.begin < times.end);
+            }
             const auto edges = moving_field_edges(in_lanes(around), middle_x, middle_y);
             return bits_of(moving_coverage(edges, texel_pack(facing)).count > texel_pack(0.f));
         };
@@ -181,9 +193,41 @@ struct moving_samples {
 };
 
 // What of a triangle a pack of samples sees.
-struct moving_sight {
+struct curved_sight {
+    const moving_setup& of;
     moving_edges<texel_pack> edges;
     depth_curve<texel_pack> curve;
+
+    GNOMON_INLINE coverage_times<texel_pack> covered(float facing) const
+    {
+        const auto inside = [&](const moving_edge<texel_pack>& e, bool linear) {
+            if (!linear) return moving_edge_inside(e, texel_pack(facing));
+            const texel_pack side(facing), none(static_cast<float>(coverage_none));
+            const linear_times<texel_pack> times = linear_edge_inside(side * e.e0, side * e.e2);
+            return edge_times<texel_pack>{times.begin, times.end, none, none};
+        };
+        return edge_times_together(inside(edges.a, of.linear_edges.x), inside(edges.b, of.linear_edges.y),
+                                   inside(edges.c, of.linear_edges.z));
+    }
+    GNOMON_INLINE texel_pack depth(const texel_pack& t) const
+    {
+        return of.before_eye ? depth_curve_at(curve, t) : depth_of_corners(of, edges, t);
+    }
+
+    // Without a field: for triangles that are not before the eye all of the time.
+    static texel_pack depth_of_corners(const moving_setup& s, moving_edges<texel_pack> edges, const texel_pack& t);
+};
+
+// Of one that is linear in time.
+struct linear_sight {
+    moving_edges<texel_pack> edges;
+    depth_curve<texel_pack> curve;
+
+    GNOMON_INLINE linear_times<texel_pack> covered(float facing) const
+    {
+        return linear_coverage(facing < 0 ? turned(edges) : edges);
+    }
+    GNOMON_INLINE texel_pack depth(const texel_pack& t) const { return linear_depth_at(curve, t); }
 };
 
 // A triangle in one tile.
@@ -210,19 +254,16 @@ class tile_triangle {
         for_each_bit(blocks & columns * 0x0101010101010101, visit);
     }
 
-    GNOMON_INLINE moving_sight seen_by(const moving_samples& s) const
+    GNOMON_INLINE curved_sight curved(const moving_samples& s) const
     {
         const moving_edges<texel_pack> edges = moving_field_edges(in_lanes(field_), s.x, s.y);
+        return {*setup_, edges, moving_depth_curve(in_lanes(depths_), edges, s.x, s.y)};
+    }
+    GNOMON_INLINE linear_sight linear(const moving_samples& s) const
+    {
+        const moving_edges<texel_pack> edges = linear_field_edges(in_lanes(field_), s.x, s.y);
         return {edges, moving_depth_curve(in_lanes(depths_), edges, s.x, s.y)};
     }
-
-    GNOMON_INLINE texel_pack depth(const moving_sight& of, const texel_pack& t) const
-    {
-        return setup_->before_eye ? depth_curve_at(of.curve, t) : depth_of_corners(of.edges, t);
-    }
-
-    // What depth is computed from without a field: linear depths, and weights that say what is before the eye.
-    moving_triangle<texel_pack> corners() const { return numbers_as<texel_pack>(setup_->corners); }
 
     // Whether it is in the picture wherever it covers the tile.
     bool whole() const { return whole_; }
@@ -241,8 +282,6 @@ class tile_triangle {
     static constexpr float margin = 0.05f;
 
   private:
-    texel_pack depth_of_corners(moving_edges<texel_pack> edges, const texel_pack& t) const;
-
     const moving_setup* setup_;
     glm::ivec2 last_, low_, high_; // texel, blocks
     bool whole_;

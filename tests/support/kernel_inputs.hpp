@@ -163,6 +163,10 @@ inline constexpr input_family<T> input_families[] = {
      }},
     {"moving_edge", 3, [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits).edges.a); }},
     {"moving_edges", 9, [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits).edges); }},
+    {"edge_times", 4,
+     [](auto put, const situation&, bit_source& bits) {
+         put(moving_edge_inside(any_seen_triangle<T>(bits).edges.b, T(bits.chance(0.5) ? 1 : -1)));
+     }},
     {"moving_triangle_and_edges", 33,
      [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits)); }},
     {"sample_plane", 3,

@@ -52,6 +52,58 @@ template <class T> std::array<seen_vertex, 3> seen_vertices(const moving_triangl
     return {seen(m.a), seen(m.b), seen(m.c)};
 }
 
+// At one time: edge functions across from the vertices, what errors are proportional to, and depths.
+struct seen_at {
+    std::array<exact, 3> edges, sizes, z, from_c; // the last: from that of vertex c, at most
+
+    exact sum() const { return edges[0] + edges[1] + edges[2]; }
+    bool covered() const
+    {
+        return std::ranges::all_of(edges, [](exact e) { return e > 0; }) ||
+               std::ranges::all_of(edges, [](exact e) { return e < 0; });
+    }
+    exact depth() const { return (edges[0] * z[0] + edges[1] * z[1] + edges[2] * z[2]) / sum(); }
+    /// From the comment of depth_curve_at.
+    exact depth_error(double unit) const
+    {
+        const exact products =
+            sizes[0] * from_c[0] + sizes[1] * from_c[1] + std::abs(depth() - z[2]) * (sizes[0] + sizes[1] + sizes[2]);
+        return exact(unit) * (32 * products / std::abs(sum()) + 8);
+    }
+};
+
+template <class T> seen_at see(const moving_triangle<T>& m, T o_x, T o_y, T s_x, T s_y, T t)
+{
+    const std::array<seen_vertex, 3> p = seen_vertices(m, o_x, o_y, s_x, s_y);
+    const std::array vertices{m.a, m.b, m.c};
+    const exact passed = exact(t), left = 1 - passed;
+    seen_at r;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const seen_vertex &i = p[(k + 1) % 3], &j = p[(k + 2) % 3];
+        r.edges[k] = (i.x0 * left + i.x1 * passed) * (j.y0 * left + j.y1 * passed) -
+                     (i.y0 * left + i.y1 * passed) * (j.x0 * left + j.x1 * passed);
+        r.sizes[k] = products(i, j);
+        const moving_vertex<T>& v = vertices[k];
+        r.z[k] = exact(v.z0) * left + exact(v.z1) * passed;
+        r.from_c[k] = std::max(std::abs(exact(v.z0) - exact(m.c.z0)), std::abs(exact(v.z1) - exact(m.c.z1)));
+    }
+    return r;
+}
+
+/// On a grid that float has with all sums and differences, so that vertices move exactly alike.
+template <class T> moving_triangle<T> translated_triangle(bit_source& bits)
+{
+    const bool perspective = bits.chance(0.5);
+    const auto grid = [&](double low, double high) { return T(std::round(bits.uniform(low, high) * 1024) / 1024); };
+    const T moved_x = grid(-1, 1), moved_y = grid(-1, 1), moved_z = grid(-0.25, 0.25),
+            moved_w = perspective ? grid(-0.5, 0.5) : T(0);
+    const auto vertex = [&] {
+        const T x = grid(-1, 1), y = grid(-1, 1), z = grid(-0.75, 0.75), w = perspective ? grid(0.75, 4) : T(1);
+        return moving_vertex<T>{x, y, z, w, x + moved_x, y + moved_y, z + moved_z, w + moved_w};
+    };
+    return {vertex(), vertex(), vertex()};
+}
+
 } // namespace
 
 TEST_CASE_TEMPLATE("moving_field_edges: the triangle's edge functions, within the stated error", T, float, double)
@@ -83,6 +135,77 @@ TEST_CASE_TEMPLATE("edge fields of neighbours are opposite, bit for bit, at ever
         REQUIRE(there.e1 == -back.e1);
         REQUIRE(there.e2 == -back.e2);
     });
+}
+
+// What is linear departs from what is not by no more than the bend, a distance: a value over the slope at the time.
+TEST_CASE_TEMPLATE("moving_edge_bend: no edge is further from its linear one; 0 for vertices that move alike", T, float,
+                   double)
+{
+    std::int64_t asked = 0, tight = 0;
+    for_each_scene<T>(100'000, [&](const moving_triangle<T>& m, T, T, bit_source& bits) {
+        const moving_vertex<T>&a = m.a, &b = m.b;
+        if (!(a.w0 > 0 && a.w1 > 0 && b.w0 > 0 && b.w1 > 0)) return;
+        const T bend = moving_edge_bend(a, b);
+        if (std::isnan(bend)) return; // an edge without length
+        REQUIRE(bend == moving_edge_bend(b, a));
+        const auto within = [&](T p, T q, T r, T s) {
+            return exact(bits.uniform(double(std::min({p, q, r, s})), double(std::max({p, q, r, s}))));
+        };
+        const exact t = exact(bits.uniform(0, 1)), left = 1 - t,
+                    x = within(a.x0 / a.w0, a.x1 / a.w1, b.x0 / b.w0, b.x1 / b.w1),
+                    y = within(a.y0 / a.w0, a.y1 / a.w1, b.y0 / b.w0, b.y1 / b.w1);
+        // (x, y, c) of the edge between two times, one for each vertex.
+        const auto line = [&](bool late_a, bool late_b) {
+            const exact a_x = exact(late_a ? a.x1 : a.x0), a_y = exact(late_a ? a.y1 : a.y0),
+                        a_w = exact(late_a ? a.w1 : a.w0), b_x = exact(late_b ? b.x1 : b.x0),
+                        b_y = exact(late_b ? b.y1 : b.y0), b_w = exact(late_b ? b.w1 : b.w0);
+            return std::array<exact, 3>{a_y * b_w - a_w * b_y, a_w * b_x - a_x * b_w, a_x * b_y - a_y * b_x};
+        };
+        const auto value = [&](const std::array<exact, 3>& e) { return e[0] * x + e[1] * y + e[2]; };
+        const std::array<exact, 3> open = line(false, false), close = line(true, true);
+        const exact middle = (value(line(false, true)) + value(line(true, false))) / 2;
+        const exact away = std::abs(2 * middle - value(open) - value(close)) * t * left;
+        const exact slope = std::hypot(left * open[0] + t * close[0], left * open[1] + t * close[1]);
+        const auto size = [&](const moving_vertex<T>& v, T at0, T at1, exact reach) {
+            return std::max(std::abs(exact(at0)) + reach * exact(v.w0), std::abs(exact(at1)) + reach * exact(v.w1));
+        };
+        const exact products = size(a, a.x0, a.x1, std::abs(x)) * size(b, b.y0, b.y1, std::abs(y)) +
+                               size(a, a.y0, a.y1, std::abs(y)) * size(b, b.x0, b.x1, std::abs(x));
+        REQUIRE(away <= exact(bend) * (1 + 16 * exact(u<T>)) * slope + 32 * exact(u<T>) * products);
+        ++asked;
+        tight += away > exact(bend) * slope / 4;
+    });
+    CHECK(asked > effort(100'000) / 2);
+    CHECK(tight > asked / 100);
+}
+
+// The tolerances are those of moving_field_edges and depth_curve_at.
+TEST_CASE_TEMPLATE("a translated triangle is linear in time: edges and depth, within the stated errors", T, float,
+                   double)
+{
+    bit_source bits(52);
+    std::int64_t covered = 0;
+    for (std::int64_t i = 0; i < effort(200'000); ++i) {
+        const moving_triangle<T> m = translated_triangle<T>(bits);
+        const T o_x = T(bits.uniform(-0.3, 0.3)), o_y = T(bits.uniform(-0.3, 0.3));
+        const T s_x = T(bits.uniform(-0.1, 0.1)), s_y = T(bits.uniform(-0.1, 0.1)), t = T(bits.uniform(0, 1));
+        const moving_field<T> field = moving_field_of(m, o_x, o_y);
+        const depth_field<T> depths = depth_field_of(field, m);
+        const moving_edges<T> edges = linear_field_edges(field, s_x, s_y);
+        const T found = linear_depth_at(moving_depth_curve(depths, edges, s_x, s_y), t);
+        REQUIRE(found >= depths.least);
+        REQUIRE(found <= depths.most);
+        const seen_at at = see(m, o_x, o_y, s_x, s_y, t);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const moving_edge<T> e = listed(edges)[k];
+            const exact line = exact(e.e0) + exact(t) * (exact(e.e2) - exact(e.e0));
+            REQUIRE(std::abs(line - at.edges[k]) <= 64 * exact(u<T>) * at.sizes[k]);
+        }
+        if (!at.covered()) continue;
+        ++covered;
+        REQUIRE(std::abs(exact(found) - at.depth()) <= at.depth_error(u<T>));
+    }
+    CHECK(covered > effort(200'000) / 50);
 }
 
 TEST_CASE_TEMPLATE("moving_field_around: no sample of the block is covered at a time that the block is not", T, float,
@@ -127,29 +250,11 @@ TEST_CASE_TEMPLATE("depth_curve_at: the mean of the vertices' depths, within the
         REQUIRE(found >= depths.least);
         REQUIRE(found <= depths.most);
 
-        const std::array<seen_vertex, 3> p = seen_vertices(m, o_x, o_y, s_x, s_y);
-        const exact passed = exact(t), left = 1 - passed;
-        std::array<exact, 3> e, sizes;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const seen_vertex &i = p[(k + 1) % 3], &j = p[(k + 2) % 3];
-            e[k] = (i.x0 * left + i.x1 * passed) * (j.y0 * left + j.y1 * passed) -
-                   (i.y0 * left + i.y1 * passed) * (j.x0 * left + j.x1 * passed);
-            sizes[k] = products(i, j);
-        }
-        if (!((e[0] > 0 && e[1] > 0 && e[2] > 0) || (e[0] < 0 && e[1] < 0 && e[2] < 0))) return;
+        const seen_at at = see(m, o_x, o_y, s_x, s_y, t);
+        if (!at.covered()) return;
         ++covered;
-        const exact sum = e[0] + e[1] + e[2];
-        const auto z = [&](const moving_vertex<T>& v) { return exact(v.z0) * left + exact(v.z1) * passed; };
-        const auto from_c = [&](const moving_vertex<T>& v) {
-            return std::max(std::abs(exact(v.z0) - exact(m.c.z0)), std::abs(exact(v.z1) - exact(m.c.z1)));
-        };
-        const exact expected = (e[0] * z(m.a) + e[1] * z(m.b) + e[2] * z(m.c)) / sum;
-        const exact error = exact(u<T>) * (32 *
-                                               (sizes[0] * from_c(m.a) + sizes[1] * from_c(m.b) +
-                                                std::abs(expected - z(m.c)) * (sizes[0] + sizes[1] + sizes[2])) /
-                                               std::abs(sum) +
-                                           8);
-        REQUIRE(std::abs(exact(found) - std::clamp(expected, exact(-1), exact(1))) <= error);
+        const exact error = at.depth_error(u<T>);
+        REQUIRE(std::abs(exact(found) - std::clamp(at.depth(), exact(-1), exact(1))) <= error);
         close += error < 1000 * exact(u<T>);
     });
     CHECK(covered > effort(200'000) / 50);

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "toolbox/moving_rasterizer.hpp"
+#include "toolbox/moving_tiles.hpp"
 #include "toolbox/moving_view.hpp"
 
 using namespace gnomon;
@@ -24,8 +25,8 @@ using gnomon::test::bit_source;
 
 namespace {
 
-// Boxes that move and turn at random, and a ground.
-moving_scene any_scene(std::uint64_t seed, int boxes)
+// Boxes that move, and turn or do not, at random, and a ground.
+moving_scene any_scene(std::uint64_t seed, int boxes, bool turn = true)
 {
     bit_source bits(seed);
     const auto real = [&](double low, double high) { return static_cast<float>(bits.uniform(low, high)); };
@@ -36,8 +37,9 @@ moving_scene any_scene(std::uint64_t seed, int boxes)
     mesh open{}, close{};
     for (int i = 0; i < boxes; ++i) {
         const glm::vec3 size(real(0.1, 1)), at = point(2);
-        add_box(open, upright(at, size, real(-1, 1)));
-        add_box(close, upright(at + 0.5f * point(2), size, real(-1, 1)));
+        const float angle = real(-1, 1);
+        add_box(open, upright(at, size, angle));
+        add_box(close, upright(at + 0.5f * point(2), size, turn ? real(-1, 1) : angle));
     }
     world.open.meshes = {open, ground({0, 0, 0}, 8, 8, glm::vec3(0.5f))};
     world.closing = {close.positions, world.open.meshes[1].positions};
@@ -114,37 +116,38 @@ template <class Lists> bool same_lists(const Lists& a, const Lists& b)
 TEST_CASE("ranges are where edge functions say, at the right depth")
 {
     constexpr int width = 75, height = 50;
-    for (const bool perspective : {false, true}) {
-        const moving_scene world = any_scene(1, 6);
-        const moving_camera light = any_light(world, perspective);
-        range_rasterizer rasterize;
-        const range_lists& lists = rasterize(world, light, width, height, {.depth_tolerance = 1e-4f});
-        const reference exact(world, light, width, height);
-        bit_source bits(2);
-        int decided = 0, covered = 0;
-        for (int i = 0; i < 6000; ++i) {
-            const std::size_t x = bits.below(width), y = bits.below(height);
-            const auto t = static_cast<float>(bits.uniform(0, 1));
-            std::vector<int> found(exact.size());
-            std::vector<float> depth(exact.size());
-            for (const auto& r : lists.map()(x, y))
-                if (r.t0 <= t && t < r.t1) {
-                    ++found[std::size_t(r.id)];
-                    depth[std::size_t(r.id)] = range_depth(r, t);
+    for (const bool perspective : {false, true})
+        for (const bool turn : {false, true}) {
+            const moving_scene world = any_scene(1, 6, turn);
+            const moving_camera light = any_light(world, perspective);
+            range_rasterizer rasterize;
+            const range_lists& lists = rasterize(world, light, width, height, {.depth_tolerance = 1e-4f});
+            const reference exact(world, light, width, height);
+            bit_source bits(2);
+            int decided = 0, covered = 0;
+            for (int i = 0; i < 6000; ++i) {
+                const std::size_t x = bits.below(width), y = bits.below(height);
+                const auto t = static_cast<float>(bits.uniform(0, 1));
+                std::vector<int> found(exact.size());
+                std::vector<float> depth(exact.size());
+                for (const auto& r : lists.map()(x, y))
+                    if (r.t0 <= t && t < r.t1) {
+                        ++found[std::size_t(r.id)];
+                        depth[std::size_t(r.id)] = range_depth(r, t);
+                    }
+                for (std::size_t k = 0; k < exact.size(); ++k) {
+                    const auto seen = exact.at(k, double(x) + 0.5, double(y) + 0.5, double(t));
+                    if (!seen.decided) continue;
+                    ++decided;
+                    REQUIRE(found[k] == int(seen.covered));
+                    if (!seen.covered) continue;
+                    ++covered;
+                    REQUIRE(double(depth[k]) == doctest::Approx(seen.depth).epsilon(5e-4));
                 }
-            for (std::size_t k = 0; k < exact.size(); ++k) {
-                const auto seen = exact.at(k, double(x) + 0.5, double(y) + 0.5, double(t));
-                if (!seen.decided) continue;
-                ++decided;
-                REQUIRE(found[k] == int(seen.covered));
-                if (!seen.covered) continue;
-                ++covered;
-                REQUIRE(double(depth[k]) == doctest::Approx(seen.depth).epsilon(5e-4));
             }
+            CHECK(covered > 2000);
+            CHECK(decided > 6000 * int(exact.size()) * 9 / 10);
         }
-        CHECK(covered > 2000);
-        CHECK(decided > 6000 * int(exact.size()) * 9 / 10);
-    }
 }
 
 TEST_CASE("neighbours leave no crack: a texel sees one triangle of the ground up to the very time of the next")
@@ -162,6 +165,56 @@ TEST_CASE("neighbours leave no crack: a texel sees one triangle of the ground up
         REQUIRE(std::max(list[0].t0, list[1].t0) == std::min(list[0].t1, list[1].t1));
     }
     CHECK(shared > 100);
+}
+
+// A sheet across the light's axis, beyond the picture on all sides, of which one half is carried and the other creased.
+TEST_CASE("neighbours leave no crack where one is translated and the other is not")
+{
+    constexpr int side = 9, size = 128;
+    bit_source bits(11);
+    const auto real = [&] { return static_cast<float>(bits.uniform(-0.3, 0.3)); };
+    mesh open;
+    std::vector<glm::vec3> closing;
+    for (int z = 0; z < side; ++z)
+        for (int x = 0; x < side; ++x) {
+            const glm::vec3 at(float(x - side / 2), 0, float(z - side / 2));
+            open.positions.push_back(at);
+            closing.push_back(at + (x < side / 2 ? glm::vec3(0.3f, 0.1f, -0.2f) : glm::vec3(real(), 0.1f, real())));
+        }
+    for (unsigned z = 0; z + 1 < side; ++z)
+        for (unsigned x = 0; x + 1 < side; ++x) {
+            const unsigned i = z * side + x;
+            open.triangles.push_back({i, i + 1, i + side});
+            open.triangles.push_back({i + 1, i + side + 1, i + side});
+        }
+    const moving_scene world{{"sheet", {open}}, {closing}};
+    const std::array<glm::vec3, 2> seen{glm::vec3(-2, -0.5f, -2), glm::vec3(2, 0.5f, 2)};
+    const moving_camera light{perspective_view_from({0.2, 7, 0.1}, {0, 0, 0}, seen, glm::radians(30.0), 1)};
+
+    int linear = 0, mixed = 0;
+    const tiled_triangles scenery(world, light, size, size, faces::both);
+    for (std::size_t tile = 0; tile < scenery.tiles(); ++tile)
+        scenery.for_each(tile, [&](const moving_setup& s) {
+            linear += s.linear;
+            mixed += glm::any(s.linear_edges) && !s.linear;
+        });
+    CHECK(linear > 0);
+    CHECK(mixed > 0);
+
+    range_rasterizer rasterize;
+    const range_lists& lists = rasterize(world, light, size, size);
+    std::size_t shared = 0;
+    for (std::size_t i = 0; i < std::size_t(size) * size; ++i) {
+        const auto list = lists.map()(i % size, i / size);
+        std::vector<depth_time_range<float>> sorted(list.begin(), list.end());
+        std::ranges::sort(sorted, {}, &depth_time_range<float>::t0);
+        REQUIRE(!sorted.empty());
+        REQUIRE(sorted.front().t0 == 0);
+        REQUIRE(sorted.back().t1 == 1);
+        for (std::size_t k = 1; k < sorted.size(); ++k) REQUIRE(sorted[k].t0 == sorted[k - 1].t1);
+        shared += sorted.size() - 1;
+    }
+    CHECK(shared > std::size_t(size) * size / 4);
 }
 
 TEST_CASE("lists do not depend on threads, and resolved ones not on the budget")

@@ -23,6 +23,9 @@ GNOMON_STRUCT moving_edges { GNOMON_T(moving_edge) a, b, c; };
 /// nothing is left begin is 1 and end 0.
 GNOMON_STRUCT edge_times { Real begin, end, gap_begin, gap_end; };
 
+/// From begin to end; nothing where end is not after begin.
+GNOMON_STRUCT linear_times { Real begin, end; };
+
 /// Four numbers in order.
 GNOMON_STRUCT ordered4 { Real first, second, third, fourth; };
 
@@ -90,6 +93,32 @@ GNOMON_KERNEL GNOMON_T(edge_times) moving_edge_inside(GNOMON_T(moving_edge) e, G
     return x;
 }
 
+/// The times in [0, 1] at which an edge function that is linear in time, from e0 to e2, is >= 0; on the other side of
+/// the edge ask for -e0 and -e2. Error: 4 2^-p. Coefficients that differ by 2^60 or more, or NaN: none.
+GNOMON_KERNEL GNOMON_T(linear_times) linear_edge_inside(Real e0, Real e2)
+{
+    GNOMON_MASK before = e0 < Real(0);
+    GNOMON_MASK after = e2 < Real(0);
+    Real change = e0 - e2;
+    GNOMON_MASK never = (before && after) || !(gnomon_abs(change) < GNOMON_LITERAL(moving_edge_limit));
+    Real root = gnomon_min(e0 / change, Real(1));
+    GNOMON_T(linear_times) x;
+    x.begin = gnomon_select(never, Real(1), gnomon_select(before, root, Real(0)));
+    x.end = gnomon_select(never, Real(0), gnomon_select(after, root, Real(1)));
+    return x;
+}
+
+/// The times at which three of them are >= 0 together, for a triangle that is translated or at rest.
+GNOMON_KERNEL GNOMON_T(linear_times) linear_coverage(GNOMON_T(moving_edges) e)
+{
+    GNOMON_T(linear_times) a = linear_edge_inside(e.a.e0, e.a.e2);
+    GNOMON_T(linear_times) b = linear_edge_inside(e.b.e0, e.b.e2);
+    GNOMON_T(linear_times) c = linear_edge_inside(e.c.e0, e.c.e2);
+    a.begin = gnomon_max(gnomon_max(a.begin, b.begin), c.begin);
+    a.end = gnomon_min(gnomon_min(a.end, b.end), c.end);
+    return a;
+}
+
 /// By a network of five exchanges; numbers, not NaN.
 GNOMON_KERNEL GNOMON_T(ordered4) ordered4_of(Real a, Real b, Real c, Real d)
 {
@@ -107,20 +136,12 @@ GNOMON_KERNEL GNOMON_T(ordered4) ordered4_of(Real a, Real b, Real c, Real d)
     return x;
 }
 
-/// The times at which the three edge functions are >= 0 together, or, where facing is negative, <= 0: the sample is
-/// then covered by a triangle that turns this side to it. On the border it is covered; by a triangle without any area,
-/// three edge functions that are 0 throughout, it is not. Errors as for moving_edge_inside; anything NaN or out of
-/// range gives none.
-GNOMON_KERNEL GNOMON_T(coverage_times) moving_coverage(GNOMON_T(moving_edges) e, GNOMON_SETTING facing)
+/// The times at which the sample is on the inside of all three edges.
+GNOMON_KERNEL GNOMON_T(coverage_times)
+    edge_times_together(GNOMON_T(edge_times) a, GNOMON_T(edge_times) b, GNOMON_T(edge_times) c)
 {
-    GNOMON_T(edge_times) a = moving_edge_inside(e.a, facing);
-    GNOMON_T(edge_times) b = moving_edge_inside(e.b, facing);
-    GNOMON_T(edge_times) c = moving_edge_inside(e.c, facing);
-    Real size = (moving_edge_size(e.a) + moving_edge_size(e.b)) + moving_edge_size(e.c);
     Real begin = gnomon_max(gnomon_max(a.begin, b.begin), c.begin);
     Real end = gnomon_min(gnomon_min(a.end, b.end), c.end);
-    end = gnomon_select(Real(0) < size, end, Real(0));
-
     Real none = GNOMON_LITERAL(coverage_none);
     GNOMON_MASK some = begin < end;
     GNOMON_T(coverage_times) x;
@@ -165,6 +186,18 @@ GNOMON_KERNEL GNOMON_T(coverage_times) moving_coverage(GNOMON_T(moving_edges) e,
         x.end3 = stops.fourth;
     }
     return x;
+}
+
+/// The times at which the three edge functions are >= 0 together, or, where facing is negative, <= 0: the sample is
+/// then covered by a triangle that turns this side to it. On the border it is covered; by a triangle without any area,
+/// three edge functions that are 0 throughout, it is not. Errors as for moving_edge_inside; anything NaN or out of
+/// range gives none.
+GNOMON_KERNEL GNOMON_T(coverage_times) moving_coverage(GNOMON_T(moving_edges) e, GNOMON_SETTING facing)
+{
+    GNOMON_T(edge_times) a = moving_edge_inside(e.a, facing);
+    Real size = (moving_edge_size(e.a) + moving_edge_size(e.b)) + moving_edge_size(e.c);
+    a.end = gnomon_select(Real(0) < size, a.end, Real(0));
+    return edge_times_together(a, moving_edge_inside(e.b, facing), moving_edge_inside(e.c, facing));
 }
 
 /// How much of the shutter interval they last together, in [0, 1].

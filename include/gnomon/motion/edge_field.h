@@ -14,13 +14,20 @@
 //     times = moving_coverage(moving_field_edges(blocks, s_x, s_y), facing);   none: skip the block
 //     times = moving_coverage(moving_field_edges(field, s_x, s_y), facing);
 //
+// Vertices that move alike have edge functions that are linear in time: the cross product of their motions, which is
+// e0 - 2 e1 + e2, vanishes. Then two planes do for an edge, and a quotient for its time. Whether they move alike enough
+// is asked once for each edge, in its own right, so that both triangles there get one answer and no crack opens:
+//
+//     linear = moving_edge_bend(b, c) <= tolerance, and so on
+//     times = linear_coverage(linear_field_edges(field, s_x, s_y))
+//
 // Depth follows suit. With z linear in view distance, and measured from that of vertex c,
 //     z(t) = z_c(t) + N(t) / D(t),   N = e_a (z_a - z_c) + e_b (z_b - z_c),   D = e_a + e_b + e_c
 // N is a cubic whose four Bernstein coefficients are affine in the sample, too, and D is at hand: a third of the
 // operations that the vertices' mean takes (moving_triangle.h), and nothing large cancels.
 //
 //     curve = moving_depth_curve(depths, edges, s_x, s_y);   depths = depth_field_of(field, triangle), once for a tile
-//     z = depth_curve_at(curve, t);
+//     z = depth_curve_at(curve, t);   linear_depth_at, where the depths move alike as well
 #ifndef GNOMON_MOTION_EDGE_FIELD_H
 #define GNOMON_MOTION_EDGE_FIELD_H
 #include "moving_triangle.h"
@@ -81,6 +88,44 @@ GNOMON_KERNEL GNOMON_T(moving_vertex) moving_vertex_from(GNOMON_T(moving_vertex)
     return v;
 }
 
+/// How far, in the units of x / w, the edge from a to b is at most from one whose function is linear in time and the
+/// same at both ends: where all w > 0, among the samples between the least and the greatest x / w and y / w of its
+/// vertices. The same from b to a, bit for bit; NaN for an edge without length. Error: 16 2^-p of the result, and 32
+/// 2^-p times the products X_i Y_j + Y_i X_j by which errors of coefficients are given, over the least slope of the
+/// edge function.
+GNOMON_KERNEL Real moving_edge_bend(GNOMON_T(moving_vertex) a, GNOMON_T(moving_vertex) b)
+{
+    Real a_x0 = a.x0 / a.w0;
+    Real a_x1 = a.x1 / a.w1;
+    Real a_y0 = a.y0 / a.w0;
+    Real a_y1 = a.y1 / a.w1;
+    Real b_x0 = b.x0 / b.w0;
+    Real b_x1 = b.x1 / b.w1;
+    Real b_y0 = b.y0 / b.w0;
+    Real b_y1 = b.y1 / b.w1;
+    Real low_x = gnomon_min(gnomon_min(a_x0, a_x1), gnomon_min(b_x0, b_x1));
+    Real low_y = gnomon_min(gnomon_min(a_y0, a_y1), gnomon_min(b_y0, b_y1));
+    Real high_x = gnomon_max(gnomon_max(a_x0, a_x1), gnomon_max(b_x0, b_x1));
+    Real high_y = gnomon_max(gnomon_max(a_y0, a_y1), gnomon_max(b_y0, b_y1));
+    Real x = Real(0.5) * (low_x + high_x);
+    Real y = Real(0.5) * (low_y + high_y);
+    GNOMON_T(moving_vertex) p = moving_vertex_from(a, x, y);
+    GNOMON_T(moving_vertex) q = moving_vertex_from(b, x, y);
+    GNOMON_T(edge_field) f = edge_field_of(p, q);
+    GNOMON_T(sample_plane)
+    bend = homogeneous_line(p.x1 - p.x0, p.y1 - p.y0, p.w1 - p.w0, q.x1 - q.x0, q.y1 - q.y0, q.w1 - q.w0);
+    Real most = gnomon_abs(bend.c) +
+                Real(0.5) * (gnomon_abs(bend.x) * (high_x - low_x) + gnomon_abs(bend.y) * (high_y - low_y));
+    // A distance is the value over the slope, which in between is least where it is nearest to 0 on a line.
+    Real turn_x = f.e2.x - f.e0.x;
+    Real turn_y = f.e2.y - f.e0.y;
+    Real turn = turn_x * turn_x + turn_y * turn_y;
+    Real nearest = saturate_or_zero(Real(-1) * (f.e0.x * turn_x + f.e0.y * turn_y) / turn);
+    Real slope_x = f.e0.x + nearest * turn_x;
+    Real slope_y = f.e0.y + nearest * turn_y;
+    return Real(0.25) * most / gnomon_sqrt(slope_x * slope_x + slope_y * slope_y);
+}
+
 /// Samples are then given relative to the origin, best one near them. Error of a coefficient at sample s, like that of
 /// the covered times: 64 2^-p (X_i Y_j + Y_i X_j), X = max(|x| + (|origin_x| + |s_x|) |w|) over the shutter's ends and
 /// Y alike, p the bits of the significand.
@@ -119,6 +164,26 @@ GNOMON_KERNEL GNOMON_T(moving_edges) moving_field_edges(GNOMON_T(moving_field) f
     e.a = edge_field_at(f.a, s_x, s_y);
     e.b = edge_field_at(f.b, s_x, s_y);
     e.c = edge_field_at(f.c, s_x, s_y);
+    return e;
+}
+
+/// The same for an edge function that is linear in time: its middle coefficient is the mean of the others.
+GNOMON_KERNEL GNOMON_T(moving_edge) linear_field_at(GNOMON_T(edge_field) f, Real s_x, Real s_y)
+{
+    GNOMON_T(moving_edge) e;
+    e.e0 = sample_plane_at(f.e0, s_x, s_y);
+    e.e2 = sample_plane_at(f.e2, s_x, s_y);
+    e.e1 = Real(0.5) * (e.e0 + e.e2);
+    return e;
+}
+
+/// For linear_coverage.
+GNOMON_KERNEL GNOMON_T(moving_edges) linear_field_edges(GNOMON_T(moving_field) f, Real s_x, Real s_y)
+{
+    GNOMON_T(moving_edges) e;
+    e.a = linear_field_at(f.a, s_x, s_y);
+    e.b = linear_field_at(f.b, s_x, s_y);
+    e.c = linear_field_at(f.c, s_x, s_y);
     return e;
 }
 
@@ -221,6 +286,14 @@ GNOMON_KERNEL Real depth_curve_at(GNOMON_T(depth_curve) c, Real t)
     Real numerator = (c.n0 * s + c.n1 * t) * (s * s) + (c.n2 * s + c.n3 * t) * (t * t);
     Real denominator = (c.d0 * s + c.d1 * t) * s + c.d2 * (t * t);
     Real z = (c.z0 * s + c.z1 * t) + numerator / denominator;
+    return gnomon_max(gnomon_min(z, c.most), c.least); // a NaN becomes the most
+}
+
+/// The same where N and D are linear in time: edges are, and depths of vertices move alike. Error: as above.
+GNOMON_KERNEL Real linear_depth_at(GNOMON_T(depth_curve) c, Real t)
+{
+    Real s = Real(1) - t;
+    Real z = (c.z0 * s + c.z1 * t) + (c.n0 * s + c.n3 * t) / (c.d0 * s + c.d2 * t);
     return gnomon_max(gnomon_min(z, c.most), c.least); // a NaN becomes the most
 }
 
