@@ -17,11 +17,13 @@
 
 namespace gnomon::parity {
 
-/// A kernel by its shape: how many numbers go in and come out, in the blocks of ../support/kernel_call.hpp.
+/// A kernel by its shape: how many numbers go in and come out, in the blocks of ../support/kernel_call.hpp; unit:
+/// whether they come out in [0, 1] whatever goes in.
 struct kernel {
     const char* name;
     std::size_t inputs, outputs;
     const char* families;
+    bool unit;
 };
 
 /// How two_product finds the error of a product (numerics/two_product.h): by Dekker's splitting, as shaders do, or by
