@@ -36,7 +36,7 @@ void gnomon::demo::motion_analytic(const settings& how)
     facts["static"] = resting.facts;
     rows.insert(rows.end(), resting.rows.begin(), resting.rows.end());
     progress("motion_analytic", "memory and time of maps against number and speed of cubes");
-    facts["memory"] = cube_curves(cube_cases(), size.map_resolution);
+    facts["memory"] = cube_curves(cube_cases(), 2 * size.map_resolution);
     toolbox::write_file(folder / "facts.json", facts.dump(1));
     toolbox::merge_report(how.out / "report.json", rows);
 }

@@ -25,10 +25,6 @@ using map = range_map<float>;
 
 constexpr std::size_t texels_per_tile = map::texels_per_tile, packs_per_tile = moving_samples::packs_per_tile;
 
-struct range_pack {
-    texel_pack t0, t1, z0, z1;
-};
-
 // What a triangle adds to a pack of texels.
 struct loose_pack {
     texel_lanes t0, t1, z0, z1;
@@ -77,17 +73,21 @@ class texel_lists {
     void append_to(stack<depth_time_range<float>>& all, std::span<std::uint32_t, texel_pack::size> counts) const
     {
         depth_time_range<float>*const begin = all.room_for(room() + 1), *end = begin;
+        const std::span<const loose_pack> packs = packs_.used();
         auto held = held_.begin();
         for (std::size_t i = 0; i < texel_pack::size; ++i) {
-            const auto* const first = end;
-            end = std::copy_n(held, held_counts_[i], end);
-            held += held_counts_[i];
-            // Without branches: what does not exist is overwritten.
-            for (const loose_pack& p : packs_.used()) {
-                *end = {p.t0[i], p.t1[i], p.z0[i], p.z1[i], p.id};
-                end += p.exists >> i & 1;
+            std::uint32_t count = held_counts_[i];
+            if (count > 0) {
+                end = std::copy_n(held, count, end);
+                held += count;
             }
-            counts[i] = static_cast<std::uint32_t>(end - first);
+            // Without branches: what does not exist is overwritten.
+            for (const loose_pack& p : packs) {
+                const std::uint32_t exists = p.exists >> i & 1;
+                *end = {p.t0[i], p.t1[i], p.z0[i], p.z1[i], p.id};
+                end += exists, count += exists;
+            }
+            counts[i] = count;
         }
         all.grow(std::size_t(end - begin));
     }
@@ -162,9 +162,7 @@ GNOMON_INLINE std::uint64_t add_interval(const sighting& at, const Sight& sight,
     const std::uint64_t seen = bits_of(exists);
     std::uint64_t straight = seen;
     if (at.tolerance > 0) {
-        // Depth that bends departs from its line most somewhere in the middle.
-        const texel_pack half(0.5f), middle = sight.depth(half * (opening + closing));
-        const auto bent = exists && gnomon_abs(middle - half * (whole.z0 + whole.z1)) > texel_pack(0.5f * at.tolerance);
+        const auto bent = exists && sight.bends(whole, at.tolerance);
         if (gnomon_any(bent)) {
             add_pieces(at, bent, whole);
             straight &= ~bits_of(bent);

@@ -36,21 +36,16 @@ struct moving_view {
 };
 
 // Which sides of it are seen: the sign of the determinant of the corners' (x, y, w), a cubic in time, by its Bernstein
-// coefficients. One that only turns its negative side is turned around.
+// coefficients. It is the edge function across from a corner asked at this corner. One that only turns its negative
+// side is turned around.
 void set_facing(moving_setup& s, faces visible)
 {
-    const auto column = [](const moving_vertex<double>& v, bool late) {
-        return late ? glm::dvec3(v.x1, v.y1, v.w1) : glm::dvec3(v.x0, v.y0, v.w0);
-    };
-    double least = std::numeric_limits<double>::infinity(), most = -least;
-    for (int late = 0; late <= 3; ++late) {
-        double sum = 0;
-        for (unsigned which = 0; which < 8; ++which)
-            if (std::popcount(which) == late)
-                sum += glm::determinant(glm::dmat3(column(s.corners.a, which & 1), column(s.corners.b, which & 2),
-                                                   column(s.corners.c, which & 4)));
-        least = std::min(least, sum), most = std::max(most, sum);
-    }
+    const moving_vertex<double>& a = s.corners.a;
+    const edge_field<double> across = edge_field_of(s.corners.b, s.corners.c);
+    const auto open = [&](const sample_plane<double>& p) { return p.x * a.x0 + p.y * a.y0 + p.c * a.w0; };
+    const auto close = [&](const sample_plane<double>& p) { return p.x * a.x1 + p.y * a.y1 + p.c * a.w1; };
+    const auto [least, most] = std::minmax({open(across.e0), close(across.e0) + 2 * open(across.e1),
+                                            2 * close(across.e1) + open(across.e2), close(across.e2)});
     // Texels count rows downwards: what turns its front to the eye runs clockwise.
     s.positive = most > 0 && visible != faces::front;
     s.negative = least < 0 && visible != faces::back;
@@ -127,7 +122,11 @@ template <class Visit> void for_each_tile(const moving_setup& s, const Visit& vi
 {
     const glm::ivec2 low = s.first / moving_tile_size, extent = s.last / moving_tile_size - low + 1;
     const int count = extent.x * extent.y;
-    if (count == 1) return visit(low);
+    if (count <= 2) { // it reaches into both
+        visit(low);
+        if (count == 2) visit(low + extent - 1);
+        return;
+    }
     const glm::dvec2 origin = double(moving_tile_size) * (glm::dvec2(low) + 0.5 * glm::dvec2(extent));
     const touched_cells touched(numbers_as<float>(moving_field_of(s.corners, origin.x, origin.y)), s,
                                 0.5f * float(moving_tile_size) + tile_triangle::margin);
@@ -212,11 +211,13 @@ texel_pack curved_sight::depth_of_corners(const moving_setup& s, moving_edges<te
 void tile_members::assign(const tiled_triangles& scenery, std::size_t tile)
 {
     triangles_.clear();
-    for (auto& members : blocks_) members.clear();
+    touching_.clear();
     const moving_tile where = scenery.tile(tile);
     scenery.for_each(tile, [&](const moving_setup& s) {
-        const auto number = static_cast<std::uint32_t>(triangles_.size());
-        triangles_.emplace_back(s, where).for_each_block([&](std::size_t block) { blocks_[block].push_back(number); });
+        const std::size_t i = triangles_.size() % 64;
+        if (i == 0) touching_.emplace_back();
+        const std::uint64_t blocks = triangles_.emplace_back(s, where).blocks();
+        for_each_bit(blocks, [&](std::size_t block) { touching_.back()[block] |= std::uint64_t(1) << i; });
     });
 }
 

@@ -192,6 +192,10 @@ struct moving_samples {
     }
 };
 
+struct range_pack {
+    texel_pack t0, t1, z0, z1;
+};
+
 // What of a triangle a pack of samples sees.
 struct curved_sight {
     const moving_setup& of;
@@ -213,6 +217,12 @@ struct curved_sight {
     {
         return of.before_eye ? depth_curve_at(curve, t) : depth_of_corners(of, edges, t);
     }
+    // Whether depth departs from its line by more than the tolerance: most of it somewhere in the middle.
+    GNOMON_INLINE auto bends(const range_pack& r, float tolerance) const
+    {
+        const texel_pack half(0.5f);
+        return gnomon_abs(depth(half * (r.t0 + r.t1)) - half * (r.z0 + r.z1)) > texel_pack(0.5f * tolerance);
+    }
 
     // Without a field: for triangles that are not before the eye all of the time.
     static texel_pack depth_of_corners(const moving_setup& s, moving_edges<texel_pack> edges, const texel_pack& t);
@@ -228,6 +238,14 @@ struct linear_sight {
         return linear_coverage(facing < 0 ? turned(edges) : edges);
     }
     GNOMON_INLINE texel_pack depth(const texel_pack& t) const { return linear_depth_at(curve, t); }
+    // With N / D of a depth_curve it departs by (N1 / D1 - N0 / D0) (D1 - D0) / (sqrt(D0) + sqrt(D1))^2 at most.
+    GNOMON_INLINE auto bends(const range_pack& r, float tolerance) const
+    {
+        const auto d = [&](const texel_pack& t) { return curve.d0 * (texel_pack(1.f) - t) + curve.d2 * t; };
+        const texel_pack before = d(r.t0), after = d(r.t1);
+        const texel_pack rise = (r.z1 - r.z0) - (curve.z1 - curve.z0) * (r.t1 - r.t0);
+        return gnomon_abs(rise * (after - before)) > texel_pack(tolerance) * gnomon_abs(before + after);
+    }
 };
 
 // A triangle in one tile.
@@ -237,13 +255,15 @@ class tile_triangle {
 
     const moving_setup& setup() const { return *setup_; }
 
-    // Calls visit(number of the block) for blocks whose samples it covers at some time.
-    template <class Visit> void for_each_block(const Visit& visit) const
+    // A bit for each block whose samples it covers at some time.
+    std::uint64_t blocks() const
     {
         constexpr int count = moving_blocks * moving_blocks;
         static constexpr auto middle_x = moving_places<count, moving_blocks, moving_block_size, false>(),
                               middle_y = moving_places<count, moving_blocks, moving_block_size, true>();
-        if (low_ == high_) return visit(std::size_t(low_.y * moving_blocks + low_.x));
+        const auto number = [](const glm::ivec2& block) { return std::size_t(block.y * moving_blocks + block.x); };
+        const std::uint64_t ends = std::uint64_t(1) << number(low_) | std::uint64_t(1) << number(high_);
+        if (high_.x - low_.x + high_.y - low_.y < 2) return ends; // it reaches into both
         const touched_cells touched(field_, *setup_, 0.5f * float(moving_block_size - 1) + margin);
         const std::size_t lanes = texel_pack::size, end = std::size_t((high_.y + 1) * moving_blocks);
         std::uint64_t blocks = 0;
@@ -251,7 +271,7 @@ class tile_triangle {
             blocks |= touched(texel_pack::load_unaligned(&middle_x[i]), texel_pack::load_unaligned(&middle_y[i])) << i;
         // Not beyond where its corners are seen.
         const std::uint64_t columns = (std::uint64_t(2) << high_.x) - (std::uint64_t(1) << low_.x);
-        for_each_bit(blocks & columns * 0x0101010101010101, visit);
+        return blocks & columns * 0x0101010101010101;
     }
 
     GNOMON_INLINE curved_sight curved(const moving_samples& s) const
@@ -297,12 +317,13 @@ class tile_members {
     // Calls visit(triangle) for those of a block, in the order of their numbers.
     template <class Visit> void for_each(std::size_t block, const Visit& visit) const
     {
-        for (const std::uint32_t i : blocks_[block]) visit(triangles_[i]);
+        for (std::size_t k = 0; k < touching_.size(); ++k)
+            for_each_bit(touching_[k][block], [&](std::size_t i) { visit(triangles_[64 * k + i]); });
     }
 
   private:
     std::vector<tile_triangle> triangles_;
-    std::array<std::vector<std::uint32_t>, std::size_t(moving_blocks* moving_blocks)> blocks_;
+    std::vector<std::array<std::uint64_t, 64>> touching_; // of 64 triangles each, by blocks, a bit for each triangle
 };
 
 } // namespace gnomon::toolbox
