@@ -147,8 +147,8 @@ TEST_CASE_TEMPLATE("linear_coverage: what moving_coverage gives for such edges, 
 }
 
 // Six triangles around a vertex that passes near the sample, within a ring that keeps away from both.
-// Half of them move alike, on a grid on which sums are exact. Any spokes of these may be taken for what they are, linear
-// in time, and the others not.
+// Half of them move alike, on a grid on which sums are exact. Any spokes of these may be taken for what they are,
+// linear in time, and the others not.
 TEST_CASE_TEMPLATE("a fan of triangles covers a sample at every time, without a crack", T, float, double)
 {
     bit_source bits(6);

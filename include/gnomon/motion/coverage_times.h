@@ -140,8 +140,8 @@ GNOMON_KERNEL GNOMON_T(ordered4) ordered4_of(Real a, Real b, Real c, Real d)
 GNOMON_KERNEL GNOMON_T(coverage_times)
     edge_times_together(GNOMON_T(edge_times) a, GNOMON_T(edge_times) b, GNOMON_T(edge_times) c)
 {
-    Real begin = gnomon_max(gnomon_max(a.begin, b.begin), c.begin);
-    Real end = gnomon_min(gnomon_min(a.end, b.end), c.end);
+    Real begin = gnomon_max(gnomon_max(gnomon_max(a.begin, b.begin), c.begin), Real(0));
+    Real end = gnomon_min(gnomon_min(gnomon_min(a.end, b.end), c.end), Real(1));
     Real none = GNOMON_LITERAL(coverage_none);
     GNOMON_MASK some = begin < end;
     GNOMON_T(coverage_times) x;
@@ -154,7 +154,17 @@ GNOMON_KERNEL GNOMON_T(coverage_times)
     x.end2 = none;
     x.begin3 = none;
     x.end3 = none;
-    if (gnomon_any(some && gnomon_min(gnomon_min(a.gap_begin, b.gap_begin), c.gap_begin) < none)) {
+    GNOMON_MASK gap_a = a.gap_begin < none;
+    GNOMON_MASK gap_b = b.gap_begin < none;
+    GNOMON_MASK gap_c = c.gap_begin < none;
+    if (gnomon_any(some && (gap_a || gap_b || gap_c))) {
+        // What comes from elsewhere may have ends without begins: in a pack no lane depends on the others.
+        a.gap_begin = gnomon_select(gap_a, a.gap_begin, none);
+        b.gap_begin = gnomon_select(gap_b, b.gap_begin, none);
+        c.gap_begin = gnomon_select(gap_c, c.gap_begin, none);
+        a.gap_end = gnomon_select(gap_a, a.gap_end, none);
+        b.gap_end = gnomon_select(gap_b, b.gap_end, none);
+        c.gap_end = gnomon_select(gap_c, c.gap_end, none);
         // In order, each by itself, the gaps' begins and ends bound what is outside of all gaps: a time is there when
         // as many have begun as have ended.
         GNOMON_T(ordered4) starts = ordered4_of(a.gap_begin, b.gap_begin, c.gap_begin, none);
@@ -165,10 +175,10 @@ GNOMON_KERNEL GNOMON_T(coverage_times)
         Real end0 = gnomon_min(end, starts.first);
         Real end1 = gnomon_min(end, starts.second);
         Real end2 = gnomon_min(end, starts.third);
-        GNOMON_MASK some0 = begin < end0;
-        GNOMON_MASK some1 = begin1 < end1;
-        GNOMON_MASK some2 = begin2 < end2;
-        GNOMON_MASK some3 = begin3 < end;
+        GNOMON_MASK some0 = some && begin < end0;
+        GNOMON_MASK some1 = some && begin1 < end1;
+        GNOMON_MASK some2 = some && begin2 < end2;
+        GNOMON_MASK some3 = some && begin3 < end;
         // The empty ones go to the end, the others keep their order.
         starts = ordered4_of(gnomon_select(some0, begin, none), gnomon_select(some1, begin1, none),
                              gnomon_select(some2, begin2, none), gnomon_select(some3, begin3, none));
