@@ -38,6 +38,12 @@ GNOMON_KERNEL Real shutter_weight(Real w)
     return gnomon_select(Real(0) < w, gnomon_min(w, GNOMON_LITERAL(shutter_weight_limit)), Real(0));
 }
 
+/// What of the sum a weight is, an eighth where there is no sum. In [0, 1] where division is not exact, too.
+GNOMON_KERNEL Real shutter_share(Real weight, Real sum)
+{
+    return gnomon_select(Real(0) < sum, saturate_or_zero(weight / sum), Real(0.125));
+}
+
 /// Any eight weights made to sum to 1, negative ones and NaN as 0; where none is left, eight equal ones, a box. Once
 /// for a shutter, not for each range.
 GNOMON_KERNEL GNOMON_T(shutter_weights) shutter_weights_of(GNOMON_T(shutter_weights) given)
@@ -52,15 +58,14 @@ GNOMON_KERNEL GNOMON_T(shutter_weights) shutter_weights_of(GNOMON_T(shutter_weig
     w.w6 = shutter_weight(given.w6);
     w.w7 = shutter_weight(given.w7);
     Real sum = ((w.w0 + w.w1) + (w.w2 + w.w3)) + ((w.w4 + w.w5) + (w.w6 + w.w7));
-    GNOMON_MASK some = Real(0) < sum;
-    w.w0 = gnomon_select(some, w.w0 / sum, Real(0.125));
-    w.w1 = gnomon_select(some, w.w1 / sum, Real(0.125));
-    w.w2 = gnomon_select(some, w.w2 / sum, Real(0.125));
-    w.w3 = gnomon_select(some, w.w3 / sum, Real(0.125));
-    w.w4 = gnomon_select(some, w.w4 / sum, Real(0.125));
-    w.w5 = gnomon_select(some, w.w5 / sum, Real(0.125));
-    w.w6 = gnomon_select(some, w.w6 / sum, Real(0.125));
-    w.w7 = gnomon_select(some, w.w7 / sum, Real(0.125));
+    w.w0 = shutter_share(w.w0, sum);
+    w.w1 = shutter_share(w.w1, sum);
+    w.w2 = shutter_share(w.w2, sum);
+    w.w3 = shutter_share(w.w3, sum);
+    w.w4 = shutter_share(w.w4, sum);
+    w.w5 = shutter_share(w.w5, sum);
+    w.w6 = shutter_share(w.w6, sum);
+    w.w7 = shutter_share(w.w7, sum);
     return w;
 }
 
