@@ -71,12 +71,12 @@ template <class T> constexpr bool is_float = std::is_same_v<T, float>;
 
 } // namespace
 
-TEST_CASE_TEMPLATE("exp: 1.1 ulp", T, float, double)
+TEST_CASE_TEMPLATE("exp: 1 ulp in float, 1.2 in double", T, float, double)
 {
     using std::exp;
     const auto exact = [](reference<T> x) { return reference<T>(exp(x)); };
     const auto kernel = [](T x) { return polynomial_exp(x); };
-    check_ulp(1.1, T(1e-9), is_float<T> ? T(87) : T(708), kernel, exact);
+    check_ulp(is_float<T> ? 1 : 1.2, T(1e-9), is_float<T> ? T(87) : T(708), kernel, exact);
     CHECK(polynomial_exp(T(0)) == T(1));
     CHECK(polynomial_exp(T(1e9)) == polynomial_exp(is_float<T> ? T(88) : T(709)));
     CHECK(polynomial_exp(T(-1e9)) == polynomial_exp(is_float<T> ? T(-87) : T(-708)));
@@ -84,16 +84,16 @@ TEST_CASE_TEMPLATE("exp: 1.1 ulp", T, float, double)
     CHECK(polynomial_exp(-std::numeric_limits<T>::infinity()) >= std::numeric_limits<T>::min());
 }
 
-TEST_CASE_TEMPLATE("log: 1.1 ulp", T, float, double)
+TEST_CASE_TEMPLATE("log: 0.9 ulp", T, float, double)
 {
     using std::log;
     const auto exact = [](reference<T> x) { return reference<T>(log(abs(x))); };
     const auto kernel = [](T x) { return polynomial_log(std::abs(x)); };
     const T low = std::numeric_limits<T>::min();
     const T high_end = std::numeric_limits<T>::max() / T(2);
-    check_ulp(1.1, low, std::nextafter(T(1), T(0)), kernel, exact);
-    check_ulp(1.1, T(0.5), T(2), kernel, exact);
-    check_ulp(1.1, T(2), high_end, kernel, exact);
+    check_ulp(0.9, low, std::nextafter(T(1), T(0)), kernel, exact);
+    check_ulp(0.9, T(0.5), T(2), kernel, exact);
+    check_ulp(0.9, T(2), high_end, kernel, exact);
     CHECK(polynomial_log(T(1)) == T(0));
     CHECK(polynomial_log(T(-1)) == polynomial_log(low));
     CHECK(polynomial_log(std::numeric_limits<T>::infinity()) < T(720));
@@ -121,7 +121,7 @@ TEST_CASE_TEMPLATE("cos and sin: 1.5 ulp near 0, 1.75 2^-p beyond", T, float, do
     CHECK(polynomial_cos(T(1e9)) == polynomial_cos(T(8192)));
 }
 
-TEST_CASE_TEMPLATE("atan2: 2.5 ulp in every direction", T, float, double)
+TEST_CASE_TEMPLATE("atan2: 2.6 ulp in every direction", T, float, double)
 {
     using std::atan2;
     row worst;
@@ -133,7 +133,7 @@ TEST_CASE_TEMPLATE("atan2: 2.5 ulp in every direction", T, float, double)
             worst.add(e, double(q / x));
         }
     });
-    CHECK_MESSAGE(worst.error <= 2.5, worst.error << " ulp at y / x = " << worst.where);
+    CHECK_MESSAGE(worst.error <= 2.6, worst.error << " ulp at y / x = " << worst.where);
     const T infinity = std::numeric_limits<T>::infinity();
     const T pi = T(3.14159265358979324);
     CHECK(polynomial_atan2(T(0), T(0)) == T(0));

@@ -13,7 +13,7 @@ GNOMON_CONSTANT(exp_ln2_low, -2.1219444005469058e-4);
 GNOMON_CONSTANT(exp_sqrt_2, 1.4142135623730951);
 GNOMON_CONSTANT(exp_sqrt_half, 0.70710678118654752);
 
-// exp x = 1 + x + x^2 p(x), |x| <= ln 2 / 2: relative error 2^-28.3 and 2^-57.9.
+// exp x = 1 + x + x^2 p(x), |x| <= ln 2 / 2: relative error 2^-28.0 and 2^-57.4, coefficients rounded.
 GNOMON_CONSTANT(exp_float_0, 0.49999993561656014);
 GNOMON_CONSTANT(exp_float_1, 0.16666518908321371);
 GNOMON_CONSTANT(exp_float_2, 0.041668318723256166);
@@ -30,7 +30,7 @@ GNOMON_CONSTANT(exp_double_7, 2.7557554255829581e-06);
 GNOMON_CONSTANT(exp_double_8, 2.7630720120614683e-07);
 GNOMON_CONSTANT(exp_double_9, 2.5011956595275024e-08);
 
-// 2 artanh y = 2 y + y^3 p(y^2), |y| <= (sqrt 2 - 1) / (sqrt 2 + 1): relative error 2^-30.2 and 2^-59.5.
+// 2 artanh y = 2 y + y^3 p(y^2), |y| <= (sqrt 2 - 1) / (sqrt 2 + 1): relative error 2^-30.2 and 2^-59.3.
 GNOMON_CONSTANT(log_float_0, 0.66666776085218282);
 GNOMON_CONSTANT(log_float_1, 0.39977574040563962);
 GNOMON_CONSTANT(log_float_2, 0.29870936689734456);
@@ -43,7 +43,8 @@ GNOMON_CONSTANT(log_double_5, 0.15314098871014789);
 GNOMON_CONSTANT(log_double_6, 0.14795474816803084);
 
 /// e^x. Valid range: [-87, 88] in float, [-708, 709] in double; beyond an end its value there, so the result is always
-/// finite and a normal number; a NaN stays a NaN. Max error: 1.1 ulp in float and in double.
+/// finite and a normal number; a NaN stays a NaN. Max error: 1 ulp in float, 1.2 in double, where taking 1023 ln 2 off
+/// the argument costs up to 3 2^-56 of the result, nearly 0.4 ulp.
 GNOMON_KERNEL Real polynomial_exp(Real x)
 {
     Real low = Real(-87);
@@ -93,7 +94,7 @@ GNOMON_KERNEL GNOMON_T(scaled_number) scaled_number_step(GNOMON_T(scaled_number)
 }
 
 /// The natural logarithm. Valid range: [2^-126, 2^127] in float, [2^-1022, 2^1023] in double; beyond an end, at 0 and
-/// below it, its value at that end; a NaN stays a NaN. Max error: 1.1 ulp in float and in double.
+/// below it, its value at that end; a NaN stays a NaN. Max error: 0.9 ulp in float and in double.
 GNOMON_KERNEL Real polynomial_log(Real x)
 {
     GNOMON_T(scaled_number) s;
