@@ -1,5 +1,6 @@
 // Algorithm 2: two depths from three moments, against the two depths that the moments came from, and against the
 // moments.
+#include "../support/climber.hpp"
 #include "../support/distributions.hpp"
 #include "../support/effort.hpp"
 
@@ -8,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -94,4 +96,35 @@ TEST_CASE_TEMPLATE("no variance, one depth; no information, the far plane", T, f
     CHECK(two_point_distribution(nan, T(0), T(0), T(0)).depth1 == T(1));
     CHECK(two_point_distribution(T(0), nan, T(0), T(0)).depth2 <= T(1));
     CHECK(two_point_distribution(T(0), T(0.5), nan, T(0)).weight1 <= T(1));
+}
+
+// Whatever goes in: depths in order and in [-8193, 8193], weights in [0, 1] whose sum rounds to 1. The climb is for the
+// farthest depth; its places are bit patterns, in the order of the numbers.
+TEST_CASE_TEMPLATE("any bit pattern: two depths within 8193 of 0", T, float, double)
+{
+    using word = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+    const T least_variance = std::is_same_v<T, float> ? T(two_point_least_variance) : T(0x1p-48);
+    const auto pattern = [](double place) {
+        const double half = std::abs(2 * place - 1);
+        const auto magnitude = word(half * std::ldexp(1.0, 8 * int(sizeof(T)) - 1) * (1 - 0x1p-53));
+        const T x = std::bit_cast<T>(magnitude);
+        return place < 0.5 ? -x : x;
+    };
+    const auto farthest = [](const distribution2<T>& d) {
+        const bool holds = d.depth1 <= d.depth2 && d.weight1 >= 0 && d.weight2 >= 0 && d.weight1 + d.weight2 == T(1);
+        return holds ? std::max(-double(d.depth1), double(d.depth2)) : HUGE_VAL;
+    };
+    const summit any = climb(4, 300'000, 1, [&](const std::vector<double>& p) {
+        return farthest(two_point_distribution(pattern(p[0]), pattern(p[1]), pattern(p[2]), pattern(p[3])));
+    });
+    CHECK(any.score <= 8193);
+    CHECK(any.score > 2000); // the search gets there
+    const summit near = climb(3, 300'000, 2, [&](const std::vector<double>& p) {
+        return farthest(two_point_distribution(T(8 * p[0] - 4), T(std::exp2(60 * p[1] - 25)),
+                                               T(std::exp2(70 * p[2] - 35)), least_variance));
+    });
+    CHECK(near.score <= 8193);
+    CHECK(near.score > 4096);
+    // Depths of 10000 once.
+    CHECK(farthest(two_point_distribution(T(0), T(6e7), T(2.4e11), least_variance)) <= 8193);
 }

@@ -16,8 +16,8 @@ GNOMON_CONSTANT(two_point_least_variance, 1.1920928955078125e-7); // 2^-23
 
 /// The distribution with moments b1, b2, b3 of depths in [-1, 1]. Where the variance is not above least_variance, the
 /// most that rounding makes of none (two_point_least_variance for moments stored as floats), a single depth b1: the
-/// algorithm's domain ends there. For moments of no distribution on [-1, 1] depths may lie outside, within 2^13 of the
-/// mean; a NaN gives a single depth at the far plane.
+/// algorithm's domain ends there. For moments of no distribution on [-1, 1] depths may lie outside, in [-8193, 8193]:
+/// where they would be more than 2^13 apart, b1 in [-1, 1] is the single depth. A NaN gives one at the far plane.
 GNOMON_KERNEL GNOMON_T(distribution2) two_point_distribution(Real b1, Real b2, Real b3, GNOMON_SETTING least_variance)
 {
     GNOMON_T(double_word) v = subtract_product_ordered(b2, b1, b1);
@@ -33,7 +33,7 @@ GNOMON_KERNEL GNOMON_T(distribution2) two_point_distribution(Real b1, Real b2, R
     Real x2 = gnomon_max(far_side, near_side);
     Real any_nan = variance + (c.high + c.low);
     GNOMON_MASK known = any_nan == any_nan;
-    GNOMON_MASK two = known && (!single) && (x2 - x1 > Real(0)) && (x2 - x1 < Real(16384));
+    GNOMON_MASK two = known && (!single) && (x2 - x1 > Real(0)) && (x2 - x1 < Real(8192));
     Real centre = gnomon_select(known, mean, Real(1));
     GNOMON_T(distribution2) d;
     d.depth1 = gnomon_select(two, mean + x1, centre);
