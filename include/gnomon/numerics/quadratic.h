@@ -6,9 +6,9 @@ GNOMON_NAMESPACE_BEGIN
 
 GNOMON_STRUCT quadratic_result { Real first, second; };
 
-/// Both roots, in no order, within 4 ulp where b^2 and a c do not cancel; complex ones are taken for their common real
-/// part. A vanishing a sends one to infinity; all zero gives NaN. Overflow and underflow of b^2 and a c are the
-/// caller's to prevent.
+/// Both roots, in no order; complex ones are taken for their common real part. Max error: 4 ulp where a c <= b^2 / 2,
+/// by as many roundings. A vanishing a sends one to infinity; all zero gives NaN. Overflow and underflow of b^2 and a c
+/// are the caller's to prevent.
 GNOMON_KERNEL GNOMON_T(quadratic_result) quadratic_roots(Real a, Real b, Real c)
 {
     Real r = gnomon_sqrt(gnomon_max(b * b - a * c, Real(0)));
@@ -19,8 +19,8 @@ GNOMON_KERNEL GNOMON_T(quadratic_result) quadratic_roots(Real a, Real b, Real c)
     return x;
 }
 
-/// The negative root where a < 0 < c, so that one is on either side of 0: one division, and nothing cancels. Within 3
-/// ulp.
+/// The negative root where a < 0 < c, so that one is on either side of 0: one division, and nothing cancels. Max
+/// error: 4 ulp, by as many roundings.
 GNOMON_KERNEL Real quadratic_negative_root(Real a, Real b, Real c)
 {
     Real r = gnomon_sqrt(b * b - a * c);

@@ -23,7 +23,8 @@ GNOMON_KERNEL Real dekker_product_error(Real a, Real b, Real p)
 }
 
 /// a b exactly. Domain: |a|, |b| <= 2^100 and |a b| = 0 or >= 2^-100 in float (2^900, 2^-900 in double); there the
-/// fused and the split route give the same bits. Below, low is within the smallest denormal of the error.
+/// fused and the split route give the same bits. Below, low is within two of the smallest denormals of the
+/// error: each of the split route's four products rounds by half of one.
 GNOMON_KERNEL GNOMON_T(double_word) two_product(Real a, Real b)
 {
     GNOMON_T(double_word) r;
@@ -46,7 +47,7 @@ GNOMON_KERNEL GNOMON_T(double_word) two_difference(Real a, Real b)
     return r;
 }
 
-/// a - b exactly where |a| >= |b| or a = 0 (Dekker); elsewhere low carries an error of a rounding of a.
+/// a - b exactly where |a| >= |b| or a = 0 (Dekker); elsewhere low is off by up to a rounding of b.
 GNOMON_KERNEL GNOMON_T(double_word) two_difference_ordered(Real a, Real b)
 {
     GNOMON_T(double_word) r;
@@ -64,7 +65,7 @@ GNOMON_KERNEL GNOMON_T(double_word) subtract_product(Real c, Real a, Real b)
     return r;
 }
 
-/// The same for |c| >= |a b|; elsewhere low carries an error of a rounding of c.
+/// The same for |c| >= |a b|; elsewhere low is off by up to a rounding of a b.
 GNOMON_KERNEL GNOMON_T(double_word) subtract_product_ordered(Real c, Real a, Real b)
 {
     GNOMON_T(double_word) p = two_product(a, b);
@@ -73,14 +74,14 @@ GNOMON_KERNEL GNOMON_T(double_word) subtract_product_ordered(Real c, Real a, Rea
     return r;
 }
 
-/// c - a b within 2 roundings of the exact value, whatever cancels: where c and a b do, their difference is exact.
+/// c - a b within 2 roundings of its value, whatever cancels: where c and a b do, their difference is exact.
 GNOMON_KERNEL Real subtract_product_rounded(Real c, Real a, Real b)
 {
     GNOMON_T(double_word) p = two_product(a, b);
     return (c - p.high) - p.low;
 }
 
-/// a b - c d within 2 roundings of the exact value, whatever cancels.
+/// a b - c d within 2 roundings of its value, whatever cancels.
 /// Source: Jeannerod, Louvet & Muller 2013, "Further analysis of Kahan's algorithm for the accurate computation of 2x2
 /// determinants".
 GNOMON_KERNEL Real difference_of_products(Real a, Real b, Real c, Real d)
@@ -90,7 +91,8 @@ GNOMON_KERNEL Real difference_of_products(Real a, Real b, Real c, Real d)
     return (p.high - q.high) + (p.low - q.low);
 }
 
-/// a b - c d for double words, as a double word: relative error below 2^-40 (|a b| + |c d|) in float.
+/// a b - c d for double words, as a double word. Error: 2^-40 (|a b| + |c d|) in float, 2^-98 in double, for lows of at
+/// most 2^-20 (2^-49) of their highs.
 GNOMON_KERNEL GNOMON_T(double_word) double_word_minor(GNOMON_T(double_word) a, GNOMON_T(double_word) b,
                                                       GNOMON_T(double_word) c, GNOMON_T(double_word) d)
 {
@@ -102,7 +104,7 @@ GNOMON_KERNEL GNOMON_T(double_word) double_word_minor(GNOMON_T(double_word) a, G
     return r;
 }
 
-/// a c - b^2 for double words, rounded: relative error below 2^-40 (|a c| + b^2) in float and a rounding of the result.
+/// a c - b^2 for double words. Error: two roundings of the result, and as for double_word_minor.
 GNOMON_KERNEL Real double_word_determinant(GNOMON_T(double_word) a, GNOMON_T(double_word) b, GNOMON_T(double_word) c)
 {
     GNOMON_T(double_word) p = two_product(a.high, c.high);
