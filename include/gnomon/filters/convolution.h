@@ -45,7 +45,7 @@ GNOMON_KERNEL GNOMON_T(convolution_phase) convolution_encode(Real z, GNOMON_T(co
     return convolution_phase_at(clamp_or_nan(z, Real(-1), Real(1)), settings.span);
 }
 
-/// The next term, by rotation. Error of both values after k terms: 6 k 2^-p.
+/// The next term, by rotation. Error of both values of term k: 8 k 2^-p.
 GNOMON_KERNEL GNOMON_T(convolution_phase) convolution_next(GNOMON_T(convolution_phase) phase)
 {
     GNOMON_T(convolution_phase) r = phase;

@@ -11,7 +11,8 @@ GNOMON_NAMESPACE_BEGIN
 GNOMON_STRUCT exponential_variance_moments { Real positive, positive_square, negative, negative_square; };
 
 /// The exponents c+ and c-, and the minimum variance of the depth, before the warp. The paper has c+ = c- = 5.54 for
-/// half floats, whose range exp(2 c) fills, and c+ = 40, c- = 5.54 for floats.
+/// half floats, whose range exp(2 c) fills, and c+ = 40, c- = 5.54 for floats. In float exponents of at most 40
+/// keep every product finite.
 GNOMON_STRUCT exponential_variance_settings { Real positive_exponent, negative_exponent, minimum_variance; };
 
 /// The texel of a depth z in [-1, 1]. Relative error of each value: (2 c + 4) 2^-p.
@@ -27,11 +28,13 @@ GNOMON_KERNEL GNOMON_T(exponential_variance_moments)
 }
 
 /// Cantelli's bound with the minimum variance carried through the warp's derivative at the receiver: |c warped|.
-/// Squares of a warped depth near 0 would be denormal, slow and inexact: below 1 everything is scaled by 2^50, exactly.
+/// Squares of a warped depth near 0 would be denormal, slow and inexact: where receiver and mean are below 1 everything
+/// is scaled by 2^50, exactly. A larger mean needs no scale, and its square could overflow.
 GNOMON_KERNEL Real exponential_variance_side(GNOMON_T(variance_moments) moments, Real warped, Real exponent,
                                              Real minimum_variance)
 {
-    Real scale = gnomon_select(gnomon_abs(warped) < Real(1), Real(1125899906842624.0), Real(1));
+    Real scale = gnomon_select(gnomon_max(gnomon_abs(warped), gnomon_abs(moments.mean)) < Real(1),
+                               Real(1125899906842624.0), Real(1));
     moments.mean = moments.mean * scale;
     moments.square = moments.square * (scale * scale);
     Real slope = exponent * (warped * scale);
