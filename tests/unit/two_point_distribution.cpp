@@ -98,6 +98,19 @@ TEST_CASE_TEMPLATE("no variance, one depth; no information, the far plane", T, f
     CHECK(two_point_distribution(T(0), T(0.5), nan, T(0)).weight1 <= T(1));
 }
 
+// Three roundings, of b2 and twice of b1, make 3 2^-25 at most.
+TEST_CASE("a single depth in moments stored as floats stays below two_point_least_variance")
+{
+    const summit found = climb(1, 100'000, 1, [](const std::vector<double>& p) {
+        const double z = 2 * p[0] - 1;
+        const float b1 = float(z), b2 = float(z * z), b3 = float(z * z * z);
+        const auto d = two_point_distribution(b1, b2, b3, float(two_point_least_variance));
+        return d.depth1 == d.depth2 ? double(b2) - double(b1) * double(b1) : HUGE_VAL;
+    });
+    CHECK(found.score <= 0x3p-25);
+    CHECK(found.score > 0x2p-25);
+}
+
 // Whatever goes in: depths in order and in [-8193, 8193], weights in [0, 1] whose sum rounds to 1. The climb is for the
 // farthest depth; its places are bit patterns, in the order of the numbers.
 TEST_CASE_TEMPLATE("any bit pattern: two depths within 8193 of 0", T, float, double)

@@ -5,7 +5,7 @@
 // Each output is a polynomial in z that touches 0 and 1 on [-1, 1], and their determinant is the largest: an entropy
 // gain of 4.21 bits over storing four moments as they are, 12.51 bits for six. Entries to full precision by
 // tests/derivations; the paper's digits for six moments are a little off the optimum (range exceeded by 6e-9, entries
-// up to 3e-3 away).
+// up to 5e-3 away).
 #ifndef GNOMON_MOMENTS_QUANTIZATION_H
 #define GNOMON_MOMENTS_QUANTIZATION_H
 #include "moments.h"
