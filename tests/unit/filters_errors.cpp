@@ -46,7 +46,7 @@ struct two_depths {
     template <class T> [[nodiscard]] T receiver(double p) const
     {
         const double part = 3 * p - std::floor(3 * p), distance = std::exp2(-50 * (1 - std::abs(2 * part - 1)));
-        const wide step = part < 0.5 ? -distance : distance;
+        const wide step = wide(part < 0.5 ? -distance : distance);
         if (p < 1.0 / 3) return T(2 * part - 1);
         return T(std::clamp((p < 2.0 / 3 ? mean([](wide z) { return z; }) : z2) + step, -1.0L, 1.0L));
     }
