@@ -96,12 +96,6 @@ inline constexpr input_family<T> input_families[] = {
      [](auto put, const situation&, bit_source& bits) {
          for (const double c : monic_cubic(bits)) put(c);
      }},
-    {"cubic", 4,
-     [](auto put, const situation&, bit_source& bits) {
-         const double a = bits.uniform(1, 100);
-         put(a);
-         for (const double c : monic_cubic(bits)) put(a * c);
-     }},
     {"layer", 3,
      [](auto put, const situation&, bit_source& bits) {
          put(bits.uniform(-1, 1)), put(bits.uniform(1, 8)), put(std::exp2(bits.uniform(-26, -8)));

@@ -110,8 +110,11 @@ template <class F> void for_each_route(F f)
                               GNOMON_TEST_SETTING(bias6_raw_b6), GNOMON_TEST_SETTING(5e-6));
     });
     six("hankel6_from_unorm10", [](auto b) { return hankel6_from_unorm10(b); });
+    six("hankel6_from_unorm10_filtered", [](auto b) { return hankel6_from_unorm10_filtered(b); });
     six("hankel6_from_unorm16", [](auto b) { return hankel6_from_unorm16(b); });
+    six("hankel6_from_unorm16_filtered", [](auto b) { return hankel6_from_unorm16_filtered(b); });
     six("hankel6_from_float", [](auto b) { return hankel6_from_float(b); });
+    six("hankel6_from_float_filtered", [](auto b) { return hankel6_from_float_filtered(b); });
     f(two_point_route{});
 }
 

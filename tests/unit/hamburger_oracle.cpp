@@ -1,6 +1,6 @@
 // The error rows of hamburger4.h and hamburger6.h: both bounds against the moment problem solved in 120 digits, over
-// all families of distributions, with receivers on, near and between their depths. What no mixture describes, raised
-// pivots, is held against the kernel in double, which the first rows vouch for.
+// all families of distributions, with receivers on, near and between their depths. Storage formats are held against the
+// kernel in double, which the first rows vouch for. honest_six.cpp climbs for the maxima of six moments.
 #include "../support/distributions.hpp"
 #include "../support/effort.hpp"
 #include "../support/oracle.hpp"
@@ -153,7 +153,15 @@ TEST_CASE("hamburger6, float, against double")
     const auto from_float = [](auto b) { return hankel6_from_float(b); };
     const auto from_unorm16 = [](auto b) { return hankel6_from_unorm16(b); };
     const auto from_unorm10 = [](auto b) { return hankel6_from_unorm10(b); };
+    const auto float_filtered = [](auto b) { return hankel6_from_float_filtered(b); };
+    const auto unorm16_filtered = [](auto b) { return hankel6_from_unorm16_filtered(b); };
+    const auto unorm10_filtered = [](auto b) { return hankel6_from_unorm10_filtered(b); };
     check<float, 6>("float, hankel6_from_float", 1, as_they_are, from_float, in_double(from_float));
+    check<float, 6>("float, hankel6_from_float_filtered", 1, as_they_are, float_filtered, in_double(float_filtered));
     check<float, 6>("float, hankel6_from_unorm16", 1, texels<16>, from_unorm16, in_double(from_unorm16));
+    check<float, 6>("float, hankel6_from_unorm16_filtered", 1, texels<16>, unorm16_filtered,
+                    in_double(unorm16_filtered));
     check<float, 6>("float, hankel6_from_unorm10", 1, texels<10>, from_unorm10, in_double(from_unorm10));
+    check<float, 6>("float, hankel6_from_unorm10_filtered", 1, texels<10>, unorm10_filtered,
+                    in_double(unorm10_filtered));
 }

@@ -11,39 +11,72 @@ GNOMON_CONSTANT(cubic_cosine1, 0.57684887);
 GNOMON_CONSTANT(cubic_cosine2, -0.10666892);
 GNOMON_CONSTANT(cubic_cosine3, 0.03862587);
 GNOMON_CONSTANT(cubic_cosine4, -0.00882245);
+GNOMON_CONSTANT(cubic_minus_third, -0.33333333333333331);
 
-/// One Halley step for a t^3 + b t^2 + c t + d from t.
-GNOMON_KERNEL Real cubic_halley(Real a, Real b, Real c, Real d, Real t)
+/// A Halley step for t^3 + b t^2 + c t + d as a fraction, numerator / denominator, whose denominator is positive.
+GNOMON_STRUCT cubic_step { Real numerator, denominator; };
+
+GNOMON_KERNEL GNOMON_T(cubic_step) cubic_halley_step(Real b, Real c, Real d, Real t)
 {
-    Real f = ((a * t + b) * t + c) * t + d;
-    Real s = (Real(3) * (a * t) + Real(2) * b) * t + c;
-    Real r = Real(3) * (a * t) + b;
+    Real tb = t + b;
+    Real f = (tb * t + c) * t + d;
+    Real s = (tb + (tb + t)) * t + c;
+    Real r = (t + t) + tb;
     Real whole = s * s - f * r; // positive but at a multiple root, which is where to stay
-    return t - gnomon_select(whole > Real(0), f * s / whole, Real(0));
+    GNOMON_MASK simple = whole > Real(0);
+    GNOMON_T(cubic_step) x;
+    x.numerator = gnomon_select(simple, t * whole - f * s, t);
+    x.denominator = gnomon_select(simple, whole, Real(1));
+    return x;
 }
 
-/// The largest root of a t^3 + b t^2 + c t + d, a > 0, three real roots.
-GNOMON_KERNEL Real cubic_largest_root(Real a, Real b, Real c, Real d)
+/// One Halley step for t^3 + b t^2 + c t + d from t.
+GNOMON_KERNEL Real cubic_halley(Real b, Real c, Real d, Real t)
 {
-    Real third = Real(1) / (Real(3) * a);
-    Real mean = -b * third;
-    Real spread2 = gnomon_max(mean * mean - c * third, Real(0));
+    GNOMON_T(cubic_step) x = cubic_halley_step(b, c, d, t);
+    return x.numerator / x.denominator;
+}
+
+/// The largest root, up to 1e-5 of the distance to the other two.
+GNOMON_KERNEL Real cubic_start(Real b, Real c, Real d)
+{
+    Real mean = GNOMON_LITERAL(cubic_minus_third) * b;
+    Real mean2 = mean * mean;
+    Real spread2 = gnomon_max(mean2 + GNOMON_LITERAL(cubic_minus_third) * c, Real(0));
     Real spread = gnomon_sqrt(spread2);
-    Real f = ((a * mean + b) * mean + c) * mean + d;
-    Real cosine = -Real(1.5) * f * third / (spread2 * spread);
-    Real q = gnomon_sqrt(gnomon_min(gnomon_max(Real(0.5) + Real(0.5) * cosine, Real(0)), Real(1)));
-    Real start = GNOMON_LITERAL(cubic_cosine0) +
-                 q * (GNOMON_LITERAL(cubic_cosine1) +
-                      q * (GNOMON_LITERAL(cubic_cosine2) +
-                           q * (GNOMON_LITERAL(cubic_cosine3) + q * GNOMON_LITERAL(cubic_cosine4))));
-    Real t = mean + Real(2) * spread * start;
-    t = cubic_halley(a, b, c, d, t);
+    Real g = mean * ((mean2 + mean2) - c) - d; // minus the value at the mean
+    Real inverse = Real(1) / spread2;
+    Real cosine = (g * inverse) * (spread * inverse);
+    Real q2 = gnomon_min(gnomon_max(Real(0.5) + Real(0.25) * cosine, Real(0)), Real(1));
+    Real q = gnomon_sqrt(q2);
+    Real start =
+        (GNOMON_LITERAL(cubic_cosine0) + q * GNOMON_LITERAL(cubic_cosine1)) +
+        q2 * ((GNOMON_LITERAL(cubic_cosine2) + q * GNOMON_LITERAL(cubic_cosine3)) + q2 * GNOMON_LITERAL(cubic_cosine4));
+    return mean + (spread + spread) * start;
+}
+
+/// A Halley step that ends at the positive root of t^3 + b t^2 + c t + d, where the other two are negative.
+GNOMON_KERNEL GNOMON_T(cubic_step) cubic_positive_root(Real b, Real c, Real d)
+{
+    Real t = cubic_start(b, c, d);
     if (GNOMON_DIGITS > 24) {
-        // Pivots of exact moments in double may vanish; then another root is up to 10^9 times this one, and the start
-        // is off by as much. From there a step takes at least two thirds of the distance, until it takes all.
-        for (int i = 0; i < 11; ++i) t = cubic_halley(a, b, c, d, t);
+        // The start is off by 1e-5 of a root that may be 10^9 times this one. With the sum of the others, b + t, in
+        // place of t + b the quadratic (b + t) t^2 + c t + d has the same root, and b + t is known to 1e-5.
+        Real a = b + t;
+        Real r = gnomon_sqrt(gnomon_max(c * c - Real(4) * (a * d), Real(0)));
+        GNOMON_MASK rises = c > Real(0);
+        Real near_zero = gnomon_select(rises, Real(-2) * d, r - c) / gnomon_select(rises, c + r, a + a);
+        t = gnomon_select(a > t, near_zero, t);
+        t = cubic_halley(b, c, d, t);
     }
-    return t;
+    return cubic_halley_step(b, c, d, t);
+}
+
+/// The positive root, where the other two are negative.
+GNOMON_KERNEL Real cubic_largest_root(Real b, Real c, Real d)
+{
+    GNOMON_T(cubic_step) x = cubic_positive_root(b, c, d);
+    return x.numerator / x.denominator;
 }
 
 GNOMON_NAMESPACE_END

@@ -11,7 +11,7 @@ GNOMON_KERNEL Real clamp_or_nan(Real x, GNOMON_SETTING low, GNOMON_SETTING high)
 }
 
 /// x limited to [0, 1]; a NaN becomes 0: the last step of every kernel that returns an intensity, 0 = lit.
-GNOMON_KERNEL Real saturate_or_zero(Real x) { return gnomon_select(Real(0) < x, gnomon_min(Real(1), x), Real(0)); }
+GNOMON_KERNEL Real saturate_or_zero(Real x) { return gnomon_min(Real(1), gnomon_max(x, Real(0))); }
 
 GNOMON_NAMESPACE_END
 #endif

@@ -1,0 +1,163 @@
+// Six moments never darken: whatever a distribution on [-1, 1] and wherever the receiver,
+//     intensity <= Z(z < z_f) + the format's weight
+// after one rounding in storage, and after two filter passes that round there again. Searched by a hill climber, as are
+// the largest errors that hamburger6.h states.
+#include "../../bench/raised_pivots6.hpp"
+#include "../support/climber.hpp"
+#include "../support/contacts.hpp"
+#include "../support/statistics.hpp"
+
+#include <gnomon/moments/formats.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <string>
+
+using namespace gnomon;
+using namespace gnomon::test;
+
+namespace {
+
+/// What the map of a format holds of a distribution, exact moments rounded.
+template <class Format> moments6<float> stored(const distribution& d)
+{
+    std::array<double, 6> b{};
+    for (std::size_t i = 0; i < d.depths.size(); ++i) {
+        double p = d.weights[i];
+        for (double& moment : b) moment += p *= d.depths[i];
+    }
+    return Format::decode(
+        Format::encode({float(b[0]), float(b[1]), float(b[2]), float(b[3]), float(b[4]), float(b[5])}));
+}
+
+/// The same of a scene, rounded when rendered and in each of two passes, whose sums are of float.
+template <class Format> moments6<float> filtered(const contact& scene)
+{
+    const auto pass = [&](const auto& texels) {
+        moments6<float> sum{};
+        for (std::size_t i = 0; i < 9; ++i) sum = moments6_add(sum, Format::decode(texels[i]), scene.taps[i]);
+        return Format::encode_channels(sum);
+    };
+    std::array<typename Format::texel, 9> row{}, column{};
+    for (std::size_t j = 0; j < 9; ++j) {
+        for (std::size_t i = 0; i < 9; ++i) row[i] = Format::encode(moments6_of_depth(scene.depths[j][i]));
+        column[j] = pass(row);
+    }
+    return Format::decode(pass(column));
+}
+
+template <class Format_, double weight_> struct stored_once {
+    using format = Format_;
+    static constexpr double weight = weight_;
+    static constexpr auto what = "one rounding";
+    static constexpr std::size_t dimensions = sight_dimensions;
+
+    /// intensity - Z(z < z_f)
+    template <class Factor> static double darkness(const std::vector<double>& place, Factor factor)
+    {
+        const sight s = sight_at(place);
+        const float intensity = hamburger6_lower(factor(stored<format>(s.seen)), float(s.receiver));
+        return double(intensity) - s.seen.below(s.receiver);
+    }
+};
+
+template <class Format_, double weight_> struct filtered_twice {
+    using format = Format_;
+    static constexpr double weight = weight_;
+    static constexpr auto what = "two filter passes";
+    static constexpr std::size_t dimensions = contact_dimensions;
+
+    template <class Factor> static double darkness(const std::vector<double>& place, Factor factor)
+    {
+        const contact s = contact_at(place);
+        const float intensity = hamburger6_lower(factor(filtered<format>(s)), float(s.receiver));
+        return double(intensity) - s.below(s.receiver);
+    }
+};
+
+struct float_once : stored_once<moments6_float, stored6_float_weight> {
+    static hankel6<float> factor(moments6<float> b) { return hankel6_from_float(b); }
+};
+struct float_filtered : filtered_twice<moments6_float, stored6_float_filtered_weight> {
+    static hankel6<float> factor(moments6<float> b) { return hankel6_from_float_filtered(b); }
+};
+struct unorm16_once : stored_once<moments6_unorm16, stored6_unorm16_weight> {
+    static hankel6<float> factor(moments6<float> c) { return hankel6_from_unorm16(c); }
+};
+struct unorm16_filtered : filtered_twice<moments6_unorm16, stored6_unorm16_filtered_weight> {
+    static hankel6<float> factor(moments6<float> c) { return hankel6_from_unorm16_filtered(c); }
+};
+struct unorm10_once : stored_once<moments6_unorm10, stored6_unorm10_weight> {
+    static hankel6<float> factor(moments6<float> c) { return hankel6_from_unorm10(c); }
+};
+struct unorm10_filtered : filtered_twice<moments6_unorm10, stored6_unorm10_filtered_weight> {
+    static hankel6<float> factor(moments6<float> c) { return hankel6_from_unorm10_filtered(c); }
+};
+
+constexpr std::int64_t evaluations = 200'000;
+
+moments6<double> in_double(const moments6<float>& b) { return {b.b1, b.b2, b.b3, b.b4, b.b5, b.b6}; }
+
+/// The largest difference of a bound in float from the same in double, over distributions as Format stores them.
+template <class Format, class Factor> void climb_error(const std::string& name, Factor factor)
+{
+    const summit top = climb(sight_dimensions, evaluations, 3, [&](const std::vector<double>& place) {
+        const sight s = sight_at(place);
+        const moments6<float> c = stored<Format>(s.seen);
+        const hamburger_bounds<float> r = hamburger6_bounds(factor(c), float(s.receiver));
+        const hamburger_bounds<double> exact = hamburger6_bounds(factor(in_double(c)), s.receiver);
+        return std::max(std::abs(double(r.lower) - exact.lower), std::abs(double(r.upper) - exact.upper));
+    });
+    const double stated = stated_error("moments/hamburger6.h", name).maximum;
+    std::printf("%s: error %.3g of %.3g\n", name.c_str(), top.score, stated);
+    CHECK(top.score <= stated);
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("a lit surface is never darkened", Preset, float_once, float_filtered, unorm16_once,
+                   unorm16_filtered, unorm10_once, unorm10_filtered)
+{
+    const summit top = climb(Preset::dimensions, evaluations, 1, [](const std::vector<double>& place) {
+        return Preset::darkness(place, [](auto b) { return Preset::factor(b); });
+    });
+    std::printf("%s, %s: darkness %.3g of %.3g\n", std::string(Preset::format::name).c_str(), Preset::what, top.score,
+                Preset::weight);
+    CHECK(top.score <= Preset::weight);
+}
+
+TEST_CASE("the climber finds what darkens: raised pivots, and a weight for one rounding after three")
+{
+    const auto raised = [](auto b) { return bench::hankel6_raised(b, float(bench::raised6_float_noise)); };
+    const auto float_unfiltered = [](auto b) { return hankel6_from_float(b); };
+    const auto unorm10_unfiltered = [](auto c) { return hankel6_from_unorm10(c); };
+    const auto darkest = [](auto preset, auto factor) {
+        return climb(preset.dimensions, 2000 * evaluations, 2,
+                     [&](const std::vector<double>& place) {
+                         const double darkness = preset.darkness(place, factor);
+                         return darkness > 0.05 ? HUGE_VAL : darkness; // and no farther
+                     })
+            .score;
+    };
+    CHECK(darkest(float_once(), raised) > 0.05);
+    CHECK(darkest(float_filtered(), float_unfiltered) > 0.05);
+    CHECK(darkest(unorm10_filtered(), unorm10_unfiltered) > 0.05);
+}
+
+TEST_CASE("stated maxima of six moments in float, by climbing")
+{
+    climb_error<moments6_float>("float, hankel6_biased at 5e-6", [](auto b) {
+        using T = decltype(b.b1);
+        return hankel6_biased(b, T(bias6_raw_b2), T(bias6_raw_b4), T(bias6_raw_b6), T(5e-6f));
+    });
+    climb_error<moments6_float>("float, hankel6_from_float", [](auto b) { return hankel6_from_float(b); });
+    climb_error<moments6_float>("float, hankel6_from_float_filtered",
+                                [](auto b) { return hankel6_from_float_filtered(b); });
+    climb_error<moments6_unorm16>("float, hankel6_from_unorm16", [](auto c) { return hankel6_from_unorm16(c); });
+    climb_error<moments6_unorm16>("float, hankel6_from_unorm16_filtered",
+                                  [](auto c) { return hankel6_from_unorm16_filtered(c); });
+    climb_error<moments6_unorm10>("float, hankel6_from_unorm10", [](auto c) { return hankel6_from_unorm10(c); });
+    climb_error<moments6_unorm10>("float, hankel6_from_unorm10_filtered",
+                                  [](auto c) { return hankel6_from_unorm10_filtered(c); });
+}
