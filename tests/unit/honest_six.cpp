@@ -49,9 +49,8 @@ template <class Format> moments6<float> filtered(const contact& scene)
     return Format::decode(pass(column));
 }
 
-template <class Format_, double weight_> struct stored_once {
-    using format = Format_;
-    static constexpr double weight = weight_;
+template <class Format> struct stored_once {
+    using format = Format;
     static constexpr auto what = "one rounding";
     static constexpr std::size_t dimensions = sight_dimensions;
 
@@ -64,9 +63,8 @@ template <class Format_, double weight_> struct stored_once {
     }
 };
 
-template <class Format_, double weight_> struct filtered_twice {
-    using format = Format_;
-    static constexpr double weight = weight_;
+template <class Format> struct filtered_twice {
+    using format = Format;
     static constexpr auto what = "two filter passes";
     static constexpr std::size_t dimensions = contact_dimensions;
 
@@ -78,28 +76,37 @@ template <class Format_, double weight_> struct filtered_twice {
     }
 };
 
-struct float_once : stored_once<moments6_float, stored6_float_weight> {
+struct float_once : stored_once<moments6_float> {
+    static constexpr double weight = stored6_float_weight;
     static hankel6<float> factor(moments6<float> b) { return hankel6_from_float(b); }
 };
-struct float_filtered : filtered_twice<moments6_float, stored6_float_filtered_weight> {
+struct float_filtered : filtered_twice<moments6_float> {
+    static constexpr double weight = stored6_float_filtered_weight;
     static hankel6<float> factor(moments6<float> b) { return hankel6_from_float_filtered(b); }
 };
-struct unorm16_once : stored_once<moments6_unorm16, stored6_unorm16_weight> {
+struct unorm16_once : stored_once<moments6_unorm16> {
+    static constexpr double weight = stored6_unorm16_weight;
     static hankel6<float> factor(moments6<float> c) { return hankel6_from_unorm16(c); }
 };
-struct unorm16_filtered : filtered_twice<moments6_unorm16, stored6_unorm16_filtered_weight> {
+struct unorm16_filtered : filtered_twice<moments6_unorm16> {
+    static constexpr double weight = stored6_unorm16_filtered_weight;
     static hankel6<float> factor(moments6<float> c) { return hankel6_from_unorm16_filtered(c); }
 };
-struct unorm10_once : stored_once<moments6_unorm10, stored6_unorm10_weight> {
+struct unorm10_once : stored_once<moments6_unorm10> {
+    static constexpr double weight = stored6_unorm10_weight;
     static hankel6<float> factor(moments6<float> c) { return hankel6_from_unorm10(c); }
 };
-struct unorm10_filtered : filtered_twice<moments6_unorm10, stored6_unorm10_filtered_weight> {
+struct unorm10_filtered : filtered_twice<moments6_unorm10> {
+    static constexpr double weight = stored6_unorm10_filtered_weight;
     static hankel6<float> factor(moments6<float> c) { return hankel6_from_unorm10_filtered(c); }
 };
 
 constexpr std::int64_t evaluations = 200'000;
 
-moments6<double> in_double(const moments6<float>& b) { return {b.b1, b.b2, b.b3, b.b4, b.b5, b.b6}; }
+moments6<double> in_double(const moments6<float>& b)
+{
+    return {double(b.b1), double(b.b2), double(b.b3), double(b.b4), double(b.b5), double(b.b6)};
+}
 
 /// The largest difference of a bound in float from the same in double, over distributions as Format stores them.
 template <class Format, class Factor> void climb_error(const std::string& name, Factor factor)
