@@ -64,7 +64,7 @@ inline error_row stated_error(const std::string& header, const std::string& name
         if (quantiles && !(words >> comma)) return row.maximum = HUGE_VAL, row;
         words >> maximum >> row.maximum;
         if (quantiles && words && maximum == "max") return row;
-        throw std::runtime_error(header + ": not a row: " + line);
+        throw std::runtime_error(std::string(header).append(": not a row: ").append(line));
     }
     throw std::runtime_error(header + ": states no error for " + name);
 }

@@ -74,11 +74,10 @@ GNOMON_KERNEL GNOMON_T(hamburger6_cubic) hamburger6_other_nodes(GNOMON_T(hankel6
                                                                 GNOMON_T(derivatives6) d, Real inverse, Real side)
 {
     Real q2 = h.second * p.p2;
-    Real turned = side * inverse;
     GNOMON_T(hamburger6_cubic) r;
-    r.b = turned * (h.first * p.p1 + (d.slope2 * q2 + d.slope3 * p.p3));
+    r.b = inverse * (side * (h.first * p.p1 + (d.slope2 * q2 + d.slope3 * p.p3)));
     r.c = inverse * (q2 + d.bend3 * p.p3);
-    r.d = turned * p.p3;
+    r.d = inverse * (side * p.p3);
     return r;
 }
 

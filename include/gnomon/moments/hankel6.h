@@ -59,7 +59,9 @@ GNOMON_KERNEL GNOMON_T(covariances6) covariances6_of(GNOMON_T(moments6) b)
     return c;
 }
 
-/// a b - c d >= 0 as a double word, relative error below 2^-40 (|a b| + |c d|) in float: double_word_minor, ordered.
+/// a b - c d as a double word, for factors whose low words may be as large as the high ones.
+/// Domain: a b >= |c d| for the high words.
+/// Error: in float 2^-45 of both products of the high words, 2^-21 of what the low words add to each.
 GNOMON_KERNEL GNOMON_T(double_word)
     hankel6_minor(GNOMON_T(double_word) a, GNOMON_T(double_word) b, GNOMON_T(double_word) c, GNOMON_T(double_word) d)
 {
