@@ -2,10 +2,11 @@
 // meant to be, and once with contraction allowed.
 #include "measure.hpp"
 #include "moments.hpp"
+#include "raised_pivots4.hpp"
 
 #include <gnomon/moments/hamburger4.h>
 #include <gnomon/moments/hamburger_cholesky.h>
-#include <gnomon/moments/stored.h>
+#include <gnomon/moments/stored4.h>
 #include <gnomon/moments/two_point.h>
 
 namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {
@@ -28,17 +29,45 @@ struct algorithm1 : moments {
     }
 };
 
-struct adaptive : moments {
-    static constexpr auto name = "default";
+struct certified : moments {
+    static constexpr auto name = "default: certified";
     static constexpr bool has_error = true;
     template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
     {
-        return hamburger4_lower(hankel4_from_float(moments4<Real>{b1, b2, b3, b4}), z_f);
+        return certified4_float(moments4<Real>{b1, b2, b3, b4}, z_f);
+    }
+};
+
+struct certified_half : moments {
+    static constexpr auto name = "default: certified, 4 x half";
+    static constexpr bool has_error = true;
+    template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
+    {
+        return certified4_half(moments4<Real>{b1, b2, b3, b4}, z_f);
+    }
+};
+
+struct certified_unorm16 : channels {
+    static constexpr auto name = "default: certified, 4 x UNORM16";
+    static constexpr bool has_error = true;
+    template <class Real> static GNOMON_INLINE constexpr Real run(Real c1, Real c2, Real c3, Real c4, Real z_f)
+    {
+        return certified4_unorm16(moments4<Real>{c1, c2, c3, c4}, z_f);
+    }
+};
+
+/// The default once, which darkens (docs/decisions/2-bias.md).
+struct raised : moments {
+    static constexpr auto name = "raised pivots";
+    static constexpr bool has_error = true;
+    template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
+    {
+        return hamburger4_lower(hankel4_raised_from(moments4_float{}, moments4<Real>{b1, b2, b3, b4}), z_f);
     }
 };
 
 struct apart : moments {
-    static constexpr auto name = "accurate: bias kept apart";
+    static constexpr auto name = "constant bias, kept apart";
     static constexpr bool has_error = true;
     template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
     {
@@ -49,7 +78,7 @@ struct apart : moments {
 };
 
 struct fast : moments {
-    static constexpr auto name = "fast: bias interpolated";
+    static constexpr auto name = "constant bias, interpolated";
     static constexpr bool has_error = true;
     template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
     {
@@ -58,7 +87,7 @@ struct fast : moments {
 };
 
 struct unorm16 : channels {
-    static constexpr auto name = "4 x UNORM16";
+    static constexpr auto name = "constant bias, 4 x UNORM16";
     static constexpr bool has_error = true;
     template <class Real> static GNOMON_INLINE constexpr Real run(Real c1, Real c2, Real c3, Real c4, Real z_f)
     {
@@ -105,7 +134,7 @@ struct decode : channels {
 };
 
 [[maybe_unused]] const bool registered =
-    add_kernels<algorithm1, algorithm1, adaptive, apart, fast, unorm16, both_bounds, distribution, two_point, decode>(
-        "four moments");
+    add_kernels<algorithm1, algorithm1, certified, apart, fast, raised, certified_half, certified_unorm16, unorm16,
+                both_bounds, distribution, two_point, decode>("four moments");
 
 } // namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC

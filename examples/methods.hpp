@@ -7,6 +7,7 @@
 // Filterable methods do the last step for packs too: M::intensity(M::moments_of<pack>, pack).
 #pragma once
 
+#include <gnomon/moments/hamburger4.h>
 #include <gnomon/moments/hamburger_cholesky.h>
 #include <array>
 #include <bit>
@@ -18,6 +19,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "../bench/raised_pivots4.hpp"
 #include "filtered_map.hpp"
 
 namespace gnomon::demo {
@@ -73,7 +75,8 @@ struct pcf {
     }
 };
 
-// A filterable map in a format of the library, by default with the reconstruction that belongs to the format.
+// A filterable map in a format of the library, by default with the reconstruction that belongs to the format once two
+// passes have filtered it.
 template <class Format, template <class...> class Moments> struct filterable {
     static constexpr std::string_view format = Format::name;
     static constexpr std::size_t bytes_per_texel = Format::bytes_per_texel;
@@ -85,10 +88,9 @@ template <class Format, template <class...> class Moments> struct filterable {
 
     template <class Real> static Real intensity(const Moments<Real>& filtered, Real z_f)
     {
-        if constexpr (requires { Format::intensity(filtered, z_f); }) return Format::intensity(filtered, z_f);
-        else if constexpr (std::same_as<fetched, moments4<float>>)
-            return hamburger4_lower(Format::factor(filtered), z_f);
-        else return hamburger6_lower(Format::factor(filtered), z_f);
+        if constexpr (requires { Format::filtered_intensity(filtered, z_f); })
+            return Format::filtered_intensity(filtered, z_f);
+        else return Format::intensity(filtered, z_f);
     }
 };
 
@@ -136,6 +138,15 @@ struct msm_64_half : filterable<moments4_half, moments4> {
     static constexpr std::string_view name = "MSM 64 bit half";
 };
 
+// The default until it was found to darken lit surfaces (docs/decisions/2-bias.md).
+struct msm_64_raised : filterable<moments4_unorm16, moments4> {
+    static constexpr std::string_view name = "MSM 64 bit, raised pivots";
+    template <class Real> static Real intensity(const moments4<Real>& f, Real z_f)
+    {
+        return hamburger4_lower(bench::hankel4_raised_from(moments4_unorm16{}, f), z_f);
+    }
+};
+
 // Moments of depth in [0, 1], as moment shadow maps had them before signed depth (Figure 4d).
 struct moments4_unit_float : moments4_float {
     static moments moments_of_depth(float z) { return moments4_of_depth(0.5f * z + 0.5f); }
@@ -179,7 +190,7 @@ struct msm6_192 : filterable<moments6_float, moments6> {
 };
 
 using all_methods = std::tuple<pcf, vsm_32, lvsm_128, esm_32, evsm_64, evsm_128, csm_256, msm_64_paper, msm_64,
-                               msm_64_half, msm_128_unit, msm_128_paper, msm_128, msm6_60, msm6_96, msm6_192>;
+                               msm_64_raised, msm_64_half, msm_128_unit, msm_128_paper, msm_128, msm6_60, msm6_96, msm6_192>;
 
 // Calls each.template operator()<M>() for every method.
 template <class Each> void for_each_method(Each each)

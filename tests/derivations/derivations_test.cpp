@@ -3,7 +3,8 @@
 #include "constants.hpp"
 #include "gnomon/moments/bias.h"
 #include "gnomon/moments/quantization.h"
-#include "gnomon/moments/stored.h"
+#include "gnomon/moments/stored4.h"
+#include "gnomon/moments/stored6.h"
 
 #include <doctest/doctest.h>
 
@@ -255,7 +256,7 @@ TEST_CASE("library: the transforms are the derived ones, rounded once")
     check_library_transform<Library6>(join(odd6(), even6()), gnomon::theta6<Real>, gnomon::theta6_inverse<Real>);
 }
 
-TEST_CASE("library: the bias vectors are the farthest, and no bias weight is below what one rounding asks for")
+TEST_CASE("library: the bias vectors are the farthest, and no bias weight is below what its roundings ask for")
 {
     const auto vectors = bias_vectors();
     check_library_bias(vectors[0], {gnomon::bias4_raw_b2, gnomon::bias4_raw_b4});
@@ -270,7 +271,13 @@ TEST_CASE("library: the bias vectors are the farthest, and no bias weight is bel
     CHECK(gnomon::stored4_float_weight >= weight("4 x float"));
     CHECK(gnomon::stored4_half_weight >= weight("4 x half"));
     CHECK(gnomon::stored4_unorm16_weight >= weight("4 x UNORM16"));
+    CHECK(gnomon::stored4_float_filtered_weight >= 3 * weight("4 x float"));
+    CHECK(gnomon::stored4_half_filtered_weight >= 3 * weight("4 x half"));
+    CHECK(gnomon::stored4_unorm16_filtered_weight >= 3 * weight("4 x UNORM16"));
     CHECK(gnomon::stored6_float_weight >= weight("6 x float"));
     CHECK(gnomon::stored6_unorm16_weight >= weight("6 x UNORM16"));
     CHECK(gnomon::stored6_unorm10_weight >= weight("6 x UNORM10"));
+    CHECK(gnomon::stored6_float_filtered_weight >= 3 * weight("6 x float"));
+    CHECK(gnomon::stored6_unorm16_filtered_weight >= 3 * weight("6 x UNORM16"));
+    CHECK(gnomon::stored6_unorm10_filtered_weight >= 3 * weight("6 x UNORM10"));
 }

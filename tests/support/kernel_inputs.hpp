@@ -72,6 +72,16 @@ inline constexpr input_family<T> input_families[] = {
     {"channels4", 4, [](auto put, const situation& s, bit_source&) { put(theta4(moments4_in<T>(s))); }},
     {"channels6", 6, [](auto put, const situation& s, bit_source&) { put(theta6(moments6_in<T>(s))); }},
     {"covariances6", 12, [](auto put, const situation& s, bit_source&) { put(covariances6_of(moments6_in<T>(s))); }},
+    {"certificate4", 7,
+     [](auto put, const situation& s, bit_source& bits) {
+         put(certificate4_of(any_hankel4<T>(s, bits), T(s.receiver), T(1)));
+     }},
+    {"interval", 2,
+     [](auto put, const situation& s, bit_source& bits) {
+         const double reach = std::exp2(bits.uniform(-20, 0));
+         put(std::max(std::min(s.texel, s.receiver) - reach, -1.0));
+         put(std::min(std::max(s.texel, s.receiver) + reach, 1.0));
+     }},
     {"hankel4", 4, [](auto put, const situation& s, bit_source& bits) { put(any_hankel4<T>(s, bits)); }},
     {"hankel6", 8, [](auto put, const situation& s, bit_source& bits) { put(any_hankel6<T>(s, bits)); }},
     {"bounds", 3,

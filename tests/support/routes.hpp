@@ -4,7 +4,8 @@
 #include <gnomon/moments/bounds.h>
 #include <gnomon/moments/hamburger4.h>
 #include <gnomon/moments/hamburger6.h>
-#include <gnomon/moments/stored.h>
+#include <gnomon/moments/stored4.h>
+#include <gnomon/moments/stored6.h>
 #include <gnomon/moments/two_point.h>
 
 #include <array>
@@ -78,6 +79,17 @@ template <class Factor> struct route6 : route_shape<5, 4> {
     }
 };
 
+/// Channels and a receiver to one intensity.
+template <class Intensity> struct intensity_route4 : route_shape<1, 0> {
+    static constexpr std::size_t moments = 4;
+    const char* name;
+    Intensity intensity;
+    template <class Real> results<Real> operator()(const route_numbers<Real>& x) const
+    {
+        return {intensity(moments4<Real>{x[0], x[1], x[2], x[3]}, x[6])};
+    }
+};
+
 struct two_point_route : route_shape<0, 2> {
     static constexpr std::size_t moments = 3;
     const char* name = "two_point_distribution";
@@ -104,6 +116,13 @@ template <class F> void for_each_route(F f)
     four("hankel4_from_unorm16", [](auto b) { return hankel4_from_unorm16(b); });
     four("hankel4_from_half", [](auto b) { return hankel4_from_half(b); });
     four("hankel4_from_float", [](auto b) { return hankel4_from_float(b); });
+    const auto certified = [&](const char* name, auto intensity) {
+        f(intensity_route4<decltype(intensity)>{{}, name, intensity});
+    };
+    certified("certified4_unorm16", [](auto b, auto z_f) { return certified4_unorm16(b, z_f); });
+    certified("certified4_half", [](auto b, auto z_f) { return certified4_half(b, z_f); });
+    certified("certified4_half_filtered", [](auto b, auto z_f) { return certified4_half_filtered(b, z_f); });
+    certified("certified4_float", [](auto b, auto z_f) { return certified4_float(b, z_f); });
     six("hankel6_fast", [](auto b) { return hankel6_fast(b); });
     six("hankel6_biased", [](auto b) {
         return hankel6_biased(b, GNOMON_TEST_SETTING(bias6_raw_b2), GNOMON_TEST_SETTING(bias6_raw_b4),

@@ -4,7 +4,8 @@
 #include <gnomon/moments/hamburger4.h>
 #include <gnomon/moments/hamburger6.h>
 #include <gnomon/moments/hamburger_cholesky.h>
-#include <gnomon/moments/stored.h>
+#include <gnomon/moments/stored4.h>
+#include <gnomon/moments/stored6.h>
 
 #include <bit>
 #include <limits>

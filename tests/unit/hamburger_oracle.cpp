@@ -8,8 +8,9 @@
 
 #include <gnomon/moments/hamburger4.h>
 #include <gnomon/moments/hamburger6.h>
-#include <gnomon/moments/stored.h>
-#include <gnomon/numerics/unorm.hpp>
+#include <gnomon/moments/stored4.h>
+#include <gnomon/moments/stored6.h>
+#include <gnomon/moments/formats.hpp>
 
 #include <doctest/doctest.h>
 
@@ -128,10 +129,16 @@ TEST_CASE("hamburger4, float, against 120 digits")
 
 TEST_CASE("hamburger4, float, against double")
 {
-    const auto from_float = [](auto b) { return hankel4_from_float(b); };
-    const auto from_unorm16 = [](auto b) { return hankel4_from_unorm16(b); };
-    check<float, 4>("float, hankel4_from_float", 1, as_they_are, from_float, in_double(from_float));
-    check<float, 4>("float, hankel4_from_unorm16", 1, texels<16>, from_unorm16, in_double(from_unorm16));
+    const auto row = [](const char* name, auto stored, auto factor) {
+        check<float, 4>(name, 1, stored, factor, in_double(factor));
+    };
+    const auto half = [](const auto& b) { return moments4_half::decode(moments4_half::encode(b)); };
+    row("float, hankel4_from_float", as_they_are, [](auto b) { return hankel4_from_float(b); });
+    row("float, hankel4_from_float_filtered", as_they_are, [](auto b) { return hankel4_from_float_filtered(b); });
+    row("float, hankel4_from_half", half, [](auto b) { return hankel4_from_half(b); });
+    row("float, hankel4_from_half_filtered", half, [](auto b) { return hankel4_from_half_filtered(b); });
+    row("float, hankel4_from_unorm16", texels<16>, [](auto c) { return hankel4_from_unorm16(c); });
+    row("float, hankel4_from_unorm16_filtered", texels<16>, [](auto c) { return hankel4_from_unorm16_filtered(c); });
 }
 
 TEST_CASE("hamburger6, double, against 120 digits")

@@ -47,7 +47,7 @@ template <class Route, class T> bool allowed(const columns<T, route_inputs>& in,
         ok = ok && std::isfinite(depth) && weight >= 0 && weight <= 1 && !(unknown && depth != 1);
         sum += weight;
     }
-    return ok && std::abs(sum - 1) <= 4 * std::numeric_limits<T>::epsilon();
+    return ok && (Route::depths == 0 || std::abs(sum - 1) <= 4 * std::numeric_limits<T>::epsilon());
 }
 
 /// Where products split without fused multiply-add are exact (two_product.h): away from overflow and underflow.

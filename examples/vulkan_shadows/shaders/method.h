@@ -94,9 +94,9 @@ float intensity(texel filtered, float z_f)
         b.negative_square = filtered.first.w;
         return exponential_variance_intensity(b, z_f, settings_of_exponential_variance());
     }
-    if (method == MSM_64) return hamburger4_lower(hankel4_from_unorm16(moments4_of(filtered)), z_f);
-    if (method == MSM_128) return hamburger4_lower(hankel4_from_float(moments4_of(filtered)), z_f);
-    if (method == MSM6_60) return hamburger6_lower(hankel6_from_unorm10(moments6_of(filtered)), z_f);
-    if (method == MSM6_96) return hamburger6_lower(hankel6_from_unorm16(moments6_of(filtered)), z_f);
-    return hamburger6_lower(hankel6_from_float(moments6_of(filtered)), z_f);
+    if (method == MSM_64) return certified4_unorm16_filtered(moments4_of(filtered), z_f);
+    if (method == MSM_128) return certified4_float_filtered(moments4_of(filtered), z_f);
+    if (method == MSM6_60) return hamburger6_lower(hankel6_from_unorm10_filtered(moments6_of(filtered)), z_f);
+    if (method == MSM6_96) return hamburger6_lower(hankel6_from_unorm16_filtered(moments6_of(filtered)), z_f);
+    return hamburger6_lower(hankel6_from_float_filtered(moments6_of(filtered)), z_f);
 }

@@ -2,20 +2,17 @@
 // 2017, 2.5).
 //
 // If storage moves the stored vector by at most delta in each channel and b* lies r from the boundary of the valid
-// vectors in the maximum norm, the mixture (1 - alpha) b + alpha b* with alpha = delta / r is valid: the weight belongs
-// to the format, it is no knob. Below are the vectors b* with the largest r, derived by tests/derivations, beside the
-// paper's, which have the largest Euclidean distance. Odd entries are zero by symmetry.
+// vectors in the maximum norm, the mixture (1 - alpha) b + alpha b* with alpha = delta / (delta + r) is that of the
+// true moments with others that are valid, too: intensities exceed Z(z < z_f) by alpha at most. The weight belongs to
+// the format and to its history, since n roundings need n delta; it is no knob. Below are the vectors b* with the
+// largest r, derived by tests/derivations, beside the paper's, which have the largest Euclidean distance. Odd entries
+// are zero by symmetry.
 //
-// Three ways to apply it:
-//   interpolated  moments4_biased and then hankel4_fast, as the paper does: for six moments in UNORM formats.
+// Two ways to apply it:
+//   interpolated  moments4_biased and then hankel4_fast, as the paper does: for 16-bit formats.
 //   kept apart    hankel4_biased: the same mixture without rounding it away; 100 times less error in float.
-//                 Intensities exceed the exact lower bound by alpha at most.
-//   adaptive      hankel4_raised: each pivot D_k = E[P_k^2] is raised only where it is below what noise of the stored
-//                 moments can make of it. Errors up to e move it by up to e |coefficients of P_k^2|_1, which lies
-//                 between e |P_k(i)|^2 and 2^k times that, since the roots of P_k are real; |P_k(i)|^2 costs two
-//                 products. A third to a half less leaking at the same sensitivity to noise; the price is that no proof
-//                 bounds how far an intensity exceeds the exact lower bound (seen: 0.03 at worst, over distributions
-//                 made to provoke it).
+// A bias that depends on the moments, raised pivots, was the default once and darkened lit surfaces by up to 0.79; a
+// certificate (certified4.h) leaks less than a constant bias and never does (docs/decisions/2-bias.md).
 #ifndef GNOMON_MOMENTS_BIAS_H
 #define GNOMON_MOMENTS_BIAS_H
 #include "moments.h"

@@ -82,11 +82,15 @@ GNOMON_KERNEL GNOMON_T(hamburger4_fractions) hamburger4_weigh(GNOMON_T(hankel4) 
 /// Lower bound on the shadow intensity at z_f: what a surface should show, since it never darkens a lit one
 /// (paper, 2.2.1). z_f in [-1, 1], clamped. A NaN anywhere gives 0, lit. Against the moment problem solved in 120
 /// digits (tests/unit/hamburger_oracle.cpp),
-///     error, double, no bias, three depths and more: p99 1e-13, p99.9 2e-12, max 1e-11
-///     error, float, hankel4_biased at 3e-7: p99 3e-5, p99.9 1e-4, max 2e-4
-/// and against the same in double,
-///     error, float, hankel4_from_float: p99 3e-5, p99.9 2e-3, max 2e-2
-///     error, float, hankel4_from_unorm16: p99 3e-4, p99.9 1e-3, max 5e-3
+///     error, double, no bias, three depths and more: p99 1e-13, p99.9 2e-12
+///     error, float, hankel4_biased at 3e-7: p99 3e-5, p99.9 1e-4, max 5e-4
+/// and against the same in double, maxima by climbing (tests/unit/honest_four.cpp),
+///     error, float, hankel4_from_float: p99 3e-5, p99.9 1e-4, max 5e-4
+///     error, float, hankel4_from_float_filtered: p99 2e-5, p99.9 5e-5, max 1e-4
+///     error, float, hankel4_from_half: p99 4e-6, p99.9 2e-5, max 3e-4
+///     error, float, hankel4_from_half_filtered: p99 2e-6, p99.9 7e-6, max 3e-5
+///     error, float, hankel4_from_unorm16: p99 4e-4, p99.9 2e-3, max 5e-2
+///     error, float, hankel4_from_unorm16_filtered: p99 2e-4, p99.9 6e-4, max 4e-3
 GNOMON_KERNEL Real hamburger4_lower(GNOMON_T(hankel4) h, Real z_f)
 {
     GNOMON_T(hamburger4_fractions) f = hamburger4_weigh(h, z_f);
@@ -104,11 +108,12 @@ GNOMON_KERNEL GNOMON_T(hamburger_bounds) hamburger4_bounds(GNOMON_T(hankel4) h, 
     return r;
 }
 
-/// The canonical distribution with a node at z_f. Depths are finite and within 1024 of the mean: a node that runs to
-/// infinity has no weight. A NaN anywhere gives a single depth at the far plane.
+/// The canonical distribution with a node at z_f, clamped. The other depths are finite and within 1024 of the mean: a
+/// node that runs to infinity has no weight. A NaN anywhere gives a single depth at the far plane.
 GNOMON_KERNEL GNOMON_T(distribution3) hamburger4_distribution(GNOMON_T(hankel4) h, Real z_f)
 {
-    Real u = clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean;
+    Real z = clamp_or_nan(z_f, Real(-1), Real(1));
+    Real u = z - h.mean;
     Real q = hamburger4_q(h, u);
     GNOMON_T(hamburger4_quadratic) p = hamburger4_other_nodes(h, u, q);
     GNOMON_T(quadratic_result) x = quadratic_roots(p.a, p.b, p.c);
@@ -121,7 +126,7 @@ GNOMON_KERNEL GNOMON_T(distribution3) hamburger4_distribution(GNOMON_T(hankel4) 
     GNOMON_MASK swapped = x2 < x1;
     GNOMON_MASK known = sum > Real(0); // false for NaN
     GNOMON_T(distribution3) d;
-    d.depth0 = gnomon_select(known, h.mean + u, Real(1));
+    d.depth0 = gnomon_select(known, z, Real(1));
     d.depth1 = gnomon_select(known, h.mean + gnomon_select(swapped, x2, x1), Real(1));
     d.depth2 = gnomon_select(known, h.mean + gnomon_select(swapped, x1, x2), Real(1));
     d.weight1 = gnomon_select(known, gnomon_select(swapped, w2, w1) / sum, Real(0));

@@ -16,7 +16,7 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// The factored matrix: mean b1, variance D_1, third central moment G, determinant D_1 D_2. Variance and determinant
-/// are positive, whatever the moments were, or NaN where one of these was.
+/// are positive for any moments within [-2^30, 2^30]; larger ones can overflow, and a NaN among them stays one.
 GNOMON_STRUCT hankel4 { Real mean, variance, third, determinant; };
 
 /// From mean, V, L and V M - L^2.
@@ -74,35 +74,6 @@ GNOMON_KERNEL GNOMON_T(hankel4)
     GNOMON_T(double_word) l = biased_covariance(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
     GNOMON_T(double_word) m = biased_covariance(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
     return hankel4_guarded(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
-}
-
-/// Raises D_2 to at least noise |P_2(i)|^2, from V, already raised, L and M. On the boundary of valid moments, which is
-/// where that is asked for, L^2 = V M, and D_1 |P_2(i)|^2 is had without a division; it is V at least.
-GNOMON_KERNEL GNOMON_T(hankel4) hankel4_raised_last(GNOMON_T(moments4) b, Real v, Real l, Real m, GNOMON_SETTING noise)
-{
-    Real t = b.b2 + Real(1);
-    Real norm = (b.b1 * b.b1 + Real(1)) * m + t * (t * v - (b.b1 + b.b1) * l);
-    return hankel4_of(b.b1, v, l, gnomon_max(noise * gnomon_max(v, norm), v * m - l * l));
-}
-
-/// The moments as they are, with each pivot D_k raised to at least noise |P_k(i)|^2, about what errors up to noise in
-/// each stored moment make of it (bias.h, adaptive). Where V, L and M come without cancellation, the roundings of
-/// V M - L^2 stay below what noise of 2^-26 makes of it in float: double words would cost much and change little.
-GNOMON_KERNEL GNOMON_T(hankel4) hankel4_raised(GNOMON_T(moments4) b, GNOMON_SETTING noise)
-{
-    noise = gnomon_max(GNOMON_PIVOT_FLOOR, noise);
-    Real v = gnomon_max(noise * (b.b1 * b.b1 + Real(1)), subtract_product_rounded(b.b2, b.b1, b.b1));
-    Real l = subtract_product_rounded(b.b3, b.b1, b.b2);
-    Real m = subtract_product_rounded(b.b4, b.b2, b.b2);
-    return hankel4_raised_last(b, v, l, m, noise);
-}
-
-/// The same in plain arithmetic: right for noise from 2^-20.
-GNOMON_KERNEL GNOMON_T(hankel4) hankel4_raised_fast(GNOMON_T(moments4) b, GNOMON_SETTING noise)
-{
-    noise = gnomon_max(GNOMON_PIVOT_FLOOR, noise);
-    Real v = gnomon_max(noise * (b.b1 * b.b1 + Real(1)), b.b2 - b.b1 * b.b1);
-    return hankel4_raised_last(b, v, b.b3 - b.b1 * b.b2, b.b4 - b.b2 * b.b2, noise);
 }
 
 GNOMON_NAMESPACE_END

@@ -41,6 +41,23 @@ GNOMON_KERNEL GNOMON_T(moments4) theta4_inverse(GNOMON_T(moments4) c)
     return b;
 }
 
+/// (1 - alpha) b + alpha (0, bias, 0, bias) for the moments b of channels c: theta4_inverse, then moments4_biased, in
+/// four products less.
+GNOMON_KERNEL GNOMON_T(moments4) theta4_inverse_biased(GNOMON_T(moments4) c, GNOMON_SETTING bias, GNOMON_SETTING alpha)
+{
+    Real keep = Real(1) - alpha;
+    Real c1 = c.b1 - Real(0.5);
+    Real c3 = c.b3 - Real(0.5);
+    Real c2 = (Real(0.125) * keep) * c.b2;
+    Real c4 = keep * c.b4 + alpha * bias;
+    GNOMON_T(moments4) b;
+    b.b1 = (keep * GNOMON_LITERAL(theta4_inverse11)) * c1 + (keep * GNOMON_LITERAL(theta4_inverse13)) * c3;
+    b.b2 = c4 + c2;
+    b.b3 = (keep * GNOMON_LITERAL(theta4_inverse33)) * c3 - (Real(0.75) * keep) * c1;
+    b.b4 = c4 - c2;
+    return b;
+}
+
 // Odd rows 2 and 3; row 1 is T_5(z) / 2.
 GNOMON_CONSTANT(theta6_21, -1.8745771666290014);
 GNOMON_CONSTANT(theta6_23, 4.204664766466248);

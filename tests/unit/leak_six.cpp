@@ -1,8 +1,6 @@
-// What a format's default bias costs and what it is worth, over all families, with receivers anywhere:
+// What the default bias of six moments costs and what it is worth, over all families, with receivers anywhere:
 //     leak    mean max(0, ideal bound - result), where the ideal bound is sharp for the distribution itself;
 //     jitter  mean |result - the same kernel in double on exact moments|, what rounding in storage and kernel moves.
-// Against the paper's constant bias in float storage: with four moments at least
-// 40% less leaking for no more jitter, with six 10% for 15% more.
 #include "../support/distributions.hpp"
 #include "../support/effort.hpp"
 #include "../support/oracle.hpp"
@@ -19,21 +17,13 @@ using namespace gnomon::test;
 
 namespace {
 
-template <class T> moments4<T> rounded(const high_moments<4>& b) { return {T(b[1]), T(b[2]), T(b[3]), T(b[4])}; }
 template <class T> moments6<T> rounded(const high_moments<6>& b)
 {
     return {T(b[1]), T(b[2]), T(b[3]), T(b[4]), T(b[5]), T(b[6])};
 }
 
 /// What filtering in the precision of the map leaves: single depths' moments, rounded, combined in float.
-moments4<float> filtered(const distribution& d, const moments4<float>&)
-{
-    moments4<float> sum{};
-    for (std::size_t i = 0; i < d.depths.size(); ++i)
-        sum = moments4_add(sum, moments4_of_depth(float(d.depths[i])), float(d.weights[i]));
-    return sum;
-}
-moments6<float> filtered(const distribution& d, const moments6<float>&)
+moments6<float> filtered(const distribution& d)
 {
     moments6<float> sum{};
     for (std::size_t i = 0; i < d.depths.size(); ++i)
@@ -41,36 +31,34 @@ moments6<float> filtered(const distribution& d, const moments6<float>&)
     return sum;
 }
 
-template <class T> double lower(const hankel4<T>& h, double z_f) { return double(hamburger4_lower(h, T(z_f))); }
 template <class T> double lower(const hankel6<T>& h, double z_f) { return double(hamburger6_lower(h, T(z_f))); }
 
-moments4<double> channels(const moments4_unorm16&, moments4<double> b) { return theta4(b); }
 moments6<double> channels(const moments6_unorm10&, moments6<double> b) { return theta6(b); }
 moments6<double> channels(const moments6_unorm16&, moments6<double> b) { return theta6(b); }
-template <class Format, class Moments> Moments channels(const Format&, Moments b) { return b; }
+moments6<double> channels(const moments6_float&, moments6<double> b) { return b; }
 
 struct scores {
     double leak = 0, jitter = 0;
 };
 
-template <std::size_t m> struct sample {
+struct sample {
     distribution d;
-    high_moments<m> b;
+    high_moments<6> b;
     double z_f, ideal;
 };
 
-template <std::size_t m> const std::vector<sample<m>>& samples()
+const std::vector<sample>& samples()
 {
-    static const std::vector<sample<m>> all = [] {
-        std::vector<sample<m>> list;
+    static const std::vector<sample> all = [] {
+        std::vector<sample> list;
         distribution_source source(5);
         for (int f = 0; f < family_count; ++f)
             for (std::int64_t i = 0; i < effort(1500); ++i) {
                 distribution d = source.draw(family(f));
                 const double z_f = double(float(source.uniform(-1, 1)));
-                const double ideal = ideal_lower<m>(d, z_f);
+                const double ideal = ideal_lower<6>(d, z_f);
                 list.push_back({std::move(d), {}, z_f, ideal});
-                list.back().b = exact_moments<m>(list.back().d);
+                list.back().b = exact_moments<6>(list.back().d);
             }
         return list;
     }();
@@ -78,25 +66,25 @@ template <std::size_t m> const std::vector<sample<m>>& samples()
 }
 
 /// Scores of one bias: factor maps channels, in float and in double, to a factored matrix.
-template <class Format, std::size_t m, class Factor> scores score(Format format, bool filter, Factor factor)
+template <class Format, class Factor> scores score(Format format, bool filter, Factor factor)
 {
     scores r;
-    for (const auto& s : samples<m>()) {
-        const auto moments = filter ? filtered(s.d, typename Format::moments{}) : rounded<float>(s.b);
+    for (const auto& s : samples()) {
+        const auto moments = filter ? filtered(s.d) : rounded<float>(s.b);
         const double result = lower(factor(Format::decode(Format::encode(moments))), s.z_f);
         const double exact = lower(factor(channels(format, rounded<double>(s.b))), s.z_f);
         r.leak += std::max(0.0, s.ideal - result);
         r.jitter += std::abs(result - exact);
     }
-    const double n = double(samples<m>().size());
+    const double n = double(samples().size());
     return {r.leak / n, r.jitter / n};
 }
 
 /// Prints the row of one format and returns the default's leak and jitter relative to the paper's.
-template <class Format, std::size_t m, class Paper> scores compare(Format format, bool filter, Paper paper)
+template <class Format, class Paper> scores compare(Format format, bool filter, Paper paper)
 {
-    const scores ours = score<Format, m>(format, filter, [](auto c) { return Format::factor(c); });
-    const scores theirs = score<Format, m>(format, filter, paper);
+    const scores ours = score<Format>(format, filter, [](auto c) { return Format::factor(c); });
+    const scores theirs = score<Format>(format, filter, paper);
     std::printf("%-11s%-10s leak %.3e, paper %.3e, %+.0f%%   jitter %.2e, paper %.2e, %+.0f%%\n",
                 std::string(Format::name).c_str(), filter ? ", filtered" : "", ours.leak, theirs.leak,
                 100 * (ours.leak / theirs.leak - 1), ours.jitter, theirs.jitter,
@@ -104,10 +92,6 @@ template <class Format, std::size_t m, class Paper> scores compare(Format format
     return {ours.leak / theirs.leak, ours.jitter / theirs.jitter};
 }
 
-const auto paper4_float = [](auto b) {
-    using T = decltype(b.b1);
-    return hankel4_biased(b, T(bias4_raw_paper_b2), T(bias4_raw_paper_b4), T(3e-7));
-};
 const auto paper6_float = [](auto b) {
     using T = decltype(b.b1);
     return hankel6_biased(b, T(bias6_paper_b2), T(bias6_paper_b4), T(bias6_paper_b6), T(5e-6));
@@ -115,49 +99,26 @@ const auto paper6_float = [](auto b) {
 
 } // namespace
 
-TEST_CASE("four floats leak 40% less than with the paper's bias, and are no more sensitive")
-{
-    for (const bool filter : {false, true}) {
-        const scores ratio = compare<moments4_float, 4>({}, filter, paper4_float);
-        CHECK(ratio.leak <= 0.6);
-        CHECK(ratio.jitter <= 1);
-    }
-}
-
 // The same weight, and a vector b* that is farther from the boundary: less leaks, and no pivot falls below what a
 // rounding makes of it. The paper's vector keeps the middle of the range a little calmer.
 TEST_CASE("six floats leak 10% less than with the paper's bias, and are at most 15% more sensitive")
 {
     for (const bool filter : {false, true}) {
-        const scores ratio = compare<moments6_float, 6>({}, filter, paper6_float);
+        const scores ratio = compare<moments6_float>({}, filter, paper6_float);
         CHECK(ratio.leak <= 0.9);
         CHECK(ratio.jitter <= 1.15);
     }
 }
 
-TEST_CASE("shorter formats leak no more than with a constant bias, and adaptive ones are no more sensitive")
+TEST_CASE("shorter formats leak no more than with the paper's bias")
 {
-    const auto unorm4 = compare<moments4_unorm16, 4>({}, false, [](auto c) {
-        using T = decltype(c.b1);
-        return hankel4_fast(
-            moments4_biased(theta4_inverse(c), T(bias4_theta_paper_b2), T(bias4_theta_paper_b4), T(6e-5)));
-    });
-    CHECK(unorm4.leak <= 1);
-    CHECK(unorm4.jitter <= 1);
-    const auto paper6 = [](double weight) {
+    const auto paper = [](double weight) {
         return [=](auto c) {
             using T = decltype(c.b1);
             return hankel6_fast(
                 moments6_biased(theta6_inverse(c), T(bias6_paper_b2), T(bias6_paper_b4), T(bias6_paper_b6), T(weight)));
         };
     };
-    CHECK(compare<moments6_unorm16, 6>({}, false, paper6(8e-5)).leak <= 1.02);
-    CHECK(compare<moments6_unorm10, 6>({}, false, paper6(4e-3)).leak <= 1.02);
-    // The paper has no half floats: the constant bias that this format would need instead.
-    const auto half = compare<moments4_half, 4>({}, false, [](auto b) {
-        using T = decltype(b.b1);
-        return hankel4_fast(moments4_biased(b, T(bias4_raw_b2), T(bias4_raw_b4), T(stored4_half_weight)));
-    });
-    CHECK(half.leak <= 1);
-    CHECK(half.jitter <= 1);
+    CHECK(compare<moments6_unorm16>({}, false, paper(8e-5)).leak <= 1.02);
+    CHECK(compare<moments6_unorm10>({}, false, paper(4e-3)).leak <= 1.02);
 }

@@ -1,19 +1,13 @@
-// From a fetched texel to the factored Hankel matrix, one function per storage format: each undoes the format's
-// transform and applies the bias that belongs to it, so that nobody pairs the wrong three. What a shader calls after
-// filtering; then hamburger4_lower.
+// From a fetched texel of six moments to the factored Hankel matrix, one function per storage format: each undoes the
+// format's transform and applies the constant bias that belongs to it, so that nobody pairs the wrong three. What a
+// shader calls after filtering; then hamburger6_lower.
 //
-//   format          transform   bias                                       bytes
-//   4 x 16 UNORM    theta4      adaptive, noise 9 2^-20                     8
-//   4 x half        none        adaptive, noise 13 2^-15                    8
-//   4 x float       none        adaptive, noise 3 2^-26                    16
-//   6 x 10 UNORM    theta6      interpolated, 4e-3, filtered 1e-2           8, as two 10-10-10-2 words
-//   6 x 16 UNORM    theta6      interpolated, 8e-5, filtered 1.6e-4        12
-//   6 x float       none        kept apart, 5e-6, filtered 2e-5            24
+//   format          bytes   transform   bias
+//   6 x 10 UNORM      8     theta6      interpolated; texels are two 10-10-10-2 words
+//   6 x 16 UNORM     12     theta6      interpolated
+//   6 x float        24     none        kept apart
 //
-// Noise levels of four moments are the largest that leave the result no more sensitive to storage than the constant
-// bias does.
-//
-// Six moments: intensity <= Z(z < z_f) + weight, wherever the receiver is. For (1 - alpha) (c + e) + alpha c* = (1 -
+// Intensity <= Z(z < z_f) + weight, wherever the receiver is. For (1 - alpha) (c + e) + alpha c* = (1 -
 // alpha) c + alpha (c* + e (1 - alpha) / alpha), where the stored vector c + e is off by n roundings, n delta in each
 // channel, and c* lies r (bias.h) inside: from alpha = n delta / (n delta + r) on the last term is a vector of moments,
 // the moments are those of (1 - alpha) Z + alpha Z', and their sharp lower bound is at most Z(z < z_f) + alpha.
@@ -27,44 +21,19 @@
 // storage does, and so do the powers of a depth: counted at their worst they are 22 roundings and 4e-5, which do not
 // come together. The kernel's own arithmetic in float is within the weights. tests/unit/honest_six.cpp climbs for what
 // exceeds a weight, and finds that 5e-6 does not do for filtered floats.
-#ifndef GNOMON_MOMENTS_STORED_H
-#define GNOMON_MOMENTS_STORED_H
+#ifndef GNOMON_MOMENTS_STORED6_H
+#define GNOMON_MOMENTS_STORED6_H
 #include "bias.h"
-#include "hankel4.h"
 #include "hankel6.h"
 #include "quantization.h"
 GNOMON_NAMESPACE_BEGIN
 
-GNOMON_CONSTANT(stored4_unorm16_weight, 6e-5);
-GNOMON_CONSTANT(stored4_unorm16_noise, 8.58306884765625e-06); // 9 2^-20, half a code and an eighth
-GNOMON_CONSTANT(stored4_half_weight, 3.6e-3);
-GNOMON_CONSTANT(stored4_half_noise, 0.000396728515625); // 13 2^-15
-GNOMON_CONSTANT(stored4_float_weight, 3e-7);
-GNOMON_CONSTANT(stored4_float_noise, 4.470348358154297e-08); // 3 2^-26
 GNOMON_CONSTANT(stored6_unorm10_weight, 4e-3);
 GNOMON_CONSTANT(stored6_unorm10_filtered_weight, 1e-2);
 GNOMON_CONSTANT(stored6_unorm16_weight, 8e-5);
 GNOMON_CONSTANT(stored6_unorm16_filtered_weight, 1.6e-4);
 GNOMON_CONSTANT(stored6_float_weight, 5e-6);
 GNOMON_CONSTANT(stored6_float_filtered_weight, 2e-5);
-
-/// From the four channels of a 4 x 16 UNORM texel, each in [0, 1].
-GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_unorm16(GNOMON_T(moments4) channels)
-{
-    return hankel4_raised_fast(theta4_inverse(channels), GNOMON_LITERAL(stored4_unorm16_noise));
-}
-
-/// From moments stored as half floats.
-GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_half(GNOMON_T(moments4) b)
-{
-    return hankel4_raised_fast(b, GNOMON_LITERAL(stored4_half_noise));
-}
-
-/// From moments stored as floats.
-GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_float(GNOMON_T(moments4) b)
-{
-    return hankel4_raised(b, GNOMON_LITERAL(stored4_float_noise));
-}
 
 /// From the six channels of two 10-10-10-2 UNORM words, each in [0, 1]: odd ones in the first, even ones in the second.
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm10(GNOMON_T(moments6) channels)

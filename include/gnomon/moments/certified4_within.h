@@ -1,0 +1,120 @@
+// Certified shadow intensity (certified4.h) where the depths that a filter region has are known to lie in [least,
+// greatest]: from a min-max map beside the moments, with its mip levels, or [-1, 1], which always holds.
+//
+// p then has to be at most 1 in [least, z_f) and at most 0 in [z_f, greatest] only. Where a node of the biased moments
+// lies outside, the canonical distribution on the interval (the Markov moment problem; Krein & Nudelman 1977) has nodes
+// least, greatest, z_f and
+//     x = E[(z - least) (greatest - z) (z - z_f) z] / E[(z - least) (greatest - z) (z - z_f)],
+// and p is 1 at least and at x < z_f, 0 at z_f, at x > z_f and at greatest; double at x:
+//     x > z_f:  p = (z - z_f) (z - x)^2 (z - greatest) / ((least - z_f) (least - x)^2 (least - greatest))
+//     x < z_f:  p = 1 - (z - least) (z - x)^2 (k0 + k1 z),  k0 and k1 by p(z_f) = p(greatest) = 0
+// Any x will do, so float arithmetic does. The greater of the two certified means is taken: both are honest.
+#ifndef GNOMON_MOMENTS_CERTIFIED4_WITHIN_H
+#define GNOMON_MOMENTS_CERTIFIED4_WITHIN_H
+#include "stored4.h"
+GNOMON_NAMESPACE_BEGIN
+
+GNOMON_CONSTANT(certified4_gap, 9.5367431640625e-7); // 2^-20, the least that the receiver is before greatest
+
+/// The certificate on [least, greatest] for a receiver z_f inside, from moments b with a bias. value is not set.
+GNOMON_KERNEL GNOMON_T(certificate4) certificate4_within(GNOMON_T(moments4) b, Real least, Real greatest, Real z_f)
+{
+    greatest = gnomon_max(greatest, z_f + GNOMON_LITERAL(certified4_gap));
+    Real sum = least + greatest;
+    Real product = least * greatest;
+    Real e0 = (sum * b.b1 - b.b2) - product;
+    Real e1 = (sum * b.b2 - b.b3) - product * b.b1;
+    Real e2 = (sum * b.b3 - b.b4) - product * b.b2;
+    Real x = gnomon_min(greatest, gnomon_max(least, (e2 - z_f * e1) / (e1 - z_f * e0)));
+    GNOMON_MASK behind = z_f < x;
+    // The line k0 + k1 z: through z_f and greatest, or the multiple of z - z_f that is 1 at least.
+    Real to_least = least - x;
+    Real to_z_f = z_f - x;
+    Real to_greatest = greatest - x;
+    Real at_least = Real(1) / (to_least * to_least);
+    Real at_z_f = Real(1) / ((z_f - least) * (to_z_f * to_z_f));
+    Real at_greatest = Real(1) / ((greatest - least) * (to_greatest * to_greatest));
+    Real slope = gnomon_select(behind, at_least / ((z_f - least) * (least - greatest)),
+                               (at_greatest - at_z_f) / (greatest - z_f));
+    Real offset = gnomon_select(behind, -slope * z_f, at_z_f - slope * z_f);
+    // s = (z - other) (z - x)^2 (offset + slope z)
+    Real other = gnomon_select(behind, greatest, least);
+    Real m0 = -other * offset;
+    Real m1 = offset - other * slope;
+    Real n0 = x * x;
+    Real n1 = Real(-2) * x;
+    GNOMON_T(certificate4) p;
+    p.top = gnomon_select(behind, Real(0), Real(1));
+    p.s0 = m0 * n0;
+    p.s1 = m0 * n1 + m1 * n0;
+    p.s2 = m0 + (m1 * n1 + slope * n0);
+    p.s3 = m1 + slope * n1;
+    p.s4 = slope;
+    p.value = Real(0);
+    return p;
+}
+
+/// The greater of two certified means as an intensity; all before z_f are in shadow, none before least is.
+GNOMON_KERNEL Real certified4_of_means(Real mean, Real within, Real least, Real greatest, Real z_f)
+{
+    Real intensity = saturate_or_zero(gnomon_max(within, mean));
+    intensity = gnomon_select(least < z_f, intensity, Real(0));
+    return gnomon_select(greatest < z_f, Real(1), intensity);
+}
+
+/// Intensity at z_f from the four channels of a 4 x 16 UNORM texel, off by at most noise each.
+GNOMON_KERNEL Real certified4_theta_within(GNOMON_T(moments4) channels, GNOMON_SETTING noise, GNOMON_SETTING alpha,
+                                           Real least, Real greatest, Real z_f)
+{
+    Real z = clamp_or_nan(z_f, Real(-1), Real(1));
+    GNOMON_T(moments4) b = theta4_inverse_biased(channels, GNOMON_LITERAL(bias4_theta_b2), alpha);
+    Real mean = certificate4_theta_mean(certificate4_of(hankel4_fast(b), z, Real(1)), channels, noise);
+    Real within = certificate4_theta_mean(certificate4_within(b, least, greatest, z), channels, noise);
+    return certified4_of_means(mean, within, least, greatest, z);
+}
+
+/// The same from moments stored as they are.
+GNOMON_KERNEL Real certified4_raw_within(GNOMON_T(moments4) b, GNOMON_T(moments4) noise, GNOMON_SETTING alpha,
+                                         Real least, Real greatest, Real z_f)
+{
+    Real z = clamp_or_nan(z_f, Real(-1), Real(1));
+    GNOMON_T(moments4) c = moments4_biased(b, GNOMON_LITERAL(bias4_raw_b2), GNOMON_LITERAL(bias4_raw_b4), alpha);
+    Real mean = certificate4_mean(certificate4_of(hankel4_fast(c), z, Real(1)), b, noise);
+    Real within = certificate4_mean(certificate4_within(c, least, greatest, z), b, noise);
+    return certified4_of_means(mean, within, least, greatest, z);
+}
+
+/// Intensity at z_f from the channels of a 4 x 16 UNORM texel and the region's least and greatest depth, rounded down
+/// and up where they are stored.
+GNOMON_KERNEL Real certified4_unorm16_within(GNOMON_T(moments4) channels, Real least, Real greatest, Real z_f)
+{
+    return certified4_theta_within(channels, GNOMON_LITERAL(certified4_unorm16_noise),
+                                   GNOMON_LITERAL(certified4_unorm16_weight), least, greatest, z_f);
+}
+
+/// The same after a filter of two passes; least and greatest are those of all texels that it reads.
+GNOMON_KERNEL Real certified4_unorm16_filtered_within(GNOMON_T(moments4) channels, Real least, Real greatest, Real z_f)
+{
+    return certified4_theta_within(channels, GNOMON_LITERAL(certified4_unorm16_filtered_noise),
+                                   GNOMON_LITERAL(certified4_unorm16_filtered_weight), least, greatest, z_f);
+}
+
+/// Intensity at z_f from moments stored as half floats and the region's least and greatest depth.
+GNOMON_KERNEL Real certified4_half_within(GNOMON_T(moments4) b, Real least, Real greatest, Real z_f)
+{
+    return certified4_raw_within(
+        b, rounding4(b, GNOMON_LITERAL(certified4_half_noise), GNOMON_LITERAL(certified4_half_least_noise)),
+        GNOMON_LITERAL(certified4_half_weight), least, greatest, z_f);
+}
+
+/// The same after a filter of two passes.
+GNOMON_KERNEL Real certified4_half_filtered_within(GNOMON_T(moments4) b, Real least, Real greatest, Real z_f)
+{
+    return certified4_raw_within(b,
+                                 rounding4_filtered(b, GNOMON_LITERAL(certified4_half_filtered_noise),
+                                                    GNOMON_LITERAL(certified4_half_least_noise)),
+                                 GNOMON_LITERAL(certified4_half_weight), least, greatest, z_f);
+}
+
+GNOMON_NAMESPACE_END
+#endif
