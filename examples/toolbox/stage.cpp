@@ -1,5 +1,7 @@
 #include "stage.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
@@ -56,6 +58,25 @@ mesh sign_post()
     return result;
 }
 
+// The sun at noon, over a yard of this size.
+const glm::vec3 noon_light(0.01f, -1, 0.015f);
+const bounds yard{{-4, 0, -4}, {4, 4, 4}};
+
+// Four slats on two joists, turned a little; their upper sides lie at this height.
+mesh duckboard(float x, float height)
+{
+    mesh result = painted(fmt::format("duckboard at {:.2g} m", height), {0.50f, 0.38f, 0.24f});
+    const float angle = 0.12f, pitch = 0.24f, length = 1.2f, thickness = 0.012f, joist = height - thickness;
+    const placement board = upright({x, 0, 0}, {4 * pitch, height, length}, angle);
+    const auto add = [&](const glm::vec3& place, const glm::vec3& size) {
+        add_box(result, upright(board.centre + board.half_axes * place, size, angle));
+    };
+    for (const float side : {-0.75f, -0.25f, 0.25f, 0.75f})
+        add({side, 2 - thickness / height, 0}, {0.5f * pitch, thickness, length});
+    for (const float end : {-0.7f, 0.7f}) add({0, joist / height, end}, {3.5f * pitch, joist, 0.05f});
+    return result;
+}
+
 } // namespace
 
 rectangle inset_around(const point_of_interest& place, const camera& eye, int size, int width, int height)
@@ -81,6 +102,24 @@ stage fence_stage(double aspect)
     result.interests = {{"fence", {0.75f, 0, -1.4f}, {0.05f, 0.6f, 0.1f}},
                         {"fence and wall", {0.95f, 0, 1.9f}, {0.02f, 0.6f, 0.7f}},
                         {"sign, fence and wall", {0.84f, 0, 0.89f}, {0.95f, 0.35f, 0.02f}}};
+    return result;
+}
+
+stage contact_stage(double aspect)
+{
+    const std::array<glm::vec3, 3> colours{{{0.05f, 0.6f, 0.1f}, {0.02f, 0.6f, 0.7f}, {0.95f, 0.35f, 0.02f}}};
+    stage result{{"contact", {}}, {}, {}, {}};
+    result.light = orthographic_view(yard.corners(), noon_light);
+    const double metres_per_depth = 0.5 * (result.light.far_distance - result.light.near_distance);
+    for (std::size_t i = 0; i < contact_gaps.size(); ++i) {
+        const float x = 1.3f * (static_cast<float>(i) - 1);
+        const double height = contact_gaps[i] * metres_per_depth * -result.light.forward.y;
+        result.world.meshes.push_back(duckboard(x, static_cast<float>(height)));
+        result.interests.push_back({fmt::format("gap of {}", contact_gaps[i]), {x, 0, 0}, colours[i]});
+    }
+    result.world.meshes.push_back(ground({0, 0, 0}, 14, 14, {0.40f, 0.43f, 0.34f}));
+    result.eye = perspective_view_from({0.4, 3.2, 1.9}, {0, 0, 0}, bounds_of(result.world).corners(),
+                                       glm::radians(36.0), aspect);
     return result;
 }
 

@@ -1,6 +1,7 @@
 // A stage is all that a driver needs to make a picture: a scene, a camera, a light, and where to look closely.
 #pragma once
 
+#include <array>
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
@@ -31,6 +32,11 @@ rectangle inset_around(const point_of_interest& place, const camera& eye, int si
 // ground is shadowed by the fence only, by the fence and the wall, and by the sign, the fence and the wall.
 scene fence_scene();
 stage fence_stage(double aspect);
+
+// Duckboards on the ground at noon, whose upper sides lie these differences of signed depth before the ground: next to
+// a slat, a filter region holds two close surfaces, and what is lit is the farther one. A point of interest for each.
+inline constexpr std::array contact_gaps{0.01, 0.02, 0.03};
+stage contact_stage(double aspect);
 
 // A model of unit size (see model.hpp) on a ground plane, camera and light framed by its bounds.
 stage model_stage(scene model, double aspect);

@@ -1,4 +1,4 @@
-// The scene of Figure 4 shows at its points of interest what the figure is about.
+// The scene of Figure 4 shows at its points of interest what the figure is about; the scene of contacts shows contacts.
 #include <doctest/doctest.h>
 #include <toolbox/rasterizer.hpp>
 #include <toolbox/shading.hpp>
@@ -6,6 +6,7 @@
 #include <toolbox/tracer.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/vec2.hpp>
 #include <set>
 
@@ -46,6 +47,42 @@ TEST_CASE("the camera sees the points of interest, on the ground and unobstructe
         CHECK(fence.world.meshes[static_cast<std::size_t>(s.mesh)].name == "ground");
     }
     CHECK(std::ranges::all_of(seen.pixels, [](const surface& s) { return s.valid(); })); // a bird sees no sky
+}
+
+TEST_CASE("next to a slat, lit ground and the slat before it lie in one filter region, as far apart as the inset says")
+{
+    constexpr int width = 640, height = 360, size = 53, resolution = 1024, radius = 4;
+    const stage contact = contact_stage(double(width) / height);
+    const auto seen = rasterize_surfaces(contact.world, contact.eye, width, height);
+    const auto map = rasterize_depth<1>(contact.world, contact.light, resolution, resolution);
+    const auto traced = traced_visibility(tracer(contact.world), contact.light, seen);
+    const int ground = static_cast<int>(contact.world.meshes.size()) - 1;
+    REQUIRE(contact.interests.size() == contact_gaps.size());
+    for (std::size_t i = 0; i < contact_gaps.size(); ++i) {
+        const rectangle inset = inset_around(contact.interests[i], contact.eye, size, width, height);
+        int contacts = 0, sides = 0, alone = 0;
+        for (int y = inset.y; y < inset.y + inset.height; ++y)
+            for (int x = inset.x; x < inset.x + inset.width; ++x) {
+                if (seen(x, y).mesh != ground || traced(x, y) < 1) continue;
+                const glm::dvec3 at = project(contact.light, seen(x, y).position);
+                float nearest = 1, farthest = -1;
+                for (int v = -radius; v <= radius; ++v)
+                    for (int u = -radius; u <= radius; ++u) {
+                        const float z =
+                            map(static_cast<int>(at.x * resolution) + u, static_cast<int>(at.y * resolution) + v)[0];
+                        nearest = std::min(nearest, z), farthest = std::max(farthest, z);
+                    }
+                // A texel is 8 mm, the view 4.2 m deep and the ground's slope 0.02: 7e-5 per texel, 6 from the middle.
+                CHECK(std::abs(double(farthest) - at.z) < 5e-4);
+                const double gap = at.z - double(nearest);
+                if (gap < 5e-4) ++alone;
+                else if (std::abs(gap - contact_gaps[i]) < 5e-4) ++contacts;
+                else ++sides; // of a slat, seen at the corner of the region
+            }
+        CHECK(contacts > size * size / 20);
+        CHECK(sides < contacts / 50);
+        CHECK(alone > size * size / 20);
+    }
 }
 
 TEST_CASE("a shadow map look-up agrees with the tracer but for the outlines of shadows")
