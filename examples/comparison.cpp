@@ -57,7 +57,7 @@ struct timing {
 struct outcome {
     std::string method, format;
     double bytes_per_texel, build_ms;
-    std::vector<float> visibility; // per receiver
+    std::vector<float> visibility, unbiased; // per receiver, and without depth bias
     std::vector<timing> timings;
 };
 
@@ -90,7 +90,7 @@ double pack_ns_per_receiver(const std::vector<typename M::fetched>& fetched, con
 
 template <method M> outcome outcome_of(const depth_map& depths, const receivers& where)
 {
-    outcome result{std::string(M::name), std::string(M::format), double(M::bytes_per_texel), 0, {}, {}};
+    outcome result{std::string(M::name), std::string(M::format), double(M::bytes_per_texel), 0, {}, {}, {}};
     std::optional<typename M::map> map;
     result.build_ms = 1e3 * seconds([&] { map.emplace(typename M::map{depths, taps}); });
 
@@ -108,6 +108,11 @@ template <method M> outcome outcome_of(const depth_map& depths, const receivers&
     result.timings.push_back({1, ns});
     if constexpr (packable<M>)
         result.timings.push_back({int(pack::size), pack_ns_per_receiver<M>(fetched, where.depths)});
+
+    result.unbiased.resize(where.size());
+    tbb::parallel_for(std::size_t(0), where.size(), [&](std::size_t i) {
+        result.unbiased[i] = 1 - M::intensity(fetched[i], where.unbiased_depths[i]);
+    });
     return result;
 }
 
@@ -127,11 +132,8 @@ class comparison {
         traced_image_ = image_of(traced_);
 
         progress(name_, "reference: percentage-closer filtering with the same weights");
-        filtered_.resize(where_.size());
-        tbb::parallel_for(std::size_t(0), where_.size(), [&](std::size_t i) {
-            filtered_[i] = 1 - static_cast<float>(percentage_closer_intensity<double>(depths_, where_.places[i],
-                                                                                      where_.depths[i], taps));
-        });
+        filtered_ = filtered_visibility(where_.depths);
+        filtered_unbiased_ = filtered_visibility(where_.unbiased_depths);
         filtered_image_ = image_of(filtered_);
 
         const int gap = 4, magnification = 4;
@@ -181,6 +183,16 @@ class comparison {
     const receivers& where() const { return where_; }
 
   private:
+    std::vector<float> filtered_visibility(const std::vector<float>& receiver_depths) const
+    {
+        std::vector<float> result(where_.size());
+        tbb::parallel_for(std::size_t(0), where_.size(), [&](std::size_t i) {
+            result[i] = 1 - static_cast<float>(percentage_closer_intensity<double>(depths_, where_.places[i],
+                                                                                   receiver_depths[i], taps));
+        });
+        return result;
+    }
+
     image<float> image_of(std::span<const float> visibility) const
     {
         image<float> result(seen_.width, seen_.height, 1);
@@ -224,7 +236,7 @@ class comparison {
 
     void add_rows(const outcome& o, const std::string& scene, const rectangle& part)
     {
-        std::vector<float> estimate, filtered, traced;
+        std::vector<float> estimate, filtered, traced, unbiased, filtered_unbiased;
         for (std::size_t i = 0; i < where_.size(); ++i) {
             const int pixel = static_cast<int>(where_.pixels[i]);
             const int x = pixel % seen_.width / how_.supersampling, y = pixel / seen_.width / how_.supersampling;
@@ -232,6 +244,8 @@ class comparison {
             estimate.push_back(o.visibility[i]);
             filtered.push_back(filtered_[i]);
             traced.push_back(traced_[i]);
+            unbiased.push_back(o.unbiased[i]);
+            filtered_unbiased.push_back(filtered_unbiased_[i]);
         }
         report_row row{.scene = scene,
                        .method = o.method,
@@ -246,9 +260,11 @@ class comparison {
             row.ns_per_receiver = t.ns_per_receiver;
             row.reference = "filtered";
             row.errors = compare(estimate, filtered);
+            row.acne_unbiased = compare(unbiased, filtered_unbiased).acne;
             rows_.push_back(row);
             row.reference = "traced";
             row.errors = compare(estimate, traced);
+            row.acne_unbiased.reset();
             rows_.push_back(row);
         }
     }
@@ -260,7 +276,7 @@ class comparison {
     depth_map depths_;
     image<surface> seen_;
     receivers where_;
-    std::vector<float> filtered_, traced_; // visibility per receiver
+    std::vector<float> filtered_, filtered_unbiased_, traced_; // visibility per receiver
     image<float> filtered_image_, traced_image_;
     std::vector<rectangle> insets_;
     nlohmann::ordered_json facts_;

@@ -39,6 +39,7 @@ receivers receivers_of(const toolbox::image<toolbox::surface>& seen, const toolb
         result.pixels.push_back(i);
         result.places.push_back({static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(level)});
         result.depths.push_back(static_cast<float>(place.z - bias));
+        result.unbiased_depths.push_back(static_cast<float>(place.z));
     }
     return result;
 }

@@ -19,7 +19,7 @@ struct look_up {
 struct receivers {
     std::vector<std::size_t> pixels; // indices into the picture
     std::vector<look_up> places;
-    std::vector<float> depths; // biased
+    std::vector<float> depths, unbiased_depths;
 
     std::size_t size() const { return pixels.size(); }
 };

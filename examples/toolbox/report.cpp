@@ -28,11 +28,14 @@ json to_json(const report_row& row)
                 {"leak", row.errors.leak},
                 {"acne", row.errors.acne},
                 {"max_abs", row.errors.max_abs},
+                {"max_dark", row.errors.max_dark},
+                {"darkened", row.errors.darkened},
                 {"ns_per_receiver", row.ns_per_receiver},
                 {"build_ms", row.build_ms},
                 {"real", row.real},
                 {"lanes", row.lanes},
                 {"threads", row.threads}};
+    if (row.acne_unbiased) result["acne_unbiased"] = *row.acne_unbiased;
     if (!row.device.empty()) result["device"] = row.device;
     for (const auto& [name, milliseconds] : row.passes) result[name + "_ms"] = milliseconds;
     return result;
@@ -61,16 +64,24 @@ error_statistics compare(std::span<const float> estimate, std::span<const float>
         throw std::invalid_argument(
             fmt::format("compare: {} estimates, {} references", estimate.size(), reference.size()));
     error_statistics sum;
+    std::size_t lit = 0, darkened = 0;
     for (std::size_t i = 0; i < estimate.size(); ++i) {
         const double error = double(estimate[i]) - double(reference[i]);
         sum.rmse += error * error;
         sum.leak += std::max(error, 0.0);
         sum.acne += std::max(-error, 0.0);
         sum.max_abs = std::max(sum.max_abs, std::abs(error));
+        sum.max_dark = std::max(sum.max_dark, -error);
+        if (reference[i] >= 0.5f) ++lit, darkened += -error >= too_dark;
     }
     const auto count = static_cast<double>(estimate.size());
-    return {std::sqrt(sum.rmse / count), (sum.leak + sum.acne) / count, sum.leak / count, sum.acne / count,
-            sum.max_abs};
+    return {.rmse = std::sqrt(sum.rmse / count),
+            .mean_abs = (sum.leak + sum.acne) / count,
+            .leak = sum.leak / count,
+            .acne = sum.acne / count,
+            .max_abs = sum.max_abs,
+            .max_dark = sum.max_dark,
+            .darkened = lit == 0 ? 0 : double(darkened) / double(lit)};
 }
 
 void merge_report(const std::filesystem::path& file, std::span<const report_row> rows)

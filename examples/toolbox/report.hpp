@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -10,10 +11,12 @@
 namespace gnomon::toolbox {
 
 // Of visibility estimates E against references V over all receivers. leak is the mean of max(0, E - V), acne the mean
-// of max(0, V - E).
+// of max(0, V - E) and max_dark the largest V - E; darkened is the share that is too dark by too_dark and more among
+// what is lit, with V of half and more, 0 where nothing is.
 struct error_statistics {
-    double rmse = 0, mean_abs = 0, leak = 0, acne = 0, max_abs = 0;
+    double rmse = 0, mean_abs = 0, leak = 0, acne = 0, max_abs = 0, max_dark = 0, darkened = 0;
 };
+inline constexpr double too_dark = 0.05;
 
 error_statistics compare(std::span<const float> estimate, std::span<const float> reference);
 
@@ -23,6 +26,7 @@ struct report_row {
     long long receivers = 0;
     double bytes_per_texel = 0;
     error_statistics errors;
+    std::optional<double> acne_unbiased{}; // of the same receivers without depth bias
     double ns_per_receiver = 0, build_ms = 0;
     std::string real = "float";
     int lanes = 1, threads = 1;

@@ -22,7 +22,14 @@ report_row some_row()
             .reference = "filtered",
             .receivers = 10,
             .bytes_per_texel = 8,
-            .errors = {0.5, 0.25, 0.125, 0.0625, 1},
+            .errors = {.rmse = 0.5,
+                       .mean_abs = 0.25,
+                       .leak = 0.125,
+                       .acne = 0.0625,
+                       .max_abs = 1,
+                       .max_dark = 0.75,
+                       .darkened = 0.03125},
+            .acne_unbiased = 0.015625,
             .ns_per_receiver = 3.5,
             .build_ms = 2};
 }
@@ -39,7 +46,10 @@ TEST_CASE("statistics of errors with known sums")
     CHECK(e.acne == 0.1875);
     CHECK(e.mean_abs == 0.3125);
     CHECK(e.max_abs == 0.75);
+    CHECK(e.max_dark == 0.75);
+    CHECK(e.darkened == 0.5);
     CHECK(e.rmse == std::sqrt((0.25 + 0.5625) / 4));
+    CHECK(compare(std::vector<float>{0.25f}, std::vector<float>{0.375f}).darkened == 0); // nothing is lit
     CHECK_THROWS_WITH(compare(estimate, std::vector<float>(3)), "compare: 4 estimates, 3 references");
     CHECK_THROWS(compare({}, {}));
 }
@@ -51,7 +61,8 @@ TEST_CASE("a row has the fields of the report, in their order")
     const auto report = nlohmann::ordered_json::parse(read_file(folder / "report.json"));
     CHECK(report == nlohmann::ordered_json::parse(R"([{"scene": "fence", "method": "moments 64", "format": "4x16 UNORM",
         "reference": "filtered", "receivers": 10, "bytes_per_texel": 8.0, "rmse": 0.5, "mean_abs": 0.25, "leak": 0.125, "acne": 0.0625,
-        "max_abs": 1.0, "ns_per_receiver": 3.5, "build_ms": 2.0, "real": "float", "lanes": 1, "threads": 1}])"));
+        "max_abs": 1.0, "max_dark": 0.75, "darkened": 0.03125, "ns_per_receiver": 3.5, "build_ms": 2.0, "real": "float",
+        "lanes": 1, "threads": 1, "acne_unbiased": 0.015625}])"));
 }
 
 TEST_CASE("a device's row has its name and the times of its passes, and replaces no other device's")
