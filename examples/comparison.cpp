@@ -148,6 +148,7 @@ class comparison {
                   {"taps", taps.size()},
                   {"bias_radius", bias_radius},
                   {"error_scale", error_scale},
+                  {"too_dark", too_dark},
                   {"receivers", where_.size()},
                   {"methods", nlohmann::json::array()},
                   {"insets", nlohmann::json::array()}};

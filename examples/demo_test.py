@@ -69,8 +69,8 @@ class Demo(unittest.TestCase):
     def tearDownClass(cls):
         cls.folder.cleanup()
 
-    def error(self, method, name, part=None, reference="filtered"):
-        scene = "fence: " + part if part else "fence"
+    def error(self, method, name, part=None, reference="filtered", scene="fence"):
+        scene = f"{scene}: {part}" if part else scene
         row, = (row for row in self.report if row["lanes"] == 1
                 and (row["scene"], row["method"], row["reference"]) == (scene, method, reference))
         return row[name]
@@ -83,8 +83,9 @@ class Demo(unittest.TestCase):
         self.assertLess(self.error(better, name, part), self.error(worse, name, part))
 
     def test_moments_leak_less_than_exponential_variance_at_64_bits(self):
+        # The paper's bias leaks less than the certificate here, but does not allow for what two passes round.
         self.less("MSM 64 bit (paper)", "EVSM 64 bit")
-        self.less("MSM 64 bit", "MSM 64 bit (paper)")
+        self.less("MSM 64 bit", "EVSM 64 bit")
 
     def test_signed_depth_leaks_less_than_depth_from_0_to_1(self):
         self.less("MSM 128 bit (paper)", "MSM 128 bit, depth in [0, 1]")
@@ -107,6 +108,15 @@ class Demo(unittest.TestCase):
         for method in ("VSM 32 bit", "LVSM 128 bit", "ESM 32 bit", "EVSM 128 bit", "MSM 64 bit", "MSM 128 bit",
                        "MSM6 192 bit"):
             self.assertLess(self.error(method, "acne"), 1e-3, method)
+
+    def test_certified_bounds_never_darken_where_raised_pivots_do(self):
+        raised = "MSM 64 bit, raised pivots"
+        self.assertGreater(self.error(raised, "max_dark", scene="contact"), 0.05)
+        self.assertGreater(self.error(raised, "darkened", scene="contact"), 0)
+        for method in ("MSM 64 bit", "MSM 64 bit half", "MSM 128 bit"):
+            for scene in ("fence", "contact"):
+                self.assertLess(self.error(method, "max_dark", scene=scene), 1e-5, method)
+                self.assertLess(self.error(method, "acne_unbiased", scene=scene), 1e-5, method)
 
     def test_every_scene_in_motion_has_a_row_for_every_method(self):
         facts = json.loads((self.out / "gallery" / "motion_analytic" / "facts.json").read_text())

@@ -19,7 +19,7 @@ struct settings {
 // A line of progress on the standard error stream.
 void progress(std::string_view driver, std::string_view what);
 
-// The scene of Peters et al. 2017, Figure 4, by every method.
+// The scene of Peters et al. 2017, Figure 4, and a scene of contacts, left in FOLDER/contact, by every method.
 void hard_shadows(const settings& how);
 
 // A model from a file on a ground plane, by every method.

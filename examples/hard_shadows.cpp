@@ -2,5 +2,7 @@
 
 void gnomon::demo::hard_shadows(const settings& how)
 {
-    compare_methods("hard_shadows", toolbox::fence_stage(double(how.width) / how.height), how);
+    const double aspect = double(how.width) / how.height;
+    compare_methods("hard_shadows", toolbox::fence_stage(aspect), how);
+    compare_methods("contact", toolbox::contact_stage(aspect), how);
 }

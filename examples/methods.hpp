@@ -82,6 +82,7 @@ template <class Format, template <class...> class Moments> struct filterable {
     static constexpr std::size_t bytes_per_texel = Format::bytes_per_texel;
     template <class Real> using moments_of = Moments<Real>;
     using fetched = Moments<float>;
+    using storage = Format;
     using map = filtered_map<Format>;
 
     static fetched fetch(const map& source, const look_up& place) { return source.fetch(place); }
@@ -189,8 +190,9 @@ struct msm6_192 : filterable<moments6_float, moments6> {
     static constexpr std::string_view name = "MSM6 192 bit";
 };
 
-using all_methods = std::tuple<pcf, vsm_32, lvsm_128, esm_32, evsm_64, evsm_128, csm_256, msm_64_paper, msm_64,
-                               msm_64_raised, msm_64_half, msm_128_unit, msm_128_paper, msm_128, msm6_60, msm6_96, msm6_192>;
+using all_methods =
+    std::tuple<pcf, vsm_32, lvsm_128, esm_32, evsm_64, evsm_128, csm_256, msm_64_paper, msm_64, msm_64_raised,
+               msm_64_half, msm_128_unit, msm_128_paper, msm_128, msm6_60, msm6_96, msm6_192>;
 
 // Calls each.template operator()<M>() for every method.
 template <class Each> void for_each_method(Each each)
