@@ -47,8 +47,7 @@ inline quartic certificate_of_nodes(double z_f, double before, double behind)
 
 /// The largest certified mean for a receiver at z_f, at least 0. norm(p) is the most that errors of storage make of p;
 /// the search starts from the nodes of b with biases around weight.
-template <class Norm>
-double honest_limit(const moments4<double>& b, double z_f, double bias, double weight, Norm norm)
+template <class Norm> double honest_limit(const moments4<double>& b, double z_f, double bias, double weight, Norm norm)
 {
     double best = 0;
     const auto rate = [&](const std::array<double, 2>& x, bool between) {

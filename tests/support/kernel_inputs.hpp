@@ -72,9 +72,9 @@ inline constexpr input_family<T> input_families[] = {
     {"channels4", 4, [](auto put, const situation& s, bit_source&) { put(theta4(moments4_in<T>(s))); }},
     {"channels6", 6, [](auto put, const situation& s, bit_source&) { put(theta6(moments6_in<T>(s))); }},
     {"covariances6", 12, [](auto put, const situation& s, bit_source&) { put(covariances6_of(moments6_in<T>(s))); }},
-    {"certificate4", 7,
+    {"certificate4", 6,
      [](auto put, const situation& s, bit_source& bits) {
-         put(certificate4_of(any_hankel4<T>(s, bits), T(s.receiver), T(1)));
+         put(certificate4_fast(any_hankel4<T>(s, bits), T(s.receiver)));
      }},
     {"interval", 2,
      [](auto put, const situation& s, bit_source& bits) {

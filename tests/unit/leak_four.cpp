@@ -68,8 +68,8 @@ template <class Format> double shown(way w, const Format& f, const moments& c, d
     switch (w) {
         case limit: {
             const moments b = raw(f, c);
-            return honest_limit({b.b1, b.b2, b.b3, b.b4}, z_f, s.bias, s.delta / s.distance,
-                                [&](const quartic& p) { return norm_of(f, p); });
+            return honest_limit({double(b.b1), double(b.b2), double(b.b3), double(b.b4)}, z_f, s.bias,
+                                s.delta / s.distance, [&](const quartic& p) { return norm_of(f, p); });
         }
         case certified:
             return double(Format::intensity(c, z));

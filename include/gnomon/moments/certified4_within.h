@@ -16,7 +16,7 @@ GNOMON_NAMESPACE_BEGIN
 
 GNOMON_CONSTANT(certified4_gap, 9.5367431640625e-7); // 2^-20, the least that the receiver is before greatest
 
-/// The certificate on [least, greatest] for a receiver z_f inside, from moments b with a bias. value is not set.
+/// The certificate on [least, greatest] for a receiver z_f inside, from moments b with a bias.
 GNOMON_KERNEL GNOMON_T(certificate4) certificate4_within(GNOMON_T(moments4) b, Real least, Real greatest, Real z_f)
 {
     greatest = gnomon_max(greatest, z_f + GNOMON_LITERAL(certified4_gap));
@@ -25,7 +25,9 @@ GNOMON_KERNEL GNOMON_T(certificate4) certificate4_within(GNOMON_T(moments4) b, R
     Real e0 = (sum * b.b1 - b.b2) - product;
     Real e1 = (sum * b.b2 - b.b3) - product * b.b1;
     Real e2 = (sum * b.b3 - b.b4) - product * b.b2;
-    Real x = gnomon_min(greatest, gnomon_max(least, (e2 - z_f * e1) / (e1 - z_f * e0)));
+    Real x = (e2 - z_f * e1) / (e1 - z_f * e0);
+    x = gnomon_select(x < greatest, x, greatest);
+    x = gnomon_select(least < x, x, least);
     GNOMON_MASK behind = z_f < x;
     // The line k0 + k1 z: through z_f and greatest, or the multiple of z - z_f that is 1 at least.
     Real to_least = least - x;
@@ -36,11 +38,11 @@ GNOMON_KERNEL GNOMON_T(certificate4) certificate4_within(GNOMON_T(moments4) b, R
     Real at_greatest = Real(1) / ((greatest - least) * (to_greatest * to_greatest));
     Real slope = gnomon_select(behind, at_least / ((z_f - least) * (least - greatest)),
                                (at_greatest - at_z_f) / (greatest - z_f));
-    Real offset = gnomon_select(behind, -slope * z_f, at_z_f - slope * z_f);
+    Real offset = gnomon_select(behind, Real(0), at_z_f) - slope * z_f;
     // s = (z - other) (z - x)^2 (offset + slope z)
-    Real other = gnomon_select(behind, greatest, least);
-    Real m0 = -other * offset;
-    Real m1 = offset - other * slope;
+    Real minus_other = Real(-1) * gnomon_select(behind, greatest, least);
+    Real m0 = minus_other * offset;
+    Real m1 = offset + minus_other * slope;
     Real n0 = x * x;
     Real n1 = Real(-2) * x;
     GNOMON_T(certificate4) p;
@@ -50,7 +52,6 @@ GNOMON_KERNEL GNOMON_T(certificate4) certificate4_within(GNOMON_T(moments4) b, R
     p.s2 = m0 + (m1 * n1 + slope * n0);
     p.s3 = m1 + slope * n1;
     p.s4 = slope;
-    p.value = Real(0);
     return p;
 }
 
@@ -68,7 +69,7 @@ GNOMON_KERNEL Real certified4_theta_within(GNOMON_T(moments4) channels, GNOMON_S
 {
     Real z = clamp_or_nan(z_f, Real(-1), Real(1));
     GNOMON_T(moments4) b = theta4_inverse_biased(channels, GNOMON_LITERAL(bias4_theta_b2), alpha);
-    Real mean = certificate4_theta_mean(certificate4_of(hankel4_fast(b), z, Real(1)), channels, noise);
+    Real mean = certificate4_theta_mean(certificate4_fast(hankel4_fast(b), z), channels, noise);
     Real within = certificate4_theta_mean(certificate4_within(b, least, greatest, z), channels, noise);
     return certified4_of_means(mean, within, least, greatest, z);
 }
@@ -79,7 +80,7 @@ GNOMON_KERNEL Real certified4_raw_within(GNOMON_T(moments4) b, GNOMON_T(moments4
 {
     Real z = clamp_or_nan(z_f, Real(-1), Real(1));
     GNOMON_T(moments4) c = moments4_biased(b, GNOMON_LITERAL(bias4_raw_b2), GNOMON_LITERAL(bias4_raw_b4), alpha);
-    Real mean = certificate4_mean(certificate4_of(hankel4_fast(c), z, Real(1)), b, noise);
+    Real mean = certificate4_mean(certificate4_fast(hankel4_fast(c), z), b, noise);
     Real within = certificate4_mean(certificate4_within(c, least, greatest, z), b, noise);
     return certified4_of_means(mean, within, least, greatest, z);
 }
@@ -113,7 +114,7 @@ GNOMON_KERNEL Real certified4_half_filtered_within(GNOMON_T(moments4) b, Real le
     return certified4_raw_within(b,
                                  rounding4_filtered(b, GNOMON_LITERAL(certified4_half_filtered_noise),
                                                     GNOMON_LITERAL(certified4_half_least_noise)),
-                                 GNOMON_LITERAL(certified4_half_weight), least, greatest, z_f);
+                                 GNOMON_LITERAL(certified4_half_filtered_weight), least, greatest, z_f);
 }
 
 GNOMON_NAMESPACE_END
