@@ -118,8 +118,8 @@ TEST_CASE("knowing the region leaks less")
     }
 }
 
-// Dither makes errors of storage independent, so that a filter in float averages them: no bound holds then, but half a
-// code of noise is enough for all but few. The row says what that would be worth.
+// Dither makes errors of storage independent, so that a filter in float averages them. No bound holds then; noise of a
+// quarter of a code, half of what one rounding asks for, is enough for all but few. The rows say what that is worth.
 TEST_CASE("dither on store, filtered in float")
 {
     constexpr int count = 4000;
@@ -152,10 +152,10 @@ TEST_CASE("dither on store, filtered in float")
                 seen.depths.push_back(double(s.depths[j][k]));
                 seen.weights.push_back(double(s.taps[j]) * double(s.taps[k]));
             }
-        const double ideal = ideal_lower<4>(seen, s.receiver), half_noise = shown(filtered(1 / 131070.0), 4e-6, z_f);
+        const double ideal = ideal_lower<4>(seen, s.receiver), quarter_code = shown(filtered(1 / 131070.0), 4e-6, z_f);
         plain += std::max(0.0, ideal - shown(filtered(0), certified4_unorm16_noise, z_f)) / count;
-        dithered += std::max(0.0, ideal - half_noise) / count;
-        darkest = std::max(darkest, half_noise - s.below(s.receiver));
+        dithered += std::max(0.0, ideal - quarter_code) / count;
+        darkest = std::max(darkest, quarter_code - s.below(s.receiver));
     }
     std::printf("| store | leak |\n| rounded | %.2e |\n| dithered | %.2e |\ndarkness %.1e\n", plain, dithered, darkest);
     const std::vector<double> rounded = documented("docs/decisions/2-bias.md", "rounded");

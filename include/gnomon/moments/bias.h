@@ -1,15 +1,15 @@
 // Biasing: moments that storage has rounded may belong to no distribution, so they are moved inwards (Peters et al.
 // 2017, 2.5).
 //
-// If storage moves the stored vector by at most delta in each channel and b* lies r from the boundary of the valid
-// vectors in the maximum norm, the mixture (1 - alpha) b + alpha b* with alpha = delta / (delta + r) is that of the
-// true moments with others that are valid, too: intensities exceed Z(z < z_f) by alpha at most. The weight belongs to
-// the format and to its history, since n roundings need n delta; it is no knob. Below are the vectors b* with the
-// largest r, derived by tests/derivations, beside the paper's, which have the largest Euclidean distance. Odd entries
-// are zero by symmetry.
+// If storage moves the stored vector b by e, at most delta in each channel, and b* lies r from the boundary of the
+// valid vectors in the maximum norm, then (1 - alpha) (b + e) + alpha b* = (1 - alpha) b + alpha (b* + e (1 - alpha) /
+// alpha), and from alpha = delta / (delta + r) on the last term is valid, too. The moments are those of (1 - alpha) Z +
+// alpha Z', so intensities exceed Z(z < z_f) by alpha at most. The weight belongs to the format and to its history,
+// since n roundings need n delta; it is no knob. Below are the vectors b* with the largest r, derived by
+// tests/derivations, beside the paper's, which have the largest Euclidean distance. Odd entries are zero by symmetry.
 //
 // Two ways to apply it:
-//   interpolated  moments4_biased and then hankel4_fast, as the paper does: for 16-bit formats.
+//   interpolated  moments4_biased and then hankel4_fast, as the paper does: for UNORM and half floats.
 //   kept apart    hankel4_biased: the same mixture without rounding it away; 100 times less error in float.
 // A bias that depends on the moments, raised pivots, was the default once and darkened lit surfaces by up to 0.79; a
 // certificate (certified4.h) leaks less than a constant bias and never does (docs/decisions/2-bias.md).

@@ -7,10 +7,8 @@
 //   6 x 16 UNORM     12     theta6      interpolated
 //   6 x float        24     none        kept apart
 //
-// Intensity <= Z(z < z_f) + weight, wherever the receiver is. For (1 - alpha) (c + e) + alpha c* = (1 -
-// alpha) c + alpha (c* + e (1 - alpha) / alpha), where the stored vector c + e is off by n roundings, n delta in each
-// channel, and c* lies r (bias.h) inside: from alpha = n delta / (n delta + r) on the last term is a vector of moments,
-// the moments are those of (1 - alpha) Z + alpha Z', and their sharp lower bound is at most Z(z < z_f) + alpha.
+// Intensities exceed Z(z < z_f) by the weight at most, wherever the receiver is: bias.h has the proof, by which n
+// roundings ask for n delta / (n delta + r).
 //
 //                  delta      n = 1     weight    n = 3     weight, filtered
 //   6 x 10 UNORM   1/2046     3.34e-3   4e-3      9.96e-3   1e-2

@@ -30,7 +30,7 @@ GNOMON_KERNEL GNOMON_T(cubic_step) cubic_halley_step(Real b, Real c, Real d, Rea
     return x;
 }
 
-/// One Halley step for t^3 + b t^2 + c t + d from t.
+/// t after a step of Halley's iteration on t^3 + b t^2 + c t + d.
 GNOMON_KERNEL Real cubic_halley(Real b, Real c, Real d, Real t)
 {
     GNOMON_T(cubic_step) x = cubic_halley_step(b, c, d, t);
