@@ -47,7 +47,7 @@ template <class Format, class Intensity> double darkest_filtered(std::int64_t co
     return climb(contact_dimensions, count, 2,
                  [&](const std::vector<double>& place) {
                      const contact s = contact_at(place);
-                     return double(intensity(filtered_moments4<Format>(s), float(s.receiver))) - s.below(s.receiver);
+                     return double(intensity(filtered_moments<Format>(s), float(s.receiver))) - s.below(s.receiver);
                  })
         .score;
 }
@@ -84,7 +84,7 @@ TEST_CASE_TEMPLATE("contact shadows have no specks", Format, moments4_unorm16, m
         std::vector<double> place(contact_dimensions);
         for (double& x : place) x = bits.uniform(0, 1);
         const contact s = contact_at(place);
-        const moments c = filtered_moments4<Format>(s);
+        const moments c = filtered_moments<Format>(s);
         const float z_f = float(s.receiver);
         const float constant = hamburger4_lower(Format::filtered_factor(c), z_f);
         specks += Format::filtered_intensity(c, z_f) < constant - 0.2f;

@@ -5,6 +5,7 @@
 #include "../../bench/raised_pivots6.hpp"
 #include "../support/climber.hpp"
 #include "../support/contacts.hpp"
+#include "../support/moments_of.hpp"
 #include "../support/statistics.hpp"
 
 #include <gnomon/moments/formats.hpp>
@@ -33,22 +34,6 @@ template <class Format> moments6<float> stored(const distribution& d)
         Format::encode({float(b[0]), float(b[1]), float(b[2]), float(b[3]), float(b[4]), float(b[5])}));
 }
 
-/// The same of a scene, rounded when rendered and in each of two passes, whose sums are of float.
-template <class Format> moments6<float> filtered(const contact& scene)
-{
-    const auto pass = [&](const auto& texels) {
-        moments6<float> sum{};
-        for (std::size_t i = 0; i < 9; ++i) sum = moments6_add(sum, Format::decode(texels[i]), scene.taps[i]);
-        return Format::encode_channels(sum);
-    };
-    std::array<typename Format::texel, 9> row{}, column{};
-    for (std::size_t j = 0; j < 9; ++j) {
-        for (std::size_t i = 0; i < 9; ++i) row[i] = Format::encode(moments6_of_depth(scene.depths[j][i]));
-        column[j] = pass(row);
-    }
-    return Format::decode(pass(column));
-}
-
 template <class Format> struct stored_once {
     using format = Format;
     static constexpr auto what = "one rounding";
@@ -71,7 +56,7 @@ template <class Format> struct filtered_twice {
     template <class Factor> static double darkness(const std::vector<double>& place, Factor factor)
     {
         const contact s = contact_at(place);
-        const float intensity = hamburger6_lower(factor(filtered<format>(s)), float(s.receiver));
+        const float intensity = hamburger6_lower(factor(filtered_moments<format>(s)), float(s.receiver));
         return double(intensity) - s.below(s.receiver);
     }
 };

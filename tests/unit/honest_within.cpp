@@ -74,7 +74,7 @@ TEST_CASE_TEMPLATE("a lit surface is never darkened by knowing its region", Form
             const contact s = contact_at(place);
             std::vector<float> depths;
             for (const auto& row : s.depths) depths.insert(depths.end(), row.begin(), row.end());
-            const moments c = filtered_moments4<Format>(s);
+            const moments c = filtered_moments<Format>(s);
             return double(filtered_within(Format{}, c, known(k, depths), float(s.receiver))) - s.below(s.receiver);
         });
         std::printf("%s, knowledge %d: darkness %.3g, after two passes %.3g\n", std::string(Format::name).c_str(), k,
