@@ -8,7 +8,7 @@
 #ifndef GNOMON_PASSES_RESOLVE_HPP
 #define GNOMON_PASSES_RESOLVE_HPP
 
-#include "../motion/coverage_map.h"
+#include "../motion/range.h"
 #include "expects.hpp"
 
 #include <algorithm>
@@ -97,6 +97,9 @@ template <class T> class range_resolver {
         return !(reached < r.t1);
     }
 
+    /// Depths as near as that count as one, lest rounding makes spans of no use where surfaces meet.
+    static constexpr T tie = T(0x1p-18);
+
     /// The same whichever comes first. At one depth throughout, the lower id is in front.
     succession succession_of(std::uint32_t i, std::uint32_t j) const
     {
@@ -106,7 +109,11 @@ template <class T> class range_resolver {
         if (std::max(a.z0, a.z1) < std::min(b.z0, b.z1)) return {i, i, T(0)};
         if (std::max(b.z0, b.z1) < std::min(a.z0, a.z1)) return {j, j, T(0)};
         const T begin = std::max(a.t0, b.t0), end = std::min(a.t1, b.t1);
-        const T early = range_depth(a, begin) - range_depth(b, begin), late = range_depth(a, end) - range_depth(b, end);
+        const auto distance = [&](T t) {
+            const T d = range_depth(a, t) - range_depth(b, t);
+            return std::abs(d) <= tie ? T(0) : d;
+        };
+        const T early = distance(begin), late = distance(end);
         if (early == 0 && late == 0) return b.id < a.id ? succession{j, j, T(0)} : succession{i, i, T(0)};
         if (early <= 0 && late <= 0) return {i, i, T(0)};
         if (early >= 0 && late >= 0) return {j, j, T(0)};
@@ -139,26 +146,6 @@ std::span<const visible_span<T>> resolve_ranges(std::span<const depth_time_range
     range_resolver<T> resolver(ranges, spans);
     for (std::uint32_t i = 0; i < ranges.size(); ++i) resolver.insert(i);
     return resolver.spans();
-}
-
-/// A list without its backdrop, in place: what is there for the whole of the shutter, behind all else, as the ground
-/// often is. It is the cover (coverage_map.h) of the list seen from behind. It shadows nothing that its texel sees, and
-/// where nothing is in front of it no list remains; keep it where receivers come from outside of the map's scene.
-/// A receiver that only part of the texel sees, beside the backdrop's border, may be behind it.
-template <class T> std::span<depth_time_range<T>> without_backdrop(std::span<depth_time_range<T>> list)
-{
-    range_cover<T> from_behind = range_cover_begin(T(1));
-    for (const depth_time_range<T>& r : list)
-        from_behind = range_cover_add(from_behind, {r.t0, r.t1, -r.z0, -r.z1, r.id});
-    const depth_time_range<T> backdrop = range_cover_end(from_behind);
-    const auto is_it = [&](const depth_time_range<T>& r) {
-        return r.id == backdrop.id && r.t0 == backdrop.t0 && r.t1 == backdrop.t1 && r.z0 == -backdrop.z0 &&
-               r.z1 == -backdrop.z1;
-    };
-    const auto found = backdrop.id < 0 ? list.end() : std::find_if(list.begin(), list.end(), is_it);
-    if (found == list.end()) return list;
-    std::copy(found + 1, list.end(), found);
-    return list.first(list.size() - 1);
 }
 
 /// The part of its range that a span shows.
