@@ -237,7 +237,8 @@ range_shadow_map with_totals(range_shadow_map resolved)
 {
     resolved.method += " with totals", resolved.format += ", 8 B totals";
     resolved.totals.resize(texels_of(resolved.resolution));
-    resolved.build_ms += steady_ms([&] { set_totals(resolved.map(), std::span(resolved.totals)); });
+    resolved.build_ms +=
+        steady_ms([&] { set_totals(resolved.map(), std::span(resolved.totals), range_ids::surfaces); });
     resolved.bytes += resolved.totals.size() * sizeof resolved.totals[0];
     return resolved;
 }

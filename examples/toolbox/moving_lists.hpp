@@ -99,8 +99,8 @@ class texel_lists {
         for (std::size_t i = 0; i < texel_pack::size; rest = rest.subspan(counts[i++])) {
             std::span<const depth_time_range<float>> list = rest.first(counts[i]);
             if (!backdrops) list = filtered(list, held[i], backdrops_[i], last);
-            spans_.resize(std::max(spans_.size(), resolve_capacity(list.size())));
-            const auto spans = resolve_ranges(list, std::span(spans_));
+            spans_.resize(std::max(spans_.size(), resolve_capacity(list.size(), range_ids::surfaces)));
+            const auto spans = resolve_ranges(list, std::span(spans_), range_ids::surfaces);
             for (const visible_span<float>& s : spans) held_.push_back(range_of(list, s));
             held_counts_[i] = static_cast<std::uint32_t>(spans.size());
         }
