@@ -1,9 +1,9 @@
-// The lists of a pack of texels while the rasterizer of motion works at them: ranges as they come, by packs, until they
-// are laid out or resolved.
+// The lists of a pack of texels while the rasterizer of motion works at them: columns of rows (simd/resolve.hpp), to
+// which ranges come by packs, until they are laid out.
 #pragma once
 
 #include <gnomon/passes/backdrop.hpp>
-#include <gnomon/passes/resolve.hpp>
+#include <gnomon/simd/resolve.hpp>
 
 #include <algorithm>
 #include <array>
@@ -16,19 +16,11 @@
 
 namespace gnomon::toolbox {
 
-// What a triangle adds to a pack of texels.
-struct loose_pack {
-    texel_lanes t0, t1, z0, z1;
-    std::uint64_t exists; // a bit for each lane
-    float id;
-};
-
 // Things one after the other, and room behind them that keeps what it has.
 template <class T> class stack {
   public:
     std::size_t size() const { return size_; }
     std::span<const T> used() const { return std::span(room_).first(size_); }
-    std::span<T> used() { return std::span(room_).first(size_); }
     void clear() { size_ = 0; }
     T* room_for(std::size_t count)
     {
@@ -42,92 +34,194 @@ template <class T> class stack {
     std::size_t size_ = 0;
 };
 
-// Lists of a pack of texels: ranges as they come, by packs, until they are laid out or resolved.
-class texel_lists {
+// What is known to be hidden while lists are still open: in each of some equal parts of the shutter, the farthest depth
+// of the nearest range that lasts for all of the part.
+class hidden_depths {
   public:
-    // How many ranges there is room for.
-    std::size_t room() const { return held_.size() + texel_pack::size * packs_.size(); }
-
     void clear()
     {
-        clear_lists();
-        backdrops_.fill({});
+        depths_.fill(texel_pack(2.f));
+        any_ = false;
     }
 
-    // Those that exist, a bit for each lane.
-    GNOMON_INLINE void add(std::uint64_t exists, const range_pack& r, float id)
+    // Of the lanes that exist those in which the range may be in front.
+    GNOMON_INLINE xsimd::batch_bool<float> may_be_seen(const xsimd::batch_bool<float>& exists,
+                                                       const range_pack& r) const
     {
-        loose_pack& p = *packs_.room_for(1);
-        packs_.grow(1);
-        r.t0.store_unaligned(p.t0.data()), r.t1.store_unaligned(p.t1.data());
-        r.z0.store_unaligned(p.z0.data()), r.z1.store_unaligned(p.z1.data());
-        p.exists = exists, p.id = id;
+        if (!any_) return exists;
+        const texel_pack nearest = gnomon_min(r.z0, r.z1);
+        xsimd::batch_bool<float> seen(false);
+        for (std::size_t k = 0; k < parts; ++k)
+            seen = seen || (r.t0 < end(k) && begin(k) < r.t1 && nearest <= depths_[k]);
+        return seen && exists;
     }
 
-    // At the end of others, texel by texel, how many of each in counts.
-    void append_to(stack<depth_time_range<float>>& all, std::span<std::uint32_t, texel_pack::size> counts) const
+    // One that is listed in these lanes.
+    GNOMON_INLINE void add(const xsimd::batch_bool<float>& exists, const range_pack& r)
     {
-        depth_time_range<float>*const begin = all.room_for(room() + 1), *end = begin;
-        const std::span<const loose_pack> packs = packs_.used();
-        auto held = held_.begin();
-        for (std::size_t i = 0; i < texel_pack::size; ++i) {
-            std::uint32_t count = held_counts_[i];
-            if (count > 0) {
-                end = std::copy_n(held, count, end);
-                held += count;
-            }
-            // Without branches: what does not exist is overwritten.
-            for (const loose_pack& p : packs) {
-                const std::uint32_t exists = p.exists >> i & 1;
-                *end = {p.t0[i], p.t1[i], p.z0[i], p.z1[i], p.id};
-                end += exists, count += exists;
-            }
-            counts[i] = count;
-        }
-        all.grow(std::size_t(end - begin));
-    }
-
-    // They become what of them is in front. Without backdrops the farthest range that is always there waits outside of
-    // the lists until the last call, since what comes may be behind it.
-    void resolve(bool backdrops, bool last)
-    {
-        std::array<std::uint32_t, texel_pack::size> counts, held = held_counts_;
-        lists_.clear();
-        append_to(lists_, counts);
-        clear_lists();
-        std::span<const depth_time_range<float>> rest = lists_.used();
-        for (std::size_t i = 0; i < texel_pack::size; rest = rest.subspan(counts[i++])) {
-            std::span<const depth_time_range<float>> list = rest.first(counts[i]);
-            if (!backdrops) list = filtered(list, held[i], backdrops_[i], last);
-            spans_.resize(std::max(spans_.size(), resolve_capacity(list.size(), range_ids::surfaces)));
-            const auto spans = resolve_ranges(list, std::span(spans_), range_ids::surfaces);
-            for (const visible_span<float>& s : spans) held_.push_back(range_of(list, s));
-            held_counts_[i] = static_cast<std::uint32_t>(spans.size());
-        }
+        if (!gnomon_any(exists && texel_pack(part) <= r.t1 - r.t0)) return;
+        any_ = true;
+        const texel_pack farthest = gnomon_max(r.z0, r.z1);
+        for (std::size_t k = 0; k < parts; ++k)
+            depths_[k] = gnomon_select(exists && r.t0 <= begin(k) && end(k) <= r.t1, gnomon_min(depths_[k], farthest),
+                                       depths_[k]);
     }
 
   private:
-    void clear_lists() { packs_.clear(), held_.clear(), held_counts_.fill(0); }
+    static constexpr std::size_t parts = 8;
+    static constexpr float part = 1 / float(parts);
+    static texel_pack begin(std::size_t k) { return texel_pack(part * float(k)); }
+    static texel_pack end(std::size_t k) { return texel_pack(part * float(k + 1)); }
 
-    // Of a list whose first ranges have been through the filter.
-    std::span<const depth_time_range<float>> filtered(std::span<const depth_time_range<float>> list, std::size_t known,
-                                                      backdrop_filter<float>& filter, bool last)
+    std::array<texel_pack, parts> depths_;
+    bool any_ = false;
+};
+
+class texel_lists {
+  public:
+    using range = depth_time_range<float>;
+    using range_lanes = depth_time_range<texel_pack>;
+    using lane_mask = xsimd::batch_bool<float>;
+
+    // How many ranges there is room for.
+    std::size_t room() const { return texel_pack::size * count_; }
+
+    // Resolved lists keep what is in front. Without backdrops the farthest range that is always there waits outside of
+    // them, since what comes may be behind it.
+    void clear(bool resolved, bool backdrops)
     {
-        filtered_.assign(list.begin(), list.begin() + std::ptrdiff_t(known));
-        for (const depth_time_range<float>& r : list.subspan(known))
-            if (const auto listed = filter.add(r)) filtered_.push_back(*listed);
-        if (last && filter.waiting() && !filter.is_backdrop()) filtered_.push_back(*filter.waiting());
-        return filtered_;
+        resolved_ = resolved, backdrops_ = backdrops;
+        count_ = 0;
+        if (!resolved) return;
+        hidden_.clear();
+        backdrop_ = {};
     }
 
-    stack<loose_pack> packs_;
-    std::vector<depth_time_range<float>> held_; // resolved, texel by texel, before those in packs
-    std::array<std::uint32_t, texel_pack::size> held_counts_{};
-    std::array<backdrop_filter<float>, texel_pack::size> backdrops_;
+    // Those that exist.
+    GNOMON_INLINE void add(const lane_mask& exists, const range_pack& r, float id)
+    {
+        const range_lanes came{r.t0, r.t1, r.z0, r.z1, texel_pack(id)};
+        if (resolved_) add_resolved(exists, came);
+        else if (gnomon_any(exists)) put_in_new_row(exists, came);
+    }
 
-    stack<depth_time_range<float>> lists_;
-    std::vector<depth_time_range<float>> filtered_;
-    std::vector<visible_span<float>> spans_;
+    // At the end of others, texel by texel, how many of each in sizes.
+    void append_to(stack<range>& all, std::span<std::uint32_t, texel_pack::size> sizes) const
+    {
+        range* end = all.room_for(room() + 1);
+        for (std::size_t i = 0; i < texel_pack::size; ++i) {
+            std::uint32_t count = 0;
+            // Without branches: what does not exist is overwritten.
+            for (std::size_t k = 0; k < count_; ++k) {
+                const std::uint32_t exists = used_[k] >> i & 1;
+                *end = rows_[k].range(i);
+                end += exists, count += exists;
+            }
+            sizes[i] = count;
+            all.grow(count);
+        }
+    }
+
+    // The same of what of them is in front.
+    void append_resolved_to(stack<range>& all, std::span<std::uint32_t, texel_pack::size> sizes)
+    {
+        if (!backdrops_) add_seen(backdrop_.rest().t0 < backdrop_.rest().t1, backdrop_.rest());
+        resolve();
+        for (std::size_t i = 0; i < texel_pack::size; ++i) {
+            sizes[i] = static_cast<std::uint32_t>(pieces_[i].size());
+            std::ranges::transform(pieces_[i], all.room_for(sizes[i]),
+                                   [&](const piece& p) { return rows_[p.row].range(i); });
+            all.grow(sizes[i]);
+        }
+    }
+
+    // They become what of them is in front.
+    void thin_out()
+    {
+        resolve();
+        std::size_t longest = 0;
+        for (const std::vector<piece>& some : pieces_) longest = std::max(longest, some.size());
+        thinned_.resize(longest);
+        for (std::size_t k = 0; k < longest; ++k) {
+            used_[k] = 0;
+            for (std::size_t i = 0; i < texel_pack::size; ++i) {
+                const bool exists = k < pieces_[i].size();
+                thinned_[k].set(i, exists ? rows_[pieces_[i][k].row].range(i) : range_empty(float(range_nothing)));
+                used_[k] |= std::uint64_t(exists) << i;
+            }
+        }
+        std::swap(rows_, thinned_);
+        count_ = longest;
+    }
+
+  private:
+    using row = range_row<texel_pack>;
+    struct piece {
+        float begin;
+        std::uint32_t row;
+    };
+
+    GNOMON_INLINE void put_in_new_row(const lane_mask& exists, const range_lanes& r)
+    {
+        if (count_ >= rows_.size()) rows_.resize(count_ + 1);
+        if (count_ >= used_.size()) used_.resize(rows_.size());
+        used_[count_] = bits_of(exists);
+        rows_[count_++].set(range_kept(exists, r));
+    }
+
+    [[gnu::noinline]] void add_resolved(lane_mask exists, const range_lanes& came)
+    {
+        if (backdrops_) return add_seen(exists, came);
+        const range_lanes listed = backdrop_.add(range_kept(exists, came));
+        add_seen(listed.t0 < listed.t1, listed);
+    }
+
+    // In one of the last rows that has room for it, or in a new one.
+    GNOMON_INLINE void add_seen(const lane_mask& exists, const range_lanes& r)
+    {
+        const range_pack times{r.t0, r.t1, r.z0, r.z1};
+        const lane_mask seen = hidden_.may_be_seen(exists, times);
+        const std::uint64_t bits = bits_of(seen);
+        if (bits == 0) return;
+        hidden_.add(seen, times);
+        constexpr std::size_t asked = 8;
+        std::size_t k = count_ < asked ? 0 : count_ - asked;
+        while (k < count_ && (used_[k] & bits) != 0) ++k;
+        if (k == count_) return put_in_new_row(seen, r);
+        used_[k] |= bits;
+        rows_[k].set(range_select(seen, r, rows_[k].range()));
+    }
+
+    // What is in front, to pieces_, in order of time.
+    void resolve()
+    {
+        resolve_rows<texel_pack>(rows_, fronts_, count_);
+        used_.resize(std::max(used_.size(), rows_.size()));
+        for (std::vector<piece>& some : pieces_) some.clear();
+        for (std::uint32_t k = 0; k < rows_.size(); ++k) {
+            row& r = rows_[k];
+            const front_row<texel_pack>& front = fronts_[k];
+            const texel_pack begin = front.load(front.begin), end = front.load(front.end);
+            const std::uint64_t seen = bits_of(begin < end);
+            if (seen == 0) continue;
+            r.set(range_clip(r.range(), begin, end));
+            for_each_bit(seen, [&](std::size_t i) {
+                std::vector<piece>& some = pieces_[i];
+                some.push_back({r.t0[i], k});
+                for (std::size_t j = some.size() - 1; j > 0 && some[j].begin < some[j - 1].begin; --j)
+                    std::swap(some[j], some[j - 1]);
+            });
+        }
+    }
+
+    std::vector<row> rows_, thinned_; // the first count_ are in use
+    std::vector<front_row<texel_pack>> fronts_;
+    std::vector<std::uint64_t> used_; // of each row, a bit for each lane
+    std::size_t count_ = 0;
+    bool resolved_ = false, backdrops_ = true;
+    hidden_depths hidden_;
+    backdrop_filter<texel_pack> backdrop_;
+    std::array<std::vector<piece>, texel_pack::size> pieces_;
 };
 
 } // namespace gnomon::toolbox

@@ -52,7 +52,7 @@ struct sighting {
     while (gnomon_any(passed < texel_pack(1.f))) {
         const depth_piece<texel_pack> piece =
             moving_depth_piece(corners, edges, whole.t0, whole.t1, passed, texel_pack(0.f), texel_pack(at.tolerance));
-        at.to.add(bits_of(passed < texel_pack(1.f) && piece.t0 < piece.t1), {piece.t0, piece.t1, piece.z0, piece.z1},
+        at.to.add(passed < texel_pack(1.f) && piece.t0 < piece.t1, {piece.t0, piece.t1, piece.z0, piece.z1},
                   float(at.triangle.setup().number));
         passed = piece.passed;
     }
@@ -60,17 +60,18 @@ struct sighting {
 
 // A range of those lanes that have it, in pieces where its depth bends.
 template <class Sight>
-GNOMON_INLINE void add_range(const sighting& at, const Sight& sight, std::uint64_t seen,
-                             const xsimd::batch_bool<float>& exists, const range_pack& whole)
+GNOMON_INLINE void add_range(const sighting& at, const Sight& sight, const xsimd::batch_bool<float>& exists,
+                             const range_pack& whole)
 {
+    auto straight = exists;
     if (at.tolerance > 0) {
         const auto bent = exists && sight.bends(whole, at.tolerance);
         if (gnomon_any(bent)) {
             add_pieces(at, bent, whole);
-            seen &= ~bits_of(bent);
+            straight = exists && !bent;
         }
     }
-    if (seen != 0) at.to.add(seen, whole, float(at.triangle.setup().number));
+    at.to.add(straight, whole, float(at.triangle.setup().number));
 }
 
 // What of an interval is between the near and the far plane, of a triangle that passes one of them.
@@ -88,7 +89,7 @@ template <class Sight>
             const auto there = exists && part.begin < part.end;
             const std::uint64_t bits = bits_of(there);
             if (bits == 0) continue;
-            add_range(at, sight, bits, there, {part.begin, part.end, sight.depth(part.begin), sight.depth(part.end)});
+            add_range(at, sight, there, {part.begin, part.end, sight.depth(part.begin), sight.depth(part.end)});
             seen |= bits;
         }
     return seen;
@@ -103,7 +104,7 @@ GNOMON_INLINE std::uint64_t add_interval(const sighting& at, const Sight& sight,
     if (__builtin_expect(!at.triangle.setup().between_planes, 0))
         return add_between_planes(at, sight, exists, opening, closing, facing);
     const std::uint64_t seen = bits_of(exists);
-    add_range(at, sight, seen, exists, {opening, closing, sight.depth(opening), sight.depth(closing)});
+    add_range(at, sight, exists, {opening, closing, sight.depth(opening), sight.depth(closing)});
     return seen;
 }
 
@@ -147,13 +148,13 @@ GNOMON_INLINE std::size_t add_facing(const sighting& at, const linear_sight& sig
 
 void rasterize_tile(const tiled_triangles& scenery, std::size_t tile, const range_options& how, tile_lists& to)
 {
-    to.members.assign(scenery, tile);
+    to.members.assign(scenery, tile, how.resolved);
     to.counts = {};
     to.lists.clear();
     for (std::size_t i = 0; i < packs_per_tile; ++i) {
         const moving_samples samples(i);
         std::size_t budget = how.budget;
-        to.texels.clear();
+        to.texels.clear(how.resolved, how.backdrops);
         to.members.for_each(i / moving_samples::packs_per_block, [&](const tile_triangle& triangle) {
             const sighting at{triangle, samples, how.depth_tolerance, to.texels};
             to.counts.tested += texel_pack::size;
@@ -163,11 +164,12 @@ void rasterize_tile(const tiled_triangles& scenery, std::size_t tile, const rang
             if (s.negative) to.counts.pairs += add_turned(at);
             if (to.texels.room() <= budget) return;
             ++to.counts.early_resolves;
-            to.texels.resolve(how.backdrops, false);
+            to.texels.thin_out();
             budget = std::max(budget, 2 * to.texels.room());
         });
-        if (how.resolved) to.texels.resolve(how.backdrops, true);
-        to.texels.append_to(to.lists, std::span(to.sizes).subspan(i * texel_pack::size).first<texel_pack::size>());
+        const auto sizes = std::span(to.sizes).subspan(i * texel_pack::size).first<texel_pack::size>();
+        if (how.resolved) to.texels.append_resolved_to(to.lists, sizes);
+        else to.texels.append_to(to.lists, sizes);
     }
 }
 

@@ -72,6 +72,7 @@ bool set_extent(moving_setup& s, const moving_view& from)
     if (!(nearest <= 1) || !(farthest >= -1)) return false;
     s.before_eye = least_w > 0;
     s.between_planes = -1 < nearest && farthest < 1;
+    s.nearest = static_cast<float>(nearest);
     if (!s.before_eye) low = glm::dvec2(0), high = from.size;
     s.first = glm::ivec2(glm::clamp(glm::ceil(low - 0.5 - double(tile_triangle::margin)), glm::dvec2(0), from.size));
     s.last =
@@ -229,17 +230,21 @@ texel_pack curved_sight::depth_of_corners(const moving_setup& s, moving_edges<te
     return moving_triangle_linear_depth(numbers_as<texel_pack>(s.corners), edges, t);
 }
 
-void tile_members::assign(const tiled_triangles& scenery, std::size_t tile)
+void tile_members::assign(const tiled_triangles& scenery, std::size_t tile, bool front_to_back)
 {
     triangles_.clear();
     touching_.clear();
+    members_.clear();
     const moving_tile where = scenery.tile(tile);
-    scenery.for_each(tile, [&](const moving_setup& s) {
+    scenery.for_each(tile, [&](const moving_setup& s) { members_.push_back(&s); });
+    if (front_to_back) std::ranges::stable_sort(members_, {}, &moving_setup::nearest);
+    for (const moving_setup* member : members_) {
+        const moving_setup& s = *member;
         const std::size_t i = triangles_.size() % 64;
         if (i == 0) touching_.emplace_back();
         const std::uint64_t blocks = triangles_.emplace_back(s, where).blocks();
         for_each_bit(blocks, [&](std::size_t block) { touching_.back()[block] |= std::uint64_t(1) << i; });
-    });
+    }
 }
 
 } // namespace gnomon::toolbox

@@ -57,6 +57,7 @@ struct moving_setup {
     bool between_planes;     // near and far
     glm::bvec3 linear_edges; // those across from the corners whose functions are linear in time
     bool linear;             // all of them, and the corners' depths change alike
+    float nearest;           // depth
     std::uint32_t number;    // counted through all meshes
 };
 
@@ -362,9 +363,9 @@ class tile_triangle {
 // The triangles of a tile, by the blocks that they touch.
 class tile_members {
   public:
-    void assign(const tiled_triangles& scenery, std::size_t tile);
+    void assign(const tiled_triangles& scenery, std::size_t tile, bool front_to_back = false);
 
-    // Calls visit(triangle) for those of a block, in the order of their numbers.
+    // Calls visit(triangle) for those of a block, by their nearest depth or in the order of their numbers.
     template <class Visit> void for_each(std::size_t block, const Visit& visit) const
     {
         for (std::size_t k = 0; k < touching_.size(); ++k)
@@ -372,6 +373,7 @@ class tile_members {
     }
 
   private:
+    std::vector<const moving_setup*> members_;
     std::vector<tile_triangle> triangles_;
     std::vector<std::array<std::uint64_t, 64>> touching_; // of 64 triangles each, by blocks, a bit for each triangle
 };

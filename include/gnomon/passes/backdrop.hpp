@@ -8,51 +8,55 @@
 #include "../motion/range.h"
 
 #include <algorithm>
-#include <optional>
 #include <span>
 
 namespace gnomon {
 
 /// Ranges as they come, less the farthest that lasts from 0 to 1, which waits: whether it is a backdrop is known at the
 /// end. Whoever drops hidden ranges meanwhile must ask every range through this filter first. A hidden backdrop, once
-/// dropped, would leave the lowest caster in its place.
-template <class T> class backdrop_filter {
+/// dropped, would leave the lowest caster in its place. Of one list, or of one in each lane of a pack.
+template <class Real> class backdrop_filter {
   public:
-    /// What goes into the list now that r has come: r, or what has waited until now.
-    std::optional<depth_time_range<T>> add(const depth_time_range<T>& r)
+    using range = depth_time_range<Real>;
+
+    /// What goes into the list now that r has come: r, or what has waited until now, which is empty at first.
+    GNOMON_INLINE range add(const range& r)
     {
-        if (r.t0 <= 0 && 1 <= r.t1 && lies_behind(r)) {
-            const std::optional<depth_time_range<T>> before = waiting_;
-            if (before) deepest_other_ = std::max(deepest_other_, farther_end(*before));
-            waiting_ = r;
-            return before;
-        }
-        if (r.t0 <= r.t1) deepest_other_ = std::max(deepest_other_, farther_end(r));
-        return r;
+        const auto some = r.t0 <= r.t1 && r.z0 == r.z0 && r.z1 == r.z1;
+        const auto waits = some && r.t0 <= Real(0) && Real(1) <= r.t1 && (!waiting_some() || is_behind(r, waiting_));
+        const range listed = range_select(waits, waiting_, r);
+        waiting_ = range_select(waits, r, waiting_);
+        const auto counts = listed.t0 <= listed.t1 && listed.z0 == listed.z0 && listed.z1 == listed.z1;
+        deepest_ = gnomon_select(counts, gnomon_max(deepest_, farther_end(listed)), deepest_);
+        return listed;
     }
 
-    /// The farthest that lasts from 0 to 1.
-    const std::optional<depth_time_range<T>>& waiting() const { return waiting_; }
+    /// The farthest that lasts from 0 to 1; an empty one where there is none.
+    const range& waiting() const { return waiting_; }
 
     /// Whether that is behind all others that have come.
-    bool is_backdrop() const { return waiting_ && deepest_other_ <= nearer_end(*waiting_); }
+    auto is_backdrop() const { return waiting_some() && deepest_ <= nearer_end(waiting_); }
+
+    /// What has waited in vain, since it is not behind all else, and belongs into the list; else an empty one. Ask
+    /// after the last range.
+    range rest() const { return range_select(is_backdrop(), range_empty(Real(range_nothing)), waiting_); }
 
   private:
-    static T nearer_end(const depth_time_range<T>& r) { return std::min(r.z0, r.z1); }
-    static T farther_end(const depth_time_range<T>& r) { return std::max(r.z0, r.z1); }
+    static Real nearer_end(const range& r) { return gnomon_min(r.z0, r.z1); }
+    static Real farther_end(const range& r) { return gnomon_max(r.z0, r.z1); }
 
-    /// Whether r takes the place of what waits; a NaN never does. Of equal ones the lower id waits.
-    bool lies_behind(const depth_time_range<T>& r) const
+    auto waiting_some() const { return waiting_.t0 < waiting_.t1; }
+
+    /// By the nearer end, then by the farther one; of equal ones the lower id waits.
+    static auto is_behind(const range& a, const range& b)
     {
-        if (!waiting_) return r.z0 == r.z0 && r.z1 == r.z1;
-        const T near = nearer_end(r), far = farther_end(r), near_of = nearer_end(*waiting_),
-                far_of = farther_end(*waiting_);
-        if (near != near_of) return near > near_of;
-        return far != far_of ? far > far_of : r.id < waiting_->id;
+        const auto same_near = nearer_end(a) == nearer_end(b), same_far = farther_end(a) == farther_end(b);
+        return nearer_end(b) < nearer_end(a) ||
+               (same_near && (farther_end(b) < farther_end(a) || (same_far && a.id < b.id)));
     }
 
-    std::optional<depth_time_range<T>> waiting_;
-    T deepest_other_ = T(-1); // depths are in [-1, 1]
+    range waiting_ = range_empty(Real(range_nothing));
+    Real deepest_ = Real(-1); // of all others; depths are in [-1, 1]
 };
 
 /// A list without its backdrop, in place, in its order.
@@ -61,7 +65,7 @@ template <class T> std::span<depth_time_range<T>> without_backdrop(std::span<dep
     backdrop_filter<T> filter;
     for (const depth_time_range<T>& r : list) filter.add(r);
     if (!filter.is_backdrop()) return list;
-    const depth_time_range<T> backdrop = *filter.waiting();
+    const depth_time_range<T> backdrop = filter.waiting();
     const auto found = std::ranges::find_if(list, [&](const depth_time_range<T>& r) {
         return r.id == backdrop.id && r.t0 == backdrop.t0 && r.t1 == backdrop.t1 && r.z0 == backdrop.z0 &&
                r.z1 == backdrop.z1;

@@ -20,6 +20,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <span>
 
@@ -30,6 +31,9 @@ template <class T> struct visible_span {
     T t0, t1;
     std::uint32_t range;
 };
+
+/// Depths as near as that count as one, lest rounding makes spans of no use where surfaces meet.
+template <class T> inline constexpr T resolve_tie = T(0x1p-18);
 
 namespace detail {
 
@@ -77,12 +81,14 @@ template <class T> class front_resolver {
         while (first < count_ && spans_[first].t1 <= t0) ++first;
         if (is_behind(r, t0, t1, first)) return;
         changes_ = 0;
+        bool unchanged = true;
         T reached = t0;
         std::size_t next = first;
         for (; next < count_ && spans_[next].t0 < t1; ++next) {
             const visible_span<T> old = spans_[next];
             const T begin = std::max(old.t0, t0), end = std::min(old.t1, t1);
             const succession who = succession_of(number, old.range);
+            unchanged = unchanged && !(reached < begin) && who.early == old.range && who.late == old.range;
             const T change = std::clamp(who.change, begin, end);
             change_to({old.t0, begin, old.range});
             change_to({reached, begin, number});
@@ -91,12 +97,13 @@ template <class T> class front_resolver {
             change_to({end, old.t1, old.range});
             reached = end;
         }
+        if (unchanged && !(reached < t1)) return;
         change_to({reached, t1, number});
         const std::size_t removed = next - first, rest = count_ - next;
         GNOMON_EXPECTS(first + changes_ + rest <= spans_.size(),
                        mismatch("resolve", "spans", first + changes_ + rest, "capacity", spans_.size()));
-        if (changes_ != removed)
-            std::copy_n(spans_.begin() + std::ptrdiff_t(next), rest, spans_.begin() + std::ptrdiff_t(first + changes_));
+        if (changes_ != removed && rest > 0)
+            std::memmove(&spans_[first + changes_], &spans_[next], rest * sizeof spans_[0]);
         std::copy_n(changed_.begin(), changes_, spans_.begin() + std::ptrdiff_t(first));
         count_ = first + changes_ + rest;
     }
@@ -120,9 +127,6 @@ template <class T> class front_resolver {
         return !(reached < t1);
     }
 
-    /// Depths as near as that count as one, lest rounding makes spans of no use where surfaces meet.
-    static constexpr T tie = T(0x1p-18);
-
     /// The same whichever comes first. At one depth throughout, the lower id is in front.
     succession succession_of(std::uint32_t i, std::uint32_t j) const
     {
@@ -132,15 +136,16 @@ template <class T> class front_resolver {
         if (std::max(a.z0, a.z1) < std::min(b.z0, b.z1)) return {i, i, T(0)};
         if (std::max(b.z0, b.z1) < std::min(a.z0, a.z1)) return {j, j, T(0)};
         const T begin = std::max(a.t0, b.t0), end = std::min(a.t1, b.t1);
+        const T slope_a = (a.z1 - a.z0) / (a.t1 - a.t0), slope_b = (b.z1 - b.z0) / (b.t1 - b.t0);
         const auto distance = [&](T t) {
-            const T d = range_depth(a, t) - range_depth(b, t);
-            return std::abs(d) <= tie ? T(0) : d;
+            const T d = (a.z0 + (t - a.t0) * slope_a) - (b.z0 + (t - b.t0) * slope_b);
+            return std::abs(d) <= resolve_tie<T> ? T(0) : d;
         };
         const T early = distance(begin), late = distance(end);
         if (early == 0 && late == 0) return b.id < a.id ? succession{j, j, T(0)} : succession{i, i, T(0)};
         if (early <= 0 && late <= 0) return {i, i, T(0)};
         if (early >= 0 && late >= 0) return {j, j, T(0)};
-        const T change = range_crossing(a, b);
+        const T change = begin + (end - begin) * (early / (early - late));
         return early < 0 ? succession{i, j, change} : succession{j, i, change};
     }
 
@@ -198,7 +203,8 @@ std::span<const visible_span<T>> resolve_ranges(std::span<const depth_time_range
 /// The part of its range that a span shows.
 template <class T> depth_time_range<T> range_of(std::span<const depth_time_range<T>> ranges, const visible_span<T>& s)
 {
-    return range_clip(ranges[s.range], s.t0, s.t1);
+    const depth_time_range<T>& r = ranges[s.range];
+    return s.t0 <= r.t0 && r.t1 <= s.t1 ? r : range_clip(r, s.t0, s.t1);
 }
 
 } // namespace gnomon
