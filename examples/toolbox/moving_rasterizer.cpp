@@ -44,14 +44,12 @@ struct sighting {
 };
 
 // Ranges whose depth is further from its line than the tolerance, in pieces (Palmer 2011, chapter 5).
-[[gnu::noinline]] void add_pieces(const sighting& at, xsimd::batch_bool<float> bent, range_pack whole)
+template <class Piece>
+[[gnu::noinline]] void add_pieces(const sighting& at, xsimd::batch_bool<float> bent, const Piece& piece_from)
 {
-    const moving_triangle<texel_pack> corners = numbers_as<texel_pack>(at.triangle.setup().corners);
-    const moving_edges<texel_pack> edges = at.triangle.curved(at.samples, 1).edges;
     texel_pack passed = gnomon_select(bent, texel_pack(0.f), texel_pack(1.f));
     while (gnomon_any(passed < texel_pack(1.f))) {
-        const depth_piece<texel_pack> piece =
-            moving_depth_piece(corners, edges, whole.t0, whole.t1, passed, texel_pack(0.f), texel_pack(at.tolerance));
+        const depth_piece<texel_pack> piece = piece_from(passed);
         at.to.add(passed < texel_pack(1.f) && piece.t0 < piece.t1, {piece.t0, piece.t1, piece.z0, piece.z1},
                   float(at.triangle.setup().number));
         passed = piece.passed;
@@ -61,17 +59,28 @@ struct sighting {
 // A range of those lanes that have it, in pieces where its depth bends.
 template <class Sight>
 GNOMON_INLINE void add_range(const sighting& at, const Sight& sight, const xsimd::batch_bool<float>& exists,
-                             const range_pack& whole)
+                             const texel_pack& opening, const texel_pack& closing)
 {
-    auto straight = exists;
-    if (at.tolerance > 0) {
-        const auto bent = exists && sight.bends(whole, at.tolerance);
-        if (gnomon_any(bent)) {
-            add_pieces(at, bent, whole);
-            straight = exists && !bent;
-        }
+    const auto id = float(at.triangle.setup().number);
+    if (!(at.tolerance > 0)) {
+        at.to.add(exists, {opening, closing, sight.depth(opening), sight.depth(closing)}, id);
+        return;
     }
-    at.to.add(straight, whole, float(at.triangle.setup().number));
+    const depth_line<texel_pack> line = sight.line(opening, closing);
+    const texel_pack tolerance(at.tolerance);
+    const auto bent = exists && tolerance < line.deviation;
+    if (gnomon_any(bent)) {
+        if (at.triangle.setup().before_eye)
+            add_pieces(at, bent, [curve = sight.curve, opening, closing, tolerance](const texel_pack& passed) {
+                return depth_curve_piece(curve, opening, closing, passed, tolerance);
+            });
+        else
+            add_pieces(at, bent, [&at, edges = sight.edges, opening, closing, tolerance](const texel_pack& passed) {
+                return moving_depth_piece(numbers_as<texel_pack>(at.triangle.setup().corners), edges, opening, closing,
+                                          passed, texel_pack(0.f), tolerance);
+            });
+    }
+    at.to.add(exists && !bent, {opening, closing, line.z0, line.z1}, id);
 }
 
 // What of an interval is between the near and the far plane, of a triangle that passes one of them.
@@ -89,7 +98,7 @@ template <class Sight>
             const auto there = exists && part.begin < part.end;
             const std::uint64_t bits = bits_of(there);
             if (bits == 0) continue;
-            add_range(at, sight, there, {part.begin, part.end, sight.depth(part.begin), sight.depth(part.end)});
+            add_range(at, sight, there, part.begin, part.end);
             seen |= bits;
         }
     return seen;
@@ -104,7 +113,7 @@ GNOMON_INLINE std::uint64_t add_interval(const sighting& at, const Sight& sight,
     if (__builtin_expect(!at.triangle.setup().between_planes, 0))
         return add_between_planes(at, sight, exists, opening, closing, facing);
     const std::uint64_t seen = bits_of(exists);
-    add_range(at, sight, exists, {opening, closing, sight.depth(opening), sight.depth(closing)});
+    add_range(at, sight, exists, opening, closing);
     return seen;
 }
 

@@ -251,15 +251,15 @@ struct curved_sight {
     {
         return of.before_eye ? depth_curve_at(curve, t) : depth_of_corners(of, edges, t);
     }
-    // Whether depth departs from its line by more than the tolerance: most of it somewhere in the middle.
-    GNOMON_INLINE auto bends(const range_pack& r, float tolerance) const
+    GNOMON_INLINE depth_line<texel_pack> line(const texel_pack& begin, const texel_pack& end) const
     {
-        const texel_pack half(0.5f);
-        return gnomon_abs(depth(half * (r.t0 + r.t1)) - half * (r.z0 + r.z1)) > texel_pack(0.5f * tolerance);
+        return of.before_eye ? depth_curve_line(curve, begin, end) : line_of_corners(of, edges, begin, end);
     }
 
     // Without a field: for triangles that are not before the eye all of the time.
     static texel_pack depth_of_corners(const moving_setup& s, moving_edges<texel_pack> edges, const texel_pack& t);
+    static depth_line<texel_pack> line_of_corners(const moving_setup& s, moving_edges<texel_pack> edges,
+                                                  const texel_pack& begin, const texel_pack& end);
 };
 
 // Of one that is linear in time.
@@ -272,13 +272,9 @@ struct linear_sight {
         return linear_coverage(facing < 0 ? turned(edges) : edges);
     }
     GNOMON_INLINE texel_pack depth(const texel_pack& t) const { return linear_depth_at(curve, t); }
-    // With N / D of a depth_curve it departs by (N1 / D1 - N0 / D0) (D1 - D0) / (sqrt(D0) + sqrt(D1))^2 at most.
-    GNOMON_INLINE auto bends(const range_pack& r, float tolerance) const
+    GNOMON_INLINE depth_line<texel_pack> line(const texel_pack& begin, const texel_pack& end) const
     {
-        const auto d = [&](const texel_pack& t) { return curve.d0 * (texel_pack(1.f) - t) + curve.d2 * t; };
-        const texel_pack before = d(r.t0), after = d(r.t1);
-        const texel_pack rise = (r.z1 - r.z0) - (curve.z1 - curve.z0) * (r.t1 - r.t0);
-        return gnomon_abs(rise * (after - before)) > texel_pack(tolerance) * gnomon_abs(before + after);
+        return linear_depth_line(curve, begin, end);
     }
 };
 

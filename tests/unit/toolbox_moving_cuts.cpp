@@ -162,7 +162,8 @@ TEST_CASE("tilting triangles are cut where they pass the planes, in perspective 
                           .far_distance = 3};
         moving_part part;
         for (int k = 0; k < 3; ++k)
-            part.add({real(0, 64), real(-1.8, 1.8), real(0, 64)}, {real(0, 64), real(-1.8, 1.8), real(0, 64)});
+            part.add({real(0, 64), real(-1.8, 2.6), real(0, 64)},
+                     {real(0, 64), real(-1.8, 2.6), real(0, 64)}); // the light is at 2
         part.open.triangles = {{0, 1, 2}};
         const range_lists& lists =
             rasterize(world_of({part}), light, world_size, world_size, {.depth_tolerance = 1e-4f});
