@@ -24,6 +24,7 @@ namespace {
 using map = range_map<float>;
 
 constexpr std::size_t texels_per_tile = map::texels_per_tile, packs_per_tile = moving_samples::packs_per_tile;
+constexpr std::size_t long_lists = 256 * texel_pack::size; // ranges of a pack
 
 // What a tile needs, and what becomes of it.
 struct tile_lists {
@@ -162,7 +163,8 @@ void rasterize_tile(const tiled_triangles& scenery, std::size_t tile, const rang
     to.lists.clear();
     for (std::size_t i = 0; i < packs_per_tile; ++i) {
         const moving_samples samples(i);
-        std::size_t budget = how.budget;
+        // Resolving compares ranges with one another, so long lists are thinned out in between.
+        std::size_t budget = how.resolved ? std::min(how.budget, long_lists) : how.budget;
         to.texels.clear(how.resolved, how.backdrops);
         to.members.for_each(i / moving_samples::packs_per_block, [&](const tile_triangle& triangle) {
             const sighting at{triangle, samples, how.depth_tolerance, to.texels};
