@@ -1,5 +1,6 @@
 #include "import_guard.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -22,11 +23,17 @@ extern "C" void give_up(int)
 
 } // namespace
 
-import_guard::import_guard(const std::filesystem::path& file)
+import_guard::import_guard(const std::filesystem::path& file, std::string_view reader)
+    : stack_(static_cast<std::size_t>(SIGSTKSZ))
 {
-    message = file.string() + ": Assimp crashed while reading it\n";
+    message = fmt::format("{}: {} crashed while reading it\n", file.string(), reader);
+    stack_t stack{};
+    stack.ss_sp = stack_.data();
+    stack.ss_size = stack_.size();
+    sigaltstack(&stack, &earlier_stack_);
     struct sigaction action {};
     action.sa_handler = give_up;
+    action.sa_flags = SA_ONSTACK;
     for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &action, &earlier_actions_[i]);
     getrlimit(RLIMIT_DATA, &earlier_limit_);
 #ifndef __SANITIZE_ADDRESS__ // whose own tables are larger
@@ -40,6 +47,7 @@ import_guard::~import_guard()
 {
     setrlimit(RLIMIT_DATA, &earlier_limit_);
     for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &earlier_actions_[i], nullptr);
+    sigaltstack(&earlier_stack_, nullptr);
 }
 
 } // namespace gnomon::toolbox

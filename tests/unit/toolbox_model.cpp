@@ -103,7 +103,7 @@ TEST_CASE("a crash in a reader ends the program with one line and exit code 2")
     REQUIRE(child >= 0);
     if (child == 0) {
         dup2(ends[1], STDERR_FILENO);
-        const import_guard guard("bad.raw");
+        const import_guard guard("bad.raw", "Assimp");
         std::raise(SIGSEGV);
         _exit(0);
     }
