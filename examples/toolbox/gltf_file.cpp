@@ -99,13 +99,13 @@ bool is_unsigned(int type)
 }
 
 // Replaces the elements of an accessor that its sparse part names.
-void replace_sparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor, std::vector<double>& numbers)
+void replace_sparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor, std::size_t components,
+                    std::vector<double>& numbers)
 {
     const auto& sparse = accessor.sparse;
     if (!is_unsigned(sparse.indices.componentType)) throw std::runtime_error("sparse indices are no unsigned integers");
     const std::size_t index_size = component_size(sparse.indices.componentType);
     const std::size_t size = component_size(accessor.componentType), count = static_cast<std::size_t>(sparse.count);
-    const std::size_t components = numbers.size() / std::max<std::size_t>(accessor.count, 1);
     const strided indices = elements(model, sparse.indices.bufferView,
                                      static_cast<std::size_t>(sparse.indices.byteOffset), count, index_size);
     const strided values = elements(model, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset),
@@ -172,7 +172,7 @@ std::vector<double> gltf_numbers(const tinygltf::Model& model, int index, int ty
     } else {
         zeros();
     }
-    if (accessor.sparse.isSparse) replace_sparse(model, accessor, numbers);
+    if (accessor.sparse.isSparse) replace_sparse(model, accessor, components, numbers);
     return numbers;
 }
 
