@@ -32,45 +32,68 @@ template <class Key> auto value_at(std::span<const Key> keys, double ticks)
     return between(number(a.mValue), number(b.mValue), (ticks - a.mTime) / (b.mTime - a.mTime));
 }
 
-// The rotation and scale whose product a matrix is. Throws where there is none or another one as good: a mirrored
-// matrix does not tell which axes are negative.
-struct rotation_and_scale {
-    glm::dquat rotation;
-    glm::dvec3 scale;
-};
-
-rotation_and_scale parts_of(const glm::dmat4& matrix, const aiNode& node)
+[[noreturn]] void refuse_leaving_out(const char* what, const aiNode& node)
 {
-    const glm::dmat3 m(matrix);
-    const glm::dvec3 scale(glm::length(m[0]), glm::length(m[1]), glm::length(m[2]));
-    const glm::dmat3 axes(m[0] / scale.x, m[1] / scale.y, m[2] / scale.z);
-    const double skew = std::max({std::abs(glm::dot(axes[0], axes[1])), std::abs(glm::dot(axes[1], axes[2])),
-                                  std::abs(glm::dot(axes[2], axes[0]))});
-    if (!(glm::determinant(axes) > 0 && skew < 1e-4))
-        throw std::runtime_error(
-            fmt::format("an animation leaves out the rotation or scale of node \"{}\", whose matrix "
-                        "is mirrored or sheared",
-                        node.mName.C_Str()));
-    return {glm::quat_cast(axes), scale};
+    throw std::runtime_error(fmt::format(
+        "an animation leaves out the {} of node \"{}\", which its matrix does not tell", what, node.mName.C_Str()));
+}
+
+// Whether axes of length one are not square to each other, by more than what files of four digits round.
+bool is_sheared(const glm::dmat3& axes)
+{
+    return !(std::max({std::abs(glm::dot(axes[0], axes[1])), std::abs(glm::dot(axes[1], axes[2])),
+                       std::abs(glm::dot(axes[2], axes[0]))}) < 1e-3);
+}
+
+glm::dmat3 axes_of(const glm::dmat3& m)
+{
+    return {m[0] / glm::length(m[0]), m[1] / glm::length(m[1]), m[2] / glm::length(m[2])};
+}
+
+// The rotation whose product with a scale of these signs is the matrix.
+glm::dquat rotation_in(const glm::dmat3& m, const glm::dvec3& signs, const aiNode& node)
+{
+    glm::dmat3 axes = axes_of(m);
+    for (int i = 0; i < 3; ++i) axes[i] *= std::copysign(1.0, signs[i]);
+    if (!(glm::determinant(axes) > 0) || is_sheared(axes)) refuse_leaving_out("rotation", node);
+    return glm::quat_cast(axes);
+}
+
+// The scale whose product with a rotation is the matrix. No axis is negative where the matrix mirrors nothing; which
+// one is negative elsewhere shows after the rotation of the first key, if that is the node's.
+glm::dvec3 scale_in(const glm::dmat3& m, const glm::dquat& first_rotation, const aiNode& node)
+{
+    const glm::dvec3 lengths(glm::length(m[0]), glm::length(m[1]), glm::length(m[2]));
+    if (glm::determinant(m) > 0 && !is_sheared(axes_of(m))) return lengths;
+    const glm::dmat3 left = glm::transpose(glm::mat3_cast(first_rotation)) * m;
+    const glm::dvec3 scale(left[0][0], left[1][1], left[2][2]);
+    if (!glm::all(glm::lessThan(lengths - glm::abs(scale), 1e-4 * lengths))) refuse_leaving_out("scale", node);
+    return scale;
+}
+
+// The keys, but for a single one that Assimp has filled in from its own decomposition of the node's matrix.
+template <class Key, class Value> std::span<const Key> given(std::span<const Key> keys, const Value& filled_in)
+{
+    const bool is_filled_in = keys.size() == 1 && keys[0].mTime == 0 && keys[0].mValue == filled_in;
+    return is_filled_in ? std::span<const Key>() : keys;
 }
 
 // Values that a channel leaves out are those of the node.
 glm::dmat4 transformation_at(const aiNode& node, const aiNodeAnim& channel, double ticks)
 {
+    aiVector3D scale, position;
+    aiQuaternion rotation;
+    node.mTransformation.Decompose(scale, rotation, position);
     const std::span<const aiVectorKey> positions(channel.mPositionKeys, channel.mNumPositionKeys);
-    const std::span<const aiQuatKey> rotations(channel.mRotationKeys, channel.mNumRotationKeys);
-    const std::span<const aiVectorKey> scales(channel.mScalingKeys, channel.mNumScalingKeys);
-    const glm::dmat4 rest = matrix_of(node.mTransformation);
-    if (rotations.empty() && scales.empty()) {
-        glm::dmat4 moved = rest;
-        if (!positions.empty()) moved[3] = glm::dvec4(value_at(positions, ticks), 1);
-        return moved;
-    }
-    rotation_and_scale parts{glm::dquat(1, 0, 0, 0), glm::dvec3(1)};
-    if (rotations.empty() || scales.empty()) parts = parts_of(rest, node);
-    return composed(positions.empty() ? glm::dvec3(rest[3]) : value_at(positions, ticks),
-                    rotations.empty() ? parts.rotation : value_at(rotations, ticks),
-                    scales.empty() ? parts.scale : value_at(scales, ticks));
+    const auto rotations = given(std::span<const aiQuatKey>(channel.mRotationKeys, channel.mNumRotationKeys), rotation);
+    const auto scales = given(std::span<const aiVectorKey>(channel.mScalingKeys, channel.mNumScalingKeys), scale);
+    glm::dmat4 rest = matrix_of(node.mTransformation);
+    if (!positions.empty()) rest[3] = glm::dvec4(value_at(positions, ticks), 1);
+    if (rotations.empty() && scales.empty()) return rest;
+    const glm::dmat3 m(rest);
+    return composed(glm::dvec3(rest[3]),
+                    rotations.empty() ? rotation_in(m, number(scales[0].mValue), node) : value_at(rotations, ticks),
+                    scales.empty() ? scale_in(m, number(rotations[0].mValue), node) : value_at(scales, ticks));
 }
 
 void collect_names(std::unordered_multimap<std::string, const aiNode*>& target, const aiNode& node)
