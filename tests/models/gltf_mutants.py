@@ -3,6 +3,7 @@
 
 import json
 import random
+import resource
 import struct
 import sys
 import tempfile
@@ -152,6 +153,7 @@ class Mutants(unittest.TestCase):
 
     def test_a_full_stack_ends_in_one_line(self):
         depth = 300_000
+        resource.setrlimit(resource.RLIMIT_STACK, (2 ** 23, resource.getrlimit(resource.RLIMIT_STACK)[1]))
         self.file.write_text('{"asset": {"version": "2.0"}, "extras": ' + "[" * depth + "1" + "]" * depth + "}")
         self.assertEqual(read(self.file), "tinygltf crashed while reading it")
 

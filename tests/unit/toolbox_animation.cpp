@@ -205,6 +205,32 @@ TEST_CASE("bones carry corners by their weights")
     CHECK(near(model.closing[1][2], {-0.125f, 0.625f, 0.1f}));
 }
 
+TEST_CASE("normals stay square to triangles that are scaled, mirrored and carried, and triangles turn to them")
+{
+    const temporary_folder folder;
+    gltf file;
+    const int positions = file.floats("VEC3", 3, {0.9f, 0, 0, 0, 0.7f, 0, 0, 0, 0.5f});
+    const float x = 1 / 0.9f, y = 1 / 0.7f, z = 1 / 0.5f, length = std::sqrt(x * x + y * y + z * z);
+    const float nx = x / length, ny = y / length, nz = z / length;
+    const int normals = file.floats("VEC3", 3, {nx, ny, nz, nx, ny, nz, nx, ny, nz});
+    const int joints = file.shorts("VEC4", 4, std::vector<std::uint16_t>(12, 0));
+    const int weights = file.floats("VEC4", 4, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+    const std::string attributes = R"("POSITION":)" + number(positions) + R"(,"NORMAL":)" + number(normals);
+    const std::string scaled = R"({"rotation":[0.6,0,0,0.8],"scale":[2,-0.5,1])";
+    write_file(folder / "corner.gltf",
+               file.text(R"("scenes":[{"nodes":[0,1,2]}],"nodes":[)" + scaled + R"(,"mesh":0},{"mesh":1,"skin":0},)" +
+                         scaled + R"(}],"skins":[{"joints":[2]}],"meshes":[{"primitives":[{"attributes":{)" +
+                         attributes + R"(}}]},{"primitives":[{"attributes":{)" + attributes + R"(,"JOINTS_0":)" +
+                         number(joints) + R"(,"WEIGHTS_0":)" + number(weights) + "}}]}]"));
+    const scene model = load_model(folder / "corner.gltf");
+    REQUIRE(model.meshes.size() == 2);
+    for (const mesh& part : model.meshes) {
+        const glm::uvec3 corners = part.triangles[0];
+        const glm::vec3 a = part.positions[corners.x], b = part.positions[corners.y], c = part.positions[corners.z];
+        for (const glm::vec3& normal : part.normals) CHECK(near(normal, glm::normalize(glm::cross(b - a, c - a))));
+    }
+}
+
 TEST_CASE("a moving model has unit size over all of its places, and its stage sees it at all times")
 {
     const temporary_folder folder;
