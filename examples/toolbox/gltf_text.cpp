@@ -59,6 +59,14 @@ constexpr std::string_view index_list_keys = " attributes children joints nodes 
 constexpr std::string_view number_list_keys = " matrix rotation scale translation weights ";
 constexpr std::string_view text_keys = " interpolation path type ";
 
+// What the text says of its version, nothing where that is no text.
+std::string version_of(const json& root)
+{
+    if (!root.is_object() || !root.contains("asset") || !root["asset"].is_object()) return {};
+    const json& asset = root["asset"];
+    return asset.contains("version") && asset["version"].is_string() ? asset["version"].get<std::string>() : "";
+}
+
 // Checks the types of all values that say where a corner is.
 void check_types(const json& value, int depth)
 {
@@ -88,13 +96,17 @@ void check_types(const json& value, int depth)
 
 bool is_gltf_binary(std::string_view bytes) { return bytes.starts_with("glTF"); }
 
+bool is_gltf_1(std::string_view bytes)
+{
+    if (is_gltf_binary(bytes)) return bytes.size() >= 8 && little_endian_at<std::uint32_t>(bytes, 4) == 1;
+    return version_of(json::parse(bytes, nullptr, false)).starts_with("1");
+}
+
 std::string_view gltf_json_text(std::string_view bytes)
 {
     if (!is_gltf_binary(bytes)) return bytes;
     constexpr std::size_t header = 12, chunk = 8;
     if (bytes.size() < header + chunk) throw std::runtime_error("the file is cut off");
-    const auto version = little_endian_at<std::uint32_t>(bytes, 4);
-    if (version != 2) throw std::runtime_error(fmt::format("glTF version {} is not supported, only 2", version));
     const std::size_t length = little_endian_at<std::uint32_t>(bytes, header), after = header + chunk + length;
     if (after > bytes.size() ||
         (after + chunk <= bytes.size() && little_endian_at<std::uint32_t>(bytes, after) > bytes.size() - after - chunk))
@@ -106,12 +118,10 @@ void check_gltf_text(std::string_view text)
 {
     const json root = json::parse(text, nullptr, false);
     if (!root.is_object()) throw std::runtime_error("no JSON object in it");
-    const json asset = root.value("asset", json::object());
-    const json version = asset.is_object() && asset.contains("version") ? asset["version"] : json();
-    if (!version.is_string() || !version.get<std::string>().starts_with("2."))
-        throw std::runtime_error(
-            fmt::format("glTF version {} is not supported, only 2",
-                        version.is_null() ? "1" : version.dump(-1, ' ', false, json::error_handler_t::replace)));
+    const std::string version = version_of(root);
+    if (!version.starts_with("2."))
+        throw std::runtime_error(version.empty() ? "no version of glTF in it"
+                                                 : fmt::format("glTF version {} is not supported, only 2", version));
     constexpr std::array harmless{"KHR_materials_", "KHR_technique", "KHR_texture_", "EXT_texture_",
                                   "MSFT_texture_",  "KHR_lights_",   "EXT_lights_",  "KHR_mesh_quantization"};
     for (const json& required : root.value("extensionsRequired", json::array())) {

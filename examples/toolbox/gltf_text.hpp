@@ -9,6 +9,9 @@ namespace gnomon::toolbox {
 // Whether the file is one of chunks, not of text.
 bool is_gltf_binary(std::string_view bytes);
 
+// Whether the file says that it is of version 1.
+bool is_gltf_1(std::string_view bytes);
+
 // The JSON text of a file. Both chunks of a binary one must end within the file: tinygltf reads up to eight bytes
 // beyond it.
 std::string_view gltf_json_text(std::string_view bytes);

@@ -1,6 +1,5 @@
 #include "import_guard.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -23,10 +22,9 @@ extern "C" void give_up(int)
 
 } // namespace
 
-import_guard::import_guard(const std::filesystem::path& file, std::string_view reader)
-    : stack_(static_cast<std::size_t>(SIGSTKSZ))
+import_guard::import_guard(const std::filesystem::path& file) : stack_(static_cast<std::size_t>(SIGSTKSZ))
 {
-    message = fmt::format("{}: {} crashed while reading it\n", file.string(), reader);
+    message = file.string() + ": its reader crashed\n";
     stack_t stack{};
     stack.ss_sp = stack_.data();
     stack.ss_size = stack_.size();

@@ -8,14 +8,13 @@
 #include <array>
 #include <csignal>
 #include <filesystem>
-#include <string_view>
 #include <vector>
 
 namespace gnomon::toolbox {
 
 class import_guard {
   public:
-    import_guard(const std::filesystem::path& file, std::string_view reader);
+    explicit import_guard(const std::filesystem::path& file);
     ~import_guard();
     import_guard(const import_guard&) = delete;
     import_guard& operator=(const import_guard&) = delete;

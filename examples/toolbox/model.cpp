@@ -15,7 +15,9 @@
 #include <vector>
 
 #include "assimp_model.hpp"
+#include "file.hpp"
 #include "gltf_model.hpp"
+#include "gltf_text.hpp"
 #include "import_guard.hpp"
 #include "model_part.hpp"
 
@@ -87,21 +89,21 @@ moving_scene normalised(std::string name, const std::vector<model_part>& parts)
     return model;
 }
 
+// Whether the file is glTF, but for version 1, which is another format and Assimp's.
 bool is_gltf(const std::filesystem::path& file)
 {
     std::string extension = file.extension().string();
     std::ranges::transform(extension, extension.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension == ".gltf" || extension == ".glb";
+    return (extension == ".gltf" || extension == ".glb") && !is_gltf_1(read_file(file));
 }
 
 moving_scene read(const std::filesystem::path& file, const std::optional<exposure>& when)
 {
     if (!std::filesystem::exists(file)) throw std::runtime_error("no such file");
     if (!std::filesystem::is_regular_file(file)) throw std::runtime_error("not a file");
-    const bool gltf = is_gltf(file);
-    const import_guard guard(file, gltf ? "tinygltf" : "Assimp");
-    std::vector<model_part> parts = gltf ? read_gltf_parts(file, when) : read_assimp_parts(file, when);
+    const import_guard guard(file);
+    std::vector<model_part> parts = is_gltf(file) ? read_gltf_parts(file, when) : read_assimp_parts(file, when);
     for (model_part& part : parts) drop_undrawable(part);
     std::erase_if(parts, [](const model_part& part) { return part.triangles.empty(); });
     if (parts.empty()) throw std::runtime_error("no triangles in it");

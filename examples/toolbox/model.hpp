@@ -1,4 +1,4 @@
-// Models from files: glTF 2.0, and OBJ, PLY, STL and whatever else Assimp reads.
+// Models from files: glTF 2.0 by tinygltf; OBJ, PLY, STL, glTF 1.0 and whatever else Assimp reads.
 #pragma once
 
 #include <filesystem>
