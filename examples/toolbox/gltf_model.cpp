@@ -58,8 +58,9 @@ struct binding {
     std::vector<double> weights;
 };
 
-// One set of four for each corner. Refuses corners that no joint carries.
-std::vector<binding> bindings_of(const Model& model, const Primitive& from, std::size_t corners)
+// One set of four for each corner. Refuses triangles of whose corners no joint carries one.
+std::vector<binding> bindings_of(const Model& model, const Primitive& from, std::size_t corners,
+                                 const std::vector<glm::uvec3>& triangles)
 {
     std::vector<binding> sets;
     std::vector<double> sums(corners);
@@ -72,8 +73,10 @@ std::vector<binding> bindings_of(const Model& model, const Primitive& from, std:
                         for_corners(gltf_numbers(model, *weights, TINYGLTF_TYPE_VEC4), 4, corners)});
         for (std::size_t i = 0; i < 4 * corners; ++i) sums[i / 4] += sets.back().weights[i];
     }
-    if (std::ranges::any_of(sums, [](double sum) { return !(sum > 0 && std::isfinite(sum)); }))
-        throw std::runtime_error("no joint of its skin carries a corner");
+    const auto is_carried = [&](std::uint32_t corner) { return sums[corner] > 0 && std::isfinite(sums[corner]); };
+    for (const glm::uvec3& t : triangles)
+        if (!is_carried(t.x) || !is_carried(t.y) || !is_carried(t.z))
+            throw std::runtime_error("no joint of its skin carries a corner");
     return sets;
 }
 
@@ -94,13 +97,14 @@ std::vector<glm::dmat4> joint_matrices(const Model& model, const tinygltf::Skin&
 // From the coordinates of a primitive's corners to the world's: one matrix for all, or one for each where joints carry
 // them. Weights are divided by their sum.
 std::vector<glm::dmat4> corner_matrices(const Model& model, const Primitive& from, std::size_t node,
-                                        std::size_t corners, const gltf_pose& at)
+                                        std::size_t corners, const std::vector<glm::uvec3>& triangles,
+                                        const gltf_pose& at)
 {
     if (model.nodes[node].skin < 0) return {at.to_world[node]};
     const std::vector<glm::dmat4> joints =
         joint_matrices(model, gltf_item(model.skins, model.nodes[node].skin, "skin"), at);
     std::vector<glm::dmat4> sums(corners, glm::dmat4(0));
-    for (const binding& set : bindings_of(model, from, corners))
+    for (const binding& set : bindings_of(model, from, corners, triangles))
         for (std::size_t i = 0; i < set.joints.size(); ++i) {
             if (set.weights[i] == 0) continue;
             if (set.joints[i] >= joints.size()) throw std::runtime_error("a corner's joint is not in its skin");
@@ -159,8 +163,8 @@ model_part convert(const Model& model, std::size_t node, const Primitive& from, 
                     .triangles = {}};
     const std::size_t corners = part.open.size();
     part.triangles = triangles_of(model, from, corners);
-    const std::vector<glm::dmat4> opening = corner_matrices(model, from, node, corners, open);
-    const std::vector<glm::dmat4> closed = corner_matrices(model, from, node, corners, closing);
+    const std::vector<glm::dmat4> opening = corner_matrices(model, from, node, corners, part.triangles, open);
+    const std::vector<glm::dmat4> closed = corner_matrices(model, from, node, corners, part.triangles, closing);
     const auto matrix = [](const std::vector<glm::dmat4>& all, std::size_t i) { return all[all.size() > 1 ? i : 0]; };
     for (std::size_t i = 0; i < corners; ++i) {
         part.open[i] = glm::dvec3(matrix(opening, i) * glm::dvec4(part.open[i], 1));
