@@ -50,9 +50,13 @@ template <class T> struct random_map {
     range_map<T> map() const { return {width, height, first, ranges}; }
 };
 
+/// Over the map, some of them past its border.
 template <class T> receiver_path<T> any_path(bit_source& bits)
 {
-    const double reach = bits.chance(0.5) ? 0.7 : 4, x = bits.uniform(2, 10), y = bits.uniform(2, 8);
+    const double reach = bits.chance(0.3)   ? 0.7
+                         : bits.chance(0.5) ? 4
+                                            : 40,
+                 x = bits.uniform(2, 10), y = bits.uniform(2, 8);
     const double a = bits.uniform(0, 0.4), b = bits.uniform(0.6, 1);
     return {{T(a), T(b), T(bits.uniform(-1, 1)), T(bits.uniform(-1, 1)), T(2)},
             T(x),
@@ -87,6 +91,28 @@ TEST_CASE_TEMPLATE("moving_shadow: what many times say", T, float, double)
     }
     // Each is off by any part of half a time either way, so three hundred of them by the root of their number.
     CHECK(errors / double(cases) <= std::sqrt(300.0 / 12) / times + 1e-4);
+}
+
+TEST_CASE_TEMPLATE("moving_shadow: what the light does not see is lit, behind its plane and far away", T, float, double)
+{
+    bit_source bits(67);
+    const random_map<T> random(bits);
+    for (std::int64_t n = 0; n < test::effort(2000); ++n) {
+        // On the map before the light, on the map again behind it.
+        receiver_path<T> path = any_path<T>(bits);
+        path.w1 = T(-1) * path.w1, path.x1 = T(-1) * path.x1, path.y1 = T(-1) * path.y1;
+        const int look_ups = 1 + int(bits.below(3));
+        const T reach = T(0.5) * T(look_ups), begin = path.depth.t0, end = path.depth.t1;
+        const auto over = receiver_path_over(path, -reach, -reach, T(width) + reach, T(height) + reach);
+        const T whole = moving_shadow(random.map(), path, begin, end, look_ups);
+        const T from = begin + over.begin * (end - begin), to = begin + over.end * (end - begin);
+        REQUIRE(over.end < 1);
+        const T part = moving_shadow(random.map(), receiver_path_clip(path, from, to), begin, end, look_ups);
+        // Weights are chords in perspective, and a part of the path has its own cells: see moving_receiver_tap.
+        REQUIRE(std::abs(whole - part) <= T(0.001));
+        path.x0 += T(1e6) * path.w0, path.x1 += T(1e6) * path.w1;
+        REQUIRE(moving_shadow(random.map(), path, begin, end, look_ups) == 0);
+    }
 }
 
 TEST_CASE_TEMPLATE("static_shadow is moving_shadow at rest; a wide filter is the mean of narrow ones", T, float, double)

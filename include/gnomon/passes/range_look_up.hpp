@@ -110,7 +110,9 @@ T moving_shadow(const range_map<T>& map, const receiver_path<T>& path, T begin, 
 {
     const T k = T(look_ups);
     moving_receiver<T> state = moving_receiver_begin(path, begin, end);
-    texel_sweep<T> sweep = texel_sweep_begin(receiver_path_shifted(path, T(-0.5) * k, T(-0.5) * k));
+    const receiver_path<T> shifted = receiver_path_shifted(path, T(-0.5) * k, T(-0.5) * k);
+    texel_sweep<T> sweep = texel_sweep_over(shifted, -k, -k, T(map.width), T(map.height)); // beyond is lit
+    if (!(sweep.t_begin < sweep.t_last)) return T(0);
     for (;; sweep = texel_sweep_next(sweep)) {
         detail::for_each_texel(map, sweep.column, sweep.row, look_ups, [&](int i, int j, std::size_t texel) {
             const auto list = map[texel];
@@ -120,7 +122,7 @@ T moving_shadow(const range_map<T>& map, const receiver_path<T>& path, T begin, 
                 if (r.t0 < sweep.t_end && sweep.t_begin < r.t1) state = add(state, r);
             });
         });
-        if (!(sweep.t_end < sweep.path.depth.t1)) return moving_receiver_end(state);
+        if (!(sweep.t_end < sweep.t_last)) return moving_receiver_end(state);
     }
 }
 
