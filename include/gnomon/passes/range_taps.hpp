@@ -175,7 +175,7 @@ template <class T> class moving_taps {
                 drain();
                 cells_[cell_count_++] = cell;
             }
-            taps_[count_++] = {&cells_[cell_count_ - 1], texel, i, j, false, {}};
+            taps_[count_++] = {&cells_[cell_count_ - 1], texel, i, j, false, {}, 0, nullptr};
             if (map_.totals.empty()) prefetch(&map_.first[texel]);
             else prefetch(&map_.totals[texel]);
         });
@@ -197,8 +197,10 @@ template <class T> class moving_taps {
         int i, j;
         bool single; // its list has no second layer
         std::span<const depth_time_range<T>> list;
+        std::size_t at;  // in the list, where it is read from, and then to where it was read
+        const tap* same; // a tap before it of the same texel, in the cell before, or none
     };
-    static constexpr std::size_t room = 64; // what is asked for and not read yet has to fit in the nearest cache
+    static constexpr std::size_t room = 32; // what is asked for and not read yet has to fit in the nearest cache
 
     /// K times texel_weight.
     T weight(T u, int i) const { return i == 0 ? 1 - u : i < look_ups_ ? T(1) : u; }
@@ -235,20 +237,31 @@ template <class T> class moving_taps {
         return true;
     }
 
-    /// Where in the list what is there at the cell's time may be.
-    static std::size_t likely(const tap& t)
+    /// Finds the list of tap k of the queue, and asks for where what is there at the cell's time may be.
+    void find_list(std::size_t k)
     {
+        tap& t = taps_[k];
+        const std::size_t near = t.single ? std::min<std::size_t>(k, 5) : 0; // of one look-up those of the cell before
+        for (std::size_t back = 1; back <= near; ++back)
+            if (const tap& before = taps_[k - back]; before.texel == t.texel) {
+                t.list = before.list, t.same = &before;
+                return;
+            }
+        t.list = map_[t.texel];
+        if (t.list.empty()) return;
         const T place = T(t.list.size()) * saturate_or_zero(t.cell->t0);
-        return t.single && !t.list.empty() ? std::min(std::size_t(place), t.list.size() - 1) : 0;
+        t.at = t.single ? std::min(std::size_t(place), t.list.size() - 1) : 0;
+        prefetch(&t.list[t.at]);
     }
 
-    void add_list(const tap& t)
+    void add_list(tap& t)
     {
+        if (t.list.empty()) return;
         weigh(t);
         const receiver_cell<T>& c = *t.cell;
         depth_time_range<T> front = range_empty(T(range_nothing));
         T from = c.t0, to = c.t0; // of spans that touch
-        std::size_t n = likely(t);
+        std::size_t n = t.same ? t.same->at : t.at;
         while (n > 0 && c.t0 < t.list[n].t0) --n;
         for (; n < t.list.size(); ++n) {
             const depth_time_range<T>& r = t.list[n];
@@ -256,17 +269,20 @@ template <class T> class moving_taps {
             if (!(r.t0 < c.t1)) break; // as are all that follow
             if (!range_is_second_layer(front, r)) front = r;
             else if (!(front.id == state_.course.id)) continue;
-            if (!(c.t0 < r.t1) || r.id == state_.course.id || (c.farthest <= r.z0 && c.farthest <= r.z1)) continue;
-            if (!(r.z0 < c.nearest && r.z1 < c.nearest)) {
-                state_ = moving_receiver_filter_box(state_, r);
-                continue;
+            const bool behind = c.farthest <= r.z0 && c.farthest <= r.z1;
+            if (c.t0 < r.t1 && !behind && !(r.id == state_.course.id)) {
+                if (!(r.z0 < c.nearest && r.z1 < c.nearest)) state_ = moving_receiver_filter_box(state_, r);
+                else {
+                    if (r.t0 > to) {
+                        if (from < to) hide(c, from, to);
+                        from = r.t0;
+                    }
+                    to = std::min(r.t1, c.t1);
+                }
             }
-            if (r.t0 > to) {
-                if (from < to) hide(c, from, to);
-                from = r.t0;
-            }
-            to = std::min(r.t1, c.t1);
+            if (t.single && c.t1 <= r.t1) break; // the next one begins later
         }
+        t.at = std::min(n, t.list.size() - 1);
         if (from < to) hide(c, from, to);
     }
 
@@ -284,12 +300,8 @@ template <class T> class moving_taps {
             }
             count_ = left;
         }
-        for (tap& t : used()) {
-            t.list = map_[t.texel];
-            if (!t.list.empty()) prefetch(&t.list[likely(t)]);
-        }
-        for (const tap& t : used())
-            if (!t.list.empty()) add_list(t);
+        for (std::size_t k = 0; k < count_; ++k) find_list(k);
+        for (std::size_t k = 0; k < count_; ++k) add_list(taps_[k]);
         count_ = cell_count_ = 0;
     }
 
