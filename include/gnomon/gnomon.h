@@ -26,7 +26,9 @@
 #include "filters/variance.h"
 
 #include "motion/coverage_map.h"
+#include "motion/depth_planes.h"
 #include "motion/edge_field.h"
+#include "motion/edge_widening.h"
 #include "motion/facing.h"
 #include "motion/moving_receiver.h"
 #include "motion/moving_triangle.h"

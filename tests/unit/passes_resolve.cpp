@@ -2,6 +2,7 @@
 #include "../support/effort.hpp"
 #include "../support/hostile.hpp"
 
+#include <gnomon/passes/backdrop.hpp>
 #include <gnomon/passes/range_map.hpp>
 #include <gnomon/passes/resolve.hpp>
 

@@ -13,7 +13,6 @@
 #ifndef GNOMON_PASSES_RESOLVE_HPP
 #define GNOMON_PASSES_RESOLVE_HPP
 
-#include "../motion/coverage_map.h"
 #include "range_map.hpp"
 
 #include <algorithm>
@@ -21,6 +20,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <span>
 
@@ -31,6 +31,9 @@ template <class T> struct visible_span {
     T t0, t1;
     std::uint32_t range;
 };
+
+/// Depths as near as that count as one, lest rounding makes spans of no use where surfaces meet.
+template <class T> inline constexpr T resolve_tie = T(0x1p-18);
 
 namespace detail {
 
@@ -78,12 +81,14 @@ template <class T> class front_resolver {
         while (first < count_ && spans_[first].t1 <= t0) ++first;
         if (is_behind(r, t0, t1, first)) return;
         changes_ = 0;
+        bool unchanged = true;
         T reached = t0;
         std::size_t next = first;
         for (; next < count_ && spans_[next].t0 < t1; ++next) {
             const visible_span<T> old = spans_[next];
             const T begin = std::max(old.t0, t0), end = std::min(old.t1, t1);
             const succession who = succession_of(number, old.range);
+            unchanged = unchanged && !(reached < begin) && who.early == old.range && who.late == old.range;
             const T change = std::clamp(who.change, begin, end);
             change_to({old.t0, begin, old.range});
             change_to({reached, begin, number});
@@ -92,12 +97,13 @@ template <class T> class front_resolver {
             change_to({end, old.t1, old.range});
             reached = end;
         }
+        if (unchanged && !(reached < t1)) return;
         change_to({reached, t1, number});
         const std::size_t removed = next - first, rest = count_ - next;
         GNOMON_EXPECTS(first + changes_ + rest <= spans_.size(),
                        mismatch("resolve", "spans", first + changes_ + rest, "capacity", spans_.size()));
-        if (changes_ != removed)
-            std::copy_n(spans_.begin() + std::ptrdiff_t(next), rest, spans_.begin() + std::ptrdiff_t(first + changes_));
+        if (changes_ != removed && rest > 0)
+            std::memmove(&spans_[first + changes_], &spans_[next], rest * sizeof spans_[0]);
         std::copy_n(changed_.begin(), changes_, spans_.begin() + std::ptrdiff_t(first));
         count_ = first + changes_ + rest;
     }
@@ -121,7 +127,8 @@ template <class T> class front_resolver {
         return !(reached < t1);
     }
 
-    /// The same whichever comes first. At one depth throughout, the lower id is in front.
+    /// The same whichever comes first. At one depth throughout, the lower id is in front; where the ends tie, the one
+    /// that is nearer on average.
     succession succession_of(std::uint32_t i, std::uint32_t j) const
     {
         if (j < i) std::swap(i, j);
@@ -130,11 +137,17 @@ template <class T> class front_resolver {
         if (std::max(a.z0, a.z1) < std::min(b.z0, b.z1)) return {i, i, T(0)};
         if (std::max(b.z0, b.z1) < std::min(a.z0, a.z1)) return {j, j, T(0)};
         const T begin = std::max(a.t0, b.t0), end = std::min(a.t1, b.t1);
-        const T early = range_depth(a, begin) - range_depth(b, begin), late = range_depth(a, end) - range_depth(b, end);
-        if (early == 0 && late == 0) return b.id < a.id ? succession{j, j, T(0)} : succession{i, i, T(0)};
-        if (early <= 0 && late <= 0) return {i, i, T(0)};
-        if (early >= 0 && late >= 0) return {j, j, T(0)};
-        const T change = range_crossing(a, b);
+        const T slope_a = (a.z1 - a.z0) / (a.t1 - a.t0), slope_b = (b.z1 - b.z0) / (b.t1 - b.t0);
+        const auto distance = [&](T t) { return (a.z0 + (t - a.t0) * slope_a) - (b.z0 + (t - b.t0) * slope_b); };
+        const T early = distance(begin), late = distance(end);
+        const bool early_tie = std::abs(early) <= resolve_tie<T>, late_tie = std::abs(late) <= resolve_tie<T>;
+        if (early_tie && late_tie) {
+            const bool b_first = early + late == 0 ? b.id < a.id : early + late > 0;
+            return b_first ? succession{j, j, T(0)} : succession{i, i, T(0)};
+        }
+        if ((early < 0 || early_tie) && (late < 0 || late_tie)) return {i, i, T(0)};
+        if ((early > 0 || early_tie) && (late > 0 || late_tie)) return {j, j, T(0)};
+        const T change = begin + (end - begin) * (early / (early - late));
         return early < 0 ? succession{i, j, change} : succession{j, i, change};
     }
 
@@ -189,30 +202,11 @@ std::span<const visible_span<T>> resolve_ranges(std::span<const depth_time_range
     return both.first(count);
 }
 
-/// A list without its backdrop, in place: what is there for the whole of the shutter, behind all else, as the ground
-/// often is. It is the cover (coverage_map.h) of the list seen from behind. It shadows nothing that its texel sees, and
-/// where nothing is in front of it no list remains; keep it where receivers come from outside of the map's scene.
-/// A receiver that only part of the texel sees, beside the backdrop's border, may be behind it.
-template <class T> std::span<depth_time_range<T>> without_backdrop(std::span<depth_time_range<T>> list)
-{
-    range_cover<T> from_behind = range_cover_begin(T(1));
-    for (const depth_time_range<T>& r : list)
-        from_behind = range_cover_add(from_behind, {r.t0, r.t1, -r.z0, -r.z1, r.id});
-    const depth_time_range<T> backdrop = range_cover_end(from_behind);
-    const auto is_it = [&](const depth_time_range<T>& r) {
-        return r.id == backdrop.id && r.t0 == backdrop.t0 && r.t1 == backdrop.t1 && r.z0 == -backdrop.z0 &&
-               r.z1 == -backdrop.z1;
-    };
-    const auto found = backdrop.id < 0 ? list.end() : std::find_if(list.begin(), list.end(), is_it);
-    if (found == list.end()) return list;
-    std::copy(found + 1, list.end(), found);
-    return list.first(list.size() - 1);
-}
-
 /// The part of its range that a span shows.
 template <class T> depth_time_range<T> range_of(std::span<const depth_time_range<T>> ranges, const visible_span<T>& s)
 {
-    return range_clip(ranges[s.range], s.t0, s.t1);
+    const depth_time_range<T>& r = ranges[s.range];
+    return s.t0 <= r.t0 && r.t1 <= s.t1 ? r : range_clip(r, s.t0, s.t1);
 }
 
 } // namespace gnomon
