@@ -219,6 +219,31 @@ TEST_CASE("resolve_ranges: the second layer follows the span that it is behind")
     CHECK(shadow(0.5f, 3) == 1);
     CHECK(shadow(-0.25f, 1) == 0);
     CHECK(resolved(ranges, range_ids::surfaces).size() == 2);
+    CHECK(total_of<float>(spans, range_ids::surfaces).id == 1); // who promises too much keeps the second layer
+}
+
+TEST_CASE_TEMPLATE("total_of: hidden always where spans fill all of the time, and there alone", T, float, double)
+{
+    bit_source bits(74);
+    std::int64_t always = 0;
+    const std::int64_t cases = effort(20'000);
+    for (std::int64_t i = 0; i < cases; ++i) {
+        std::vector<T> times(1 + bits.below(6));
+        for (T& t : times) t = T(bits.uniform(0, 1));
+        times.insert(times.end(), {T(0), T(1)});
+        std::ranges::sort(times);
+        const std::size_t missing = bits.below(2 * times.size()); // or none
+        list<T> spans;
+        for (std::size_t k = 0; k + 1 < times.size(); ++k)
+            if (k != missing && times[k] < times[k + 1])
+                spans.push_back(
+                    {times[k], times[k + 1], T(bits.uniform(-1, 1)), T(bits.uniform(-1, 1)), T(bits.below(3))});
+        const bool filled = missing + 1 >= times.size() || times[missing] == times[missing + 1];
+        REQUIRE((total_of<T>(spans, range_ids::any).shadowed == 1) == filled);
+        always += filled;
+    }
+    CHECK(always > 0);
+    CHECK(always < cases);
 }
 
 #if defined(__cpp_exceptions)

@@ -84,10 +84,18 @@ T moving_shadow(const range_map<T>& map, const receiver_path<T>& path, T begin, 
                 const texel_position<T> next = receiver_path_at(shifted, sweep.t_end);
                 const T next_z = range_depth(path.depth, sweep.t_end),
                         next_passed = shutter_box(sweep.t_end, begin, end);
-                taps.add({sweep.column, sweep.row, sweep.t_begin, sweep.t_end, saturate_or_zero(at.x - sweep.column),
-                          saturate_or_zero(at.y - sweep.row), saturate_or_zero(next.x - sweep.column),
-                          saturate_or_zero(next.y - sweep.row), std::min(z, next_z), std::max(z, next_z),
-                          saturate_or_zero(next_passed - passed)});
+                const detail::receiver_cell<T> cell{sweep.column,
+                                                    sweep.row,
+                                                    sweep.t_begin,
+                                                    sweep.t_end,
+                                                    saturate_or_zero(at.x - sweep.column),
+                                                    saturate_or_zero(at.y - sweep.row),
+                                                    saturate_or_zero(next.x - sweep.column),
+                                                    saturate_or_zero(next.y - sweep.row),
+                                                    std::min(z, next_z),
+                                                    std::max(z, next_z),
+                                                    next_passed - passed};
+                if (cell.share > 0) taps.add(cell); // the shutter is open
                 at = next, z = next_z, passed = next_passed;
             }
             if (!(sweep.t_end < sweep.t_last)) return taps.end();
