@@ -1,7 +1,7 @@
 #include "resting_receivers.hpp"
 
 #include <fmt/format.h>
-#include <gnomon/simd/range_look_up.hpp>
+#include <gnomon/passes/range_look_up.hpp>
 #include <gnomon/simd/xsimd.hpp>
 
 #include <cmath>
@@ -98,8 +98,7 @@ class ground_receivers {
         for (const light_receiver& r : receivers)
             placed.push_back({r.path.x0 / r.path.w0, r.path.y0 / r.path.w0,
                               static_receiver_begin(r.path.depth.z0, r.path.depth.id, 0.f, 1.f)});
-        const double packed =
-            seconds_on_one_core([&] { static_shadows<xsimd::batch<float>>(map.map(), placed, found); });
+        const double packed = seconds_on_one_core([&] { static_shadows<float>(map.map(), placed, found); });
         for (float& x : found) x = 1 - x;
         add(fmt::format("{}, receivers analytic, by packs", map.method), map.format, map.bytes_per_texel(),
             map.build_ms, packed, found, int(xsimd::batch<float>::size));

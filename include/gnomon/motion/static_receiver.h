@@ -82,10 +82,10 @@ GNOMON_KERNEL GNOMON_T(depth_time_range)
 }
 
 /// Whether r, the next one of a resolved list, is of the second layer behind front, the last one that was not. Those
-/// begin before it ends.
+/// are seen while front lasts and no longer; spans in front that rounding has overlap are not.
 GNOMON_KERNEL GNOMON_MASK range_is_second_layer(GNOMON_T(depth_time_range) front, GNOMON_T(depth_time_range) r)
 {
-    return front.t0 <= r.t0 && r.t0 < front.t1;
+    return front.t0 <= r.t0 && r.t0 < front.t1 && r.t1 <= front.t1;
 }
 
 /// The light lost between two shares of what the shutter lets in, where the range that hides it has another id; 0 for
