@@ -131,9 +131,10 @@ range_shadow_map caster_ranges(const moving_scene& world, const moving_camera& l
 
 range_shadow_map with_totals(range_shadow_map resolved)
 {
-    resolved.method += " with totals", resolved.format += ", 8 B totals";
+    resolved.method += " with totals", resolved.format += ", 16 B totals";
     resolved.totals.resize(texels_of(resolved.resolution));
-    resolved.build_ms += 1e3 * least_seconds([&] { set_totals(resolved.map(), std::span(resolved.totals)); });
+    resolved.build_ms +=
+        1e3 * least_seconds([&] { set_totals(resolved.map(), std::span(resolved.totals), range_ids::surfaces); });
     resolved.bytes += resolved.totals.size() * sizeof resolved.totals[0];
     return resolved;
 }
@@ -180,7 +181,7 @@ packed_shadow_map packed_ranges(const range_shadow_map& resolved)
         for (std::size_t i = 0; i < texels; ++i) pack_spans(list_of(resolved, i), result.spans);
     });
     result.totals = resolved.totals;
-    if (!result.totals.empty()) result.format += ", 8 B totals";
+    if (!result.totals.empty()) result.format += ", 16 B totals";
     result.build_ms = resolved.build_ms + 1e3 * spent;
     result.pairs = resolved.pairs;
     result.bytes = result.spans.bytes() + result.totals.size() * sizeof(range_total<float>);
@@ -195,7 +196,9 @@ float static_shadow(const packed_shadow_map& map, float x, float y, static_recei
         const std::size_t texel =
             range_map<float>::texel(std::size_t(map.resolution), std::size_t(column), std::size_t(row));
         state = static_receiver_weigh(state, weight);
-        if (!map.totals.empty() && static_receiver_is_behind(state, map.totals[texel]) > 0)
+        const bool told = !map.totals.empty();
+        if (told && receiver_is_in_front(state.depth, map.totals[texel]) > 0) return;
+        if (told && static_receiver_is_behind(state, map.totals[texel]) > 0)
             state = static_receiver_add_total(state, map.totals[texel]);
         else for_each_span(map.spans, texel, [&](const range& r) { state = static_receiver_add_box(state, r); });
     });

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <gnomon/passes/resolve.hpp>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
 
+#include "moving_lists.hpp"
 #include "moving_tiles.hpp"
 
 #ifdef __SSE2__
@@ -24,100 +24,6 @@ namespace {
 using map = range_map<float>;
 
 constexpr std::size_t texels_per_tile = map::texels_per_tile, packs_per_tile = moving_samples::packs_per_tile;
-
-// What a triangle adds to a pack of texels.
-struct loose_pack {
-    texel_lanes t0, t1, z0, z1;
-    std::uint64_t exists; // a bit for each lane
-    float id;
-};
-
-// Things one after the other, and room behind them that keeps what it has.
-template <class T> class stack {
-  public:
-    std::size_t size() const { return size_; }
-    std::span<const T> used() const { return std::span(room_).first(size_); }
-    std::span<T> used() { return std::span(room_).first(size_); }
-    void clear() { size_ = 0; }
-    T* room_for(std::size_t count)
-    {
-        if (room_.size() < size_ + count) room_.resize(2 * (size_ + count));
-        return &room_[size_];
-    }
-    void grow(std::size_t count) { size_ += count; }
-
-  private:
-    std::vector<T> room_;
-    std::size_t size_ = 0;
-};
-
-// Lists of a pack of texels: ranges as they come, by packs, until they are laid out or resolved.
-class texel_lists {
-  public:
-    // How many ranges there is room for.
-    std::size_t room() const { return held_.size() + texel_pack::size * packs_.size(); }
-
-    void clear() { packs_.clear(), held_.clear(), held_counts_.fill(0); }
-
-    // Those that exist, a bit for each lane.
-    GNOMON_INLINE void add(std::uint64_t exists, const range_pack& r, float id)
-    {
-        loose_pack& p = *packs_.room_for(1);
-        packs_.grow(1);
-        r.t0.store_unaligned(p.t0.data()), r.t1.store_unaligned(p.t1.data());
-        r.z0.store_unaligned(p.z0.data()), r.z1.store_unaligned(p.z1.data());
-        p.exists = exists, p.id = id;
-    }
-
-    // At the end of others, texel by texel, how many of each in counts.
-    void append_to(stack<depth_time_range<float>>& all, std::span<std::uint32_t, texel_pack::size> counts) const
-    {
-        depth_time_range<float>*const begin = all.room_for(room() + 1), *end = begin;
-        const std::span<const loose_pack> packs = packs_.used();
-        auto held = held_.begin();
-        for (std::size_t i = 0; i < texel_pack::size; ++i) {
-            std::uint32_t count = held_counts_[i];
-            if (count > 0) {
-                end = std::copy_n(held, count, end);
-                held += count;
-            }
-            // Without branches: what does not exist is overwritten.
-            for (const loose_pack& p : packs) {
-                const std::uint32_t exists = p.exists >> i & 1;
-                *end = {p.t0[i], p.t1[i], p.z0[i], p.z1[i], p.id};
-                end += exists, count += exists;
-            }
-            counts[i] = count;
-        }
-        all.grow(std::size_t(end - begin));
-    }
-
-    // They become what of them is in front.
-    void resolve(bool backdrops)
-    {
-        std::array<std::uint32_t, texel_pack::size> counts;
-        lists_.clear();
-        append_to(lists_, counts);
-        clear();
-        std::span<depth_time_range<float>> rest = lists_.used();
-        for (std::size_t i = 0; i < texel_pack::size; rest = rest.subspan(counts[i++])) {
-            const auto whole = rest.first(counts[i]);
-            const std::span<const depth_time_range<float>> list = backdrops ? whole : without_backdrop(whole);
-            spans_.resize(std::max(spans_.size(), resolve_capacity(list.size())));
-            const auto spans = resolve_ranges(list, std::span(spans_));
-            for (const visible_span<float>& s : spans) held_.push_back(range_of(list, s));
-            held_counts_[i] = static_cast<std::uint32_t>(spans.size());
-        }
-    }
-
-  private:
-    stack<loose_pack> packs_;
-    std::vector<depth_time_range<float>> held_; // resolved, texel by texel, before those in packs
-    std::array<std::uint32_t, texel_pack::size> held_counts_{};
-
-    stack<depth_time_range<float>> lists_;
-    std::vector<visible_span<float>> spans_;
-};
 
 // What a tile needs, and what becomes of it.
 struct tile_lists {
@@ -138,45 +44,85 @@ struct sighting {
 };
 
 // Ranges whose depth is further from its line than the tolerance, in pieces (Palmer 2011, chapter 5).
-[[gnu::noinline]] void add_pieces(const sighting& at, xsimd::batch_bool<float> bent, range_pack whole)
+template <class Piece>
+[[gnu::noinline]] void add_pieces(const sighting& at, xsimd::batch_bool<float> bent, const Piece& piece_from)
 {
-    const moving_triangle<texel_pack> corners = numbers_as<texel_pack>(at.triangle.setup().corners);
-    const moving_edges<texel_pack> edges = at.triangle.curved(at.samples).edges;
     texel_pack passed = gnomon_select(bent, texel_pack(0.f), texel_pack(1.f));
     while (gnomon_any(passed < texel_pack(1.f))) {
-        const depth_piece<texel_pack> piece =
-            moving_depth_piece(corners, edges, whole.t0, whole.t1, passed, texel_pack(0.f), texel_pack(at.tolerance));
-        at.to.add(bits_of(passed < texel_pack(1.f) && piece.t0 < piece.t1), {piece.t0, piece.t1, piece.z0, piece.z1},
+        const depth_piece<texel_pack> piece = piece_from(passed);
+        at.to.add(passed < texel_pack(1.f) && piece.t0 < piece.t1, {piece.t0, piece.t1, piece.z0, piece.z1},
                   float(at.triangle.setup().number));
         passed = piece.passed;
     }
 }
 
-// One interval of those lanes that have it. Returns which are in the picture, a bit for each.
+// A range of those lanes that have it, in pieces where its depth bends.
 template <class Sight>
-GNOMON_INLINE std::uint64_t add_interval(const sighting& at, const Sight& sight, xsimd::batch_bool<float> exists,
-                                         const texel_pack& opening, const texel_pack& closing)
+GNOMON_INLINE void add_range(const sighting& at, const Sight& sight, const xsimd::batch_bool<float>& exists,
+                             const texel_pack& opening, const texel_pack& closing)
 {
-    const range_pack whole{opening, closing, sight.depth(opening), sight.depth(closing)};
-    if (!at.triangle.whole()) exists = exists && at.triangle.contains(at.samples, whole.z0, whole.z1);
-    const std::uint64_t seen = bits_of(exists);
-    std::uint64_t straight = seen;
-    if (at.tolerance > 0) {
-        const auto bent = exists && sight.bends(whole, at.tolerance);
-        if (gnomon_any(bent)) {
-            add_pieces(at, bent, whole);
-            straight &= ~bits_of(bent);
-        }
+    const auto id = float(at.triangle.setup().number);
+    if (!(at.tolerance > 0)) {
+        at.to.add(exists, {opening, closing, sight.depth(opening), sight.depth(closing)}, id);
+        return;
     }
-    if (straight != 0) at.to.add(straight, whole, float(at.triangle.setup().number));
+    const depth_line<texel_pack> line = sight.line(opening, closing);
+    const texel_pack tolerance(at.tolerance);
+    const auto bent = exists && tolerance < line.deviation;
+    if (gnomon_any(bent)) {
+        if (at.triangle.setup().before_eye)
+            add_pieces(at, bent, [curve = sight.curve, opening, closing, tolerance](const texel_pack& passed) {
+                return depth_curve_piece(curve, opening, closing, passed, tolerance);
+            });
+        else
+            add_pieces(at, bent, [&at, edges = sight.edges, opening, closing, tolerance](const texel_pack& passed) {
+                return moving_depth_piece(numbers_as<texel_pack>(at.triangle.setup().corners), edges, opening, closing,
+                                          passed, texel_pack(0.f), tolerance);
+            });
+    }
+    at.to.add(exists && !bent, {opening, closing, line.z0, line.z1}, id);
+}
+
+// What of an interval is between the near and the far plane, of a triangle that passes one of them.
+template <class Sight>
+[[gnu::noinline]] std::uint64_t add_between_planes(const sighting& at, Sight sight, xsimd::batch_bool<float> exists,
+                                                   texel_pack opening, texel_pack closing, float facing)
+{
+    const edge_times<texel_pack> beyond = depth_times_beyond(sight.curve, texel_pack(-1.f), texel_pack(facing)),
+                                 before = depth_times_before(sight.curve, texel_pack(1.f), texel_pack(facing));
+    std::uint64_t seen = 0;
+    for (const float i : {0.f, 1.f})
+        for (const float k : {0.f, 1.f}) {
+            linear_times<texel_pack> part = edge_times_part(beyond, texel_pack(i), opening, closing);
+            part = edge_times_part(before, texel_pack(k), part.begin, part.end);
+            const auto there = exists && part.begin < part.end;
+            const std::uint64_t bits = bits_of(there);
+            if (bits == 0) continue;
+            add_range(at, sight, there, part.begin, part.end);
+            seen |= bits;
+        }
     return seen;
 }
 
-[[gnu::noinline]] void add_further_intervals(const sighting& at, curved_sight sight, coverage_times<texel_pack> times)
+// One interval of those lanes that have it. Returns which are in the picture, a bit for each.
+template <class Sight>
+GNOMON_INLINE std::uint64_t add_interval(const sighting& at, const Sight& sight, xsimd::batch_bool<float> exists,
+                                         const texel_pack& opening, const texel_pack& closing, float facing)
 {
-    add_interval(at, sight, times.count > texel_pack(1.f), times.begin1, times.end1);
-    add_interval(at, sight, times.count > texel_pack(2.f), times.begin2, times.end2);
-    add_interval(at, sight, times.count > texel_pack(3.f), times.begin3, times.end3);
+    if (!at.triangle.whole()) exists = exists && at.triangle.contains(at.samples);
+    if (__builtin_expect(!at.triangle.setup().between_planes, 0))
+        return add_between_planes(at, sight, exists, opening, closing, facing);
+    const std::uint64_t seen = bits_of(exists);
+    add_range(at, sight, exists, opening, closing);
+    return seen;
+}
+
+[[gnu::noinline]] std::uint64_t add_further_intervals(const sighting& at, curved_sight sight,
+                                                      coverage_times<texel_pack> times, float facing)
+{
+    return add_interval(at, sight, times.count > texel_pack(1.f), times.begin1, times.end1, facing) |
+           add_interval(at, sight, times.count > texel_pack(2.f), times.begin2, times.end2, facing) |
+           add_interval(at, sight, times.count > texel_pack(3.f), times.begin3, times.end3, facing);
 }
 
 // Of one facing. Returns how many texels it covers.
@@ -185,8 +131,8 @@ GNOMON_INLINE std::size_t add_facing(const sighting& at, const curved_sight& sig
     const coverage_times<texel_pack> times = sight.covered(facing);
     const auto covered = times.count > texel_pack(0.f);
     if (!gnomon_any(covered)) return 0;
-    const std::uint64_t seen = add_interval(at, sight, covered, times.begin0, times.end0);
-    if (gnomon_any(times.count > texel_pack(1.f))) add_further_intervals(at, sight, times);
+    std::uint64_t seen = add_interval(at, sight, covered, times.begin0, times.end0, facing);
+    if (gnomon_any(times.count > texel_pack(1.f))) seen |= add_further_intervals(at, sight, times, facing);
     return std::size_t(std::popcount(seen));
 }
 
@@ -195,42 +141,44 @@ GNOMON_INLINE std::size_t add_facing(const sighting& at, const linear_sight& sig
     const linear_times<texel_pack> times = sight.covered(facing);
     const auto covered = times.begin < times.end;
     if (!gnomon_any(covered)) return 0;
-    return std::size_t(std::popcount(add_interval(at, sight, covered, times.begin, times.end)));
+    return std::size_t(std::popcount(add_interval(at, sight, covered, times.begin, times.end, facing)));
 }
 
 [[gnu::noinline]] std::size_t add_turned(const sighting& at)
 {
-    if (at.triangle.setup().linear) return add_facing(at, at.triangle.linear(at.samples), -1);
-    return add_facing(at, at.triangle.curved(at.samples), -1);
+    if (at.triangle.setup().linear) return add_facing(at, at.triangle.linear(at.samples, -1), -1);
+    return add_facing(at, at.triangle.curved(at.samples, -1), -1);
 }
 
 [[gnu::noinline]] std::size_t add_curved(const sighting& at)
 {
-    return add_facing(at, at.triangle.curved(at.samples), 1);
+    return add_facing(at, at.triangle.curved(at.samples, 1), 1);
 }
 
 void rasterize_tile(const tiled_triangles& scenery, std::size_t tile, const range_options& how, tile_lists& to)
 {
-    to.members.assign(scenery, tile);
+    to.members.assign(scenery, tile, how.resolved);
     to.counts = {};
     to.lists.clear();
     for (std::size_t i = 0; i < packs_per_tile; ++i) {
         const moving_samples samples(i);
         std::size_t budget = how.budget;
-        to.texels.clear();
+        to.texels.clear(how.resolved, how.backdrops);
         to.members.for_each(i / moving_samples::packs_per_block, [&](const tile_triangle& triangle) {
             const sighting at{triangle, samples, how.depth_tolerance, to.texels};
             to.counts.tested += texel_pack::size;
             const moving_setup& s = triangle.setup();
-            if (s.positive) to.counts.pairs += s.linear ? add_facing(at, triangle.linear(samples), 1) : add_curved(at);
+            if (s.positive)
+                to.counts.pairs += s.linear ? add_facing(at, triangle.linear(samples, 1), 1) : add_curved(at);
             if (s.negative) to.counts.pairs += add_turned(at);
             if (to.texels.room() <= budget) return;
             ++to.counts.early_resolves;
-            to.texels.resolve(true); // what comes may be behind a backdrop
+            to.texels.thin_out();
             budget = std::max(budget, 2 * to.texels.room());
         });
-        if (how.resolved) to.texels.resolve(how.backdrops);
-        to.texels.append_to(to.lists, std::span(to.sizes).subspan(i * texel_pack::size).first<texel_pack::size>());
+        const auto sizes = std::span(to.sizes).subspan(i * texel_pack::size).first<texel_pack::size>();
+        if (how.resolved) to.texels.append_resolved_to(to.lists, sizes);
+        else to.texels.append_to(to.lists, sizes);
     }
 }
 
@@ -239,8 +187,8 @@ void sample_instants(const tile_triangle& triangle, const moving_samples& at, co
                      std::vector<depth_time_range<float>>& nearest)
 {
     const moving_setup& s = triangle.setup();
-    const curved_sight sight = triangle.curved(at);
-    const moving_edges<texel_pack>& edges = sight.edges;
+    const curved_sight sight = triangle.curved(at, 1);
+    const moving_edges<texel_pack> negative = s.negative ? triangle.curved(at, -1).edges : sight.edges;
     const auto instant = [&](std::size_t lane, int k) -> depth_time_range<float>* {
         const glm::ivec2 place = at.place(lane);
         if (!triangle.contains(place)) return nullptr;
@@ -251,13 +199,15 @@ void sample_instants(const tile_triangle& triangle, const moving_samples& at, co
         for (std::size_t i = 0; i < texel_pack::size; ++i)
             if (const auto* there = instant(i, k)) time[i] = there->t0;
         const texel_pack t = texel_pack::load_unaligned(time.data());
-        const texel_pack a = moving_edge_at(edges.a, t), b = moving_edge_at(edges.b, t), c = moving_edge_at(edges.c, t);
-        gnomon_min(gnomon_min(a, b), c).store_unaligned(least.data());
-        gnomon_max(gnomon_max(a, b), c).store_unaligned(most.data());
+        const auto at_time = [&](const moving_edges<texel_pack>& e) {
+            return std::array{moving_edge_at(e.a, t), moving_edge_at(e.b, t), moving_edge_at(e.c, t)};
+        };
+        const auto inside = at_time(sight.edges), outside = at_time(negative);
+        gnomon_min(gnomon_min(inside[0], inside[1]), inside[2]).store_unaligned(least.data());
+        gnomon_max(gnomon_max(outside[0], outside[1]), outside[2]).store_unaligned(most.data());
         sight.depth(t).store_unaligned(z.data());
         for (std::size_t i = 0; i < texel_pack::size; ++i) {
-            const bool covered =
-                (s.positive && least[i] >= 0 && most[i] > 0) || (s.negative && most[i] <= 0 && least[i] < 0);
+            const bool covered = (s.positive && least[i] >= 0) || (s.negative && most[i] <= 0);
             auto* there = covered ? instant(i, k) : nullptr;
             if (there && z[i] > -1 && z[i] < there->z0) {
                 there->z0 = there->z1 = z[i];

@@ -24,7 +24,7 @@ struct range_options {
     faces visible = faces::both;
     bool resolved = false;     // lists of what is in front, without overlaps
     bool backdrops = true;     // resolved lists keep what is behind all else at all times, though it shadows nothing
-    float depth_tolerance = 0; // lines are this close to depth, where halfway it departs by half as much; 0: one line
+    float depth_tolerance = 0; // no line is further from depth than this; 0: one line
     std::size_t budget = std::size_t(1) << 14; // ranges that a pack of texels has room for before it resolves them
 };
 

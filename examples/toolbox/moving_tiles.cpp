@@ -22,7 +22,10 @@ namespace gnomon::toolbox {
 
 namespace {
 
-constexpr int largest_extent = 1 << 14; // texels
+constexpr int largest_extent = 1 << 14;        // texels
+constexpr std::size_t largest_count = 1 << 24; // triangles
+
+bool finite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 struct moving_view {
     camera open, close;
@@ -69,6 +72,7 @@ bool set_extent(moving_setup& s, const moving_view& from)
     if (!(nearest <= 1) || !(farthest >= -1)) return false;
     s.before_eye = least_w > 0;
     s.between_planes = -1 < nearest && farthest < 1;
+    s.nearest = static_cast<float>(nearest);
     if (!s.before_eye) low = glm::dvec2(0), high = from.size;
     s.first = glm::ivec2(glm::clamp(glm::ceil(low - 0.5 - double(tile_triangle::margin)), glm::dvec2(0), from.size));
     s.last =
@@ -95,14 +99,25 @@ void set_linear(moving_setup& s, const moving_view& from)
 std::vector<moving_setup> set_up(const moving_scene& world, const moving_view& from, faces visible)
 {
     std::vector<moving_setup> all;
-    all.reserve(std::transform_reduce(world.open.meshes.begin(), world.open.meshes.end(), std::size_t(0), std::plus(),
-                                      [](const mesh& part) { return part.triangles.size(); }));
+    const std::size_t triangles =
+        std::transform_reduce(world.open.meshes.begin(), world.open.meshes.end(), std::size_t(0), std::plus(),
+                              [](const mesh& part) { return part.triangles.size(); });
+    if (triangles > largest_count)
+        throw std::invalid_argument(
+            fmt::format("moving rasterizer: {} triangles, {} are possible: a number is an id, which float must hold",
+                        triangles, largest_count));
+    all.reserve(triangles);
     std::uint32_t number = 0;
     for (std::size_t m = 0; m < world.open.meshes.size(); ++m) {
         const mesh& part = world.open.meshes[m];
         std::vector<moving_vertex<double>> vertices(part.positions.size());
-        for (std::size_t i = 0; i < vertices.size(); ++i)
-            vertices[i] = from.vertex(part.positions[i], world.closing[m][i]);
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const glm::vec3 &open = part.positions[i], &close = world.closing[m][i];
+            if (!finite(open) || !finite(close))
+                throw std::invalid_argument(
+                    fmt::format("moving rasterizer: vertex {} of mesh {} is not at a finite place", i, m));
+            vertices[i] = from.vertex(open, close);
+        }
         for (const glm::uvec3& t : part.triangles) {
             moving_setup s{};
             s.corners = {vertices[t.x], vertices[t.y], vertices[t.z]};
@@ -128,8 +143,9 @@ template <class Visit> void for_each_tile(const moving_setup& s, const Visit& vi
         return;
     }
     const glm::dvec2 origin = double(moving_tile_size) * (glm::dvec2(low) + 0.5 * glm::dvec2(extent));
-    const touched_cells touched(numbers_as<float>(moving_field_of(s.corners, origin.x, origin.y)), s,
-                                0.5f * float(moving_tile_size) + tile_triangle::margin);
+    const auto field = numbers_as<float>(moving_field_of(s.corners, origin.x, origin.y));
+    const edge_errors errors(field, s.linear_edges, 0.5f * float(moving_tile_size) * glm::vec2(extent));
+    const touched_cells touched(field, errors, s, 0.5f * float(moving_tile_size) + tile_triangle::margin);
     const auto tile = [&](int i) { return low + glm::ivec2(i % extent.x, i / extent.x); };
     for (int begin = 0; begin < count; begin += int(texel_pack::size)) {
         texel_lanes x, y;
@@ -191,16 +207,22 @@ void tiled_triangles::sort_into_tiles()
 }
 
 tile_triangle::tile_triangle(const moving_setup& s, const moving_tile& where)
+    : tile_triangle(s, where,
+                    moving_field_of(s.corners, double(where.corner.x) + 0.5 * moving_tile_size,
+                                    double(where.corner.y) + 0.5 * moving_tile_size))
+{}
+
+tile_triangle::tile_triangle(const moving_setup& s, const moving_tile& where, const moving_field<double>& field)
     : setup_(&s),
       last_(glm::min(s.last - where.corner, where.size - 1)),
       low_(glm::max(s.first - where.corner, 0) / moving_block_size),
       high_(last_ / moving_block_size),
-      whole_(s.between_planes && where.size == glm::ivec2(moving_tile_size))
+      whole_(where.size == glm::ivec2(moving_tile_size)),
+      depths_(numbers_as<float>(depth_field_of(field, s.corners)))
 {
-    const glm::dvec2 origin = glm::dvec2(where.corner) + 0.5 * moving_tile_size;
-    const moving_field<double> field = moving_field_of(s.corners, origin.x, origin.y);
-    field_ = numbers_as<float>(field);
-    depths_ = numbers_as<float>(depth_field_of(field, s.corners));
+    wide_ = numbers_as<float>(field);
+    errors_ = {wide_, s.linear_edges, glm::vec2(0.5f * float(moving_tile_size))};
+    wide_ = widened(wide_, errors_, 1);
 }
 
 texel_pack curved_sight::depth_of_corners(const moving_setup& s, moving_edges<texel_pack> edges, const texel_pack& t)
@@ -208,17 +230,27 @@ texel_pack curved_sight::depth_of_corners(const moving_setup& s, moving_edges<te
     return moving_triangle_linear_depth(numbers_as<texel_pack>(s.corners), edges, t);
 }
 
-void tile_members::assign(const tiled_triangles& scenery, std::size_t tile)
+depth_line<texel_pack> curved_sight::line_of_corners(const moving_setup& s, moving_edges<texel_pack> edges,
+                                                     const texel_pack& begin, const texel_pack& end)
+{
+    return moving_depth_line(numbers_as<texel_pack>(s.corners), edges, begin, end, texel_pack(0.f));
+}
+
+void tile_members::assign(const tiled_triangles& scenery, std::size_t tile, bool front_to_back)
 {
     triangles_.clear();
     touching_.clear();
+    members_.clear();
     const moving_tile where = scenery.tile(tile);
-    scenery.for_each(tile, [&](const moving_setup& s) {
+    scenery.for_each(tile, [&](const moving_setup& s) { members_.push_back(&s); });
+    if (front_to_back) std::ranges::stable_sort(members_, {}, &moving_setup::nearest);
+    for (const moving_setup* member : members_) {
+        const moving_setup& s = *member;
         const std::size_t i = triangles_.size() % 64;
         if (i == 0) touching_.emplace_back();
         const std::uint64_t blocks = triangles_.emplace_back(s, where).blocks();
         for_each_bit(blocks, [&](std::size_t block) { touching_.back()[block] |= std::uint64_t(1) << i; });
-    });
+    }
 }
 
 } // namespace gnomon::toolbox

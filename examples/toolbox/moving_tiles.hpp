@@ -3,6 +3,7 @@
 // through the blocks of texels that it touches at some time.
 #pragma once
 
+#include <gnomon/motion/depth_planes.h>
 #include <gnomon/motion/edge_field.h>
 #include <gnomon/passes/range_map.hpp>
 #include <gnomon/simd/xsimd.hpp>
@@ -56,6 +57,7 @@ struct moving_setup {
     bool between_planes;     // near and far
     glm::bvec3 linear_edges; // those across from the corners whose functions are linear in time
     bool linear;             // all of them, and the corners' depths change alike
+    float nearest;           // depth
     std::uint32_t number;    // counted through all meshes
 };
 
@@ -124,13 +126,45 @@ GNOMON_INLINE moving_edges<texel_pack> turned(const moving_edges<texel_pack>& e)
     return {{-e.a.e0, -e.a.e1, -e.a.e2}, {-e.b.e0, -e.b.e1, -e.b.e2}, {-e.c.e0, -e.c.e1, -e.c.e2}};
 }
 
+// How much edge functions are widened by, lest rounding opens cracks around a vertex.
+struct edge_errors {
+    float a = 0, b = 0, c = 0;
+
+    edge_errors() = default;
+
+    // Of the samples within h of the field's origin.
+    edge_errors(const moving_field<float>& field, const glm::bvec3& linear, const glm::vec2& h)
+    {
+        const auto error = [&](const edge_field<float>& f, bool is_linear) {
+            return is_linear ? linear_field_error(f, h.x, h.y) : edge_field_error(f, h.x, h.y);
+        };
+        a = error(field.a, linear.x), b = error(field.b, linear.y), c = error(field.c, linear.z);
+    }
+
+    float sum() const { return a + b + c; }
+};
+
+GNOMON_INLINE edge_field<float> widened(const edge_field<float>& f, float error)
+{
+    edge_field<float> wide = f;
+    wide.e0.c += error, wide.e1.c += error, wide.e2.c += error;
+    return wide;
+}
+
+// By its errors where times is 1, to the other side where it is -1.
+GNOMON_INLINE moving_field<float> widened(const moving_field<float>& f, const edge_errors& e, float times)
+{
+    return {widened(f.a, times * e.a), widened(f.b, times * e.b), widened(f.c, times * e.c)};
+}
+
 // Which cells, the samples within reach of their middles, a triangle covers at some time.
 class touched_cells {
   public:
-    touched_cells(const moving_field<float>& field, const moving_setup& s, float reach) : setup_(s)
+    touched_cells(const moving_field<float>& field, const edge_errors& errors, const moving_setup& s, float reach)
+        : setup_(s)
     {
-        if (s.positive) positive_ = moving_field_around(field, reach, reach, 1.f);
-        if (s.negative) negative_ = moving_field_around(field, reach, reach, -1.f);
+        if (s.positive) positive_ = widened(moving_field_around(field, reach, reach, 1.f), errors, 1);
+        if (s.negative) negative_ = widened(moving_field_around(field, reach, reach, -1.f), errors, -1);
     }
 
     // A bit for each lane.
@@ -199,7 +233,7 @@ struct range_pack {
 // What of a triangle a pack of samples sees.
 struct curved_sight {
     const moving_setup& of;
-    moving_edges<texel_pack> edges;
+    moving_edges<texel_pack> edges; // widened
     depth_curve<texel_pack> curve;
 
     GNOMON_INLINE coverage_times<texel_pack> covered(float facing) const
@@ -217,20 +251,20 @@ struct curved_sight {
     {
         return of.before_eye ? depth_curve_at(curve, t) : depth_of_corners(of, edges, t);
     }
-    // Whether depth departs from its line by more than the tolerance: most of it somewhere in the middle.
-    GNOMON_INLINE auto bends(const range_pack& r, float tolerance) const
+    GNOMON_INLINE depth_line<texel_pack> line(const texel_pack& begin, const texel_pack& end) const
     {
-        const texel_pack half(0.5f);
-        return gnomon_abs(depth(half * (r.t0 + r.t1)) - half * (r.z0 + r.z1)) > texel_pack(0.5f * tolerance);
+        return of.before_eye ? depth_curve_line(curve, begin, end) : line_of_corners(of, edges, begin, end);
     }
 
     // Without a field: for triangles that are not before the eye all of the time.
     static texel_pack depth_of_corners(const moving_setup& s, moving_edges<texel_pack> edges, const texel_pack& t);
+    static depth_line<texel_pack> line_of_corners(const moving_setup& s, moving_edges<texel_pack> edges,
+                                                  const texel_pack& begin, const texel_pack& end);
 };
 
 // Of one that is linear in time.
 struct linear_sight {
-    moving_edges<texel_pack> edges;
+    moving_edges<texel_pack> edges; // widened
     depth_curve<texel_pack> curve;
 
     GNOMON_INLINE linear_times<texel_pack> covered(float facing) const
@@ -238,13 +272,9 @@ struct linear_sight {
         return linear_coverage(facing < 0 ? turned(edges) : edges);
     }
     GNOMON_INLINE texel_pack depth(const texel_pack& t) const { return linear_depth_at(curve, t); }
-    // With N / D of a depth_curve it departs by (N1 / D1 - N0 / D0) (D1 - D0) / (sqrt(D0) + sqrt(D1))^2 at most.
-    GNOMON_INLINE auto bends(const range_pack& r, float tolerance) const
+    GNOMON_INLINE depth_line<texel_pack> line(const texel_pack& begin, const texel_pack& end) const
     {
-        const auto d = [&](const texel_pack& t) { return curve.d0 * (texel_pack(1.f) - t) + curve.d2 * t; };
-        const texel_pack before = d(r.t0), after = d(r.t1);
-        const texel_pack rise = (r.z1 - r.z0) - (curve.z1 - curve.z0) * (r.t1 - r.t0);
-        return gnomon_abs(rise * (after - before)) > texel_pack(tolerance) * gnomon_abs(before + after);
+        return linear_depth_line(curve, begin, end);
     }
 };
 
@@ -264,7 +294,8 @@ class tile_triangle {
         const auto number = [](const glm::ivec2& block) { return std::size_t(block.y * moving_blocks + block.x); };
         const std::uint64_t ends = std::uint64_t(1) << number(low_) | std::uint64_t(1) << number(high_);
         if (high_.x - low_.x + high_.y - low_.y < 2) return ends; // it reaches into both
-        const touched_cells touched(field_, *setup_, 0.5f * float(moving_block_size - 1) + margin);
+        const touched_cells touched(widened(wide_, errors_, -1), errors_, *setup_,
+                                    0.5f * float(moving_block_size - 1) + margin);
         const std::size_t lanes = texel_pack::size, end = std::size_t((high_.y + 1) * moving_blocks);
         std::uint64_t blocks = 0;
         for (std::size_t i = std::size_t(low_.y * moving_blocks) / lanes * lanes; i < end; i += lanes)
@@ -274,27 +305,27 @@ class tile_triangle {
         return blocks & columns * 0x0101010101010101;
     }
 
-    GNOMON_INLINE curved_sight curved(const moving_samples& s) const
+    GNOMON_INLINE curved_sight curved(const moving_samples& s, float facing) const
     {
-        const moving_edges<texel_pack> edges = moving_field_edges(in_lanes(field_), s.x, s.y);
-        return {*setup_, edges, moving_depth_curve(in_lanes(depths_), edges, s.x, s.y)};
+        const moving_edges<texel_pack> edges = facing < 0 ? moving_field_edges(in_lanes(negative()), s.x, s.y)
+                                                          : moving_field_edges(in_lanes(wide_), s.x, s.y);
+        return {*setup_, edges, curve(s, edges, facing)};
     }
-    GNOMON_INLINE linear_sight linear(const moving_samples& s) const
+    GNOMON_INLINE linear_sight linear(const moving_samples& s, float facing) const
     {
-        const moving_edges<texel_pack> edges = linear_field_edges(in_lanes(field_), s.x, s.y);
-        return {edges, moving_depth_curve(in_lanes(depths_), edges, s.x, s.y)};
+        const moving_edges<texel_pack> edges = facing < 0 ? linear_field_edges(in_lanes(negative()), s.x, s.y)
+                                                          : linear_field_edges(in_lanes(wide_), s.x, s.y);
+        return {edges, curve(s, edges, facing)};
     }
 
-    // Whether it is in the picture wherever it covers the tile.
+    // Whether all of the tile is in the picture.
     bool whole() const { return whole_; }
 
-    // Whether samples are in the picture, and their depths at two times not both before the near plane or at the far.
-    auto contains(const moving_samples& s, const texel_pack& z0, const texel_pack& z1) const
+    // Whether samples are in the picture.
+    auto contains(const moving_samples& s) const
     {
         const glm::vec2 beyond = glm::vec2(last_) + 1.f - 0.5f * float(moving_tile_size);
-        const texel_pack near_plane(-1.f), far_plane(1.f);
-        return s.x < texel_pack(beyond.x) && s.y < texel_pack(beyond.y) && (near_plane < z0 || near_plane < z1) &&
-               (z0 < far_plane || z1 < far_plane);
+        return s.x < texel_pack(beyond.x) && s.y < texel_pack(beyond.y);
     }
     bool contains(const glm::ivec2& place) const { return place.x <= last_.x && place.y <= last_.y; }
 
@@ -302,19 +333,35 @@ class tile_triangle {
     static constexpr float margin = 0.05f;
 
   private:
+    tile_triangle(const moving_setup& s, const moving_tile& where, const moving_field<double>& field);
+
+    // The field widened for the facing -1.
+    moving_field<float> negative() const { return widened(wide_, errors_, -2); }
+
+    // From edges that are widened.
+    GNOMON_INLINE depth_curve<texel_pack> curve(const moving_samples& s, const moving_edges<texel_pack>& edges,
+                                                float facing) const
+    {
+        depth_curve<texel_pack> r = moving_depth_curve(in_lanes(depths_), edges, s.x, s.y);
+        const texel_pack excess(facing * errors_.sum());
+        r.d0 = r.d0 - excess, r.d1 = r.d1 - (excess + excess), r.d2 = r.d2 - excess;
+        return r;
+    }
+
     const moving_setup* setup_;
     glm::ivec2 last_, low_, high_; // texel, blocks
     bool whole_;
-    moving_field<float> field_;
     depth_field<float> depths_;
+    edge_errors errors_;
+    moving_field<float> wide_; // widened for the facing 1
 };
 
 // The triangles of a tile, by the blocks that they touch.
 class tile_members {
   public:
-    void assign(const tiled_triangles& scenery, std::size_t tile);
+    void assign(const tiled_triangles& scenery, std::size_t tile, bool front_to_back = false);
 
-    // Calls visit(triangle) for those of a block, in the order of their numbers.
+    // Calls visit(triangle) for those of a block, by their nearest depth or in the order of their numbers.
     template <class Visit> void for_each(std::size_t block, const Visit& visit) const
     {
         for (std::size_t k = 0; k < touching_.size(); ++k)
@@ -322,6 +369,7 @@ class tile_members {
     }
 
   private:
+    std::vector<const moving_setup*> members_;
     std::vector<tile_triangle> triangles_;
     std::vector<std::array<std::uint64_t, 64>> touching_; // of 64 triangles each, by blocks, a bit for each triangle
 };

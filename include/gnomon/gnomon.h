@@ -26,6 +26,7 @@
 #include "filters/variance.h"
 
 #include "motion/coverage_map.h"
+#include "motion/depth_planes.h"
 #include "motion/edge_field.h"
 #include "motion/facing.h"
 #include "motion/moving_receiver.h"

@@ -107,7 +107,7 @@ TEST_CASE("no pass over ranges allocates")
     using map = range_map<float>;
     using pack = xsimd::batch<float>;
     const std::array<depth_time_range<float>, 3> loose{{{0, 0.75f, 0, 0, 1}, {0.25f, 1, -1, 1, 2}, {0, 1, 0.5f, 0, 3}}};
-    std::array<visible_span<float>, resolve_capacity(3)> spans{};
+    std::array<visible_span<float>, resolve_capacity(3, range_ids::any)> spans{};
     std::array<std::uint32_t, 16> texels{};
     std::array<std::uint32_t, map::texels(12, 9) + 1> first{};
     std::array<depth_time_range<float>, texels.size()> some{}, ranges{};
@@ -115,7 +115,7 @@ TEST_CASE("no pass over ranges allocates")
     std::array<float, 2> shadows{};
     const receiver_path<float> path{{0, 1, 0, 0, 4}, 1, 1, 1, 5, 6, 1};
     const long before = allocations;
-    const auto resolved = resolve_ranges<float>(loose, spans);
+    const auto resolved = resolve_ranges<float>(loose, spans, range_ids::any);
     for (std::size_t i = 0; i < resolved.size(); ++i) some[i] = range_of<float>(loose, resolved[i]);
     sort_into_lists<float>(texels, some, first, ranges);
     const map lists{12, 9, first, ranges};

@@ -133,8 +133,10 @@ inline constexpr input_family<T> input_families[] = {
          put(s.receiver), put(double(bits.below(4))), put(std::min(begin, end)), put(std::max(begin, end));
          put(bits.chance(0.5) ? 1 : bits.uniform(0, 1)), put(bits.uniform(0, 1));
      }},
-    {"range_total", 2,
-     [](auto put, const situation& s, bit_source& bits) { put(s.texel), put(bits.uniform(0, 1)); }},
+    {"range_total", 4,
+     [](auto put, const situation& s, bit_source& bits) {
+         put(s.texel - bits.uniform(0, 1)), put(s.texel), put(bits.uniform(0, 1)), put(double(bits.below(7)) - 2);
+     }},
     {"receiver_path", 11,
      [](auto put, const situation& s, bit_source& bits) { put(any_seen_receiver<T>(s, bits).path); }},
     {"texel_sweep", 19,
@@ -183,6 +185,10 @@ inline constexpr input_family<T> input_families[] = {
      [](auto put, const situation&, bit_source& bits) { put(any_field_and_triangle<T>(bits)); }},
     {"depth_field", 16, [](auto put, const situation&, bit_source& bits) { put(any_depth_field<T>(bits)); }},
     {"depth_curve", 11, [](auto put, const situation&, bit_source& bits) { put(any_depth_curve<T>(bits)); }},
+    {"moving_cubic", 4,
+     [](auto put, const situation& s, bit_source& bits) {
+         put(depth_over_plane(any_depth_curve<T>(bits), T(s.receiver), T(bits.chance(0.5) ? 1 : -1)));
+     }},
     {"coverage_times", 9,
      [](auto put, const situation&, bit_source& bits) {
          put(moving_coverage(any_seen_triangle<T>(bits).edges, T(1)));

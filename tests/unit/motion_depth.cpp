@@ -1,5 +1,5 @@
-// Depth linear in view distance, against where the ray through the sample meets the triangle's plane, and intervals cut
-// into pieces whose lines hold to a tolerance.
+// Depth linear in view distance, against where the ray through the sample meets the triangle's plane; what is one line,
+// and hostile input.
 #include "moving_reference.hpp"
 
 #include <doctest/doctest.h>
@@ -103,7 +103,8 @@ TEST_CASE_TEMPLATE("linear depth is that of the point that the sample sees", T, 
     CHECK(double(sharp) > 0.8 * double(asked));
 }
 
-// Where the mean of z and the centroid's depth agree with the truth: 16 2^-p.
+// Where the mean of z and the centroid's depth agree with the truth: 16 2^-p. The line deviates by its stated error,
+// with depths and deviations up to 1.
 TEST_CASE_TEMPLATE("a plane across the axis goes along it linearly, also in perspective", T, float, double)
 {
     bit_source bits(13);
@@ -125,68 +126,17 @@ TEST_CASE_TEMPLATE("a plane across the axis goes along it linearly, also in pers
         const T t = T(bits.uniform(0, 1));
         const exact z = exact(m.a.z0) * (1 - exact(t)) + exact(m.a.z1) * exact(t);
         REQUIRE(std::abs(exact(moving_triangle_linear_depth(m, e, t)) - z) <= 16 * exact(u<T>));
-        REQUIRE(moving_depth_line(m, e, T(0), T(1), T(0)).deviation <= 48 * T(u<T>));
+        exact least = HUGE_VALL, sizes = 0;
+        for (const auto& edge : {e.a, e.b, e.c}) sizes += exact(moving_edge_size(edge));
+        for (int k = 0; k <= 16; ++k) {
+            const T at = T(k) / 16;
+            least = std::min(least, std::abs(exact(moving_edge_at(e.a, at)) + exact(moving_edge_at(e.b, at)) +
+                                             exact(moving_edge_at(e.c, at))));
+        }
+        REQUIRE(moving_depth_line(m, e, T(0), T(1), T(0)).deviation <= 128 * exact(u<T>) * sizes / least);
         bent = std::max(bent, double(moving_depth_line(clip, e, T(0), T(1), T(1)).deviation));
     }
     CHECK(bent > 0.5);
-}
-
-// 0.006 where 0.005 is found, for 999 of 1000, as moving_depth_line states; 32nds are taken as they are.
-TEST_CASE_TEMPLATE("pieces tile an interval bit for bit and hold to the tolerance", T, float, double)
-{
-    constexpr T tolerance = T(0.005);
-    bit_source bits(14);
-    std::int64_t intervals = 0, count = 0, shortest = 0, misjudged = 0;
-    std::size_t most = 0;
-    for (std::int64_t i = 0; i < effort(60'000); ++i) {
-        const auto how = movement(std::size_t(i) % 5);
-        const moving_scene scene = draw_moving_scene(how, bits);
-        const T divided = T(bits.chance(0.5));
-        const moving_triangle<T> m =
-            rounded_triangle<T>(divided > 0 ? scene.triangle : with_linear_depth(scene.triangle, how));
-        const moving_edges<T> e = moving_triangle_edges(m, T(scene.s_x), T(scene.s_y));
-        const coverage_times<T> x = moving_coverage(e, 1);
-        if (x.count == 0) continue;
-        const T begin = x.begin0, end = x.end0;
-        const auto pieces = pieces_of(m, e, begin, end, divided, tolerance);
-        ++intervals;
-        count += std::int64_t(pieces.size());
-        most = std::max(most, pieces.size());
-        REQUIRE(pieces.size() <= 32);
-        REQUIRE(pieces.front().t0 == begin);
-        REQUIRE(pieces.back().t1 == end);
-        T passed = 0;
-        for (std::size_t k = 0; k < pieces.size(); ++k) {
-            const depth_piece<T>& p = pieces[k];
-            if (k > 0) REQUIRE(p.t0 == pieces[k - 1].t1);
-            if (k > 0) REQUIRE(p.z0 == pieces[k - 1].z1);
-            REQUIRE(p.t0 <= p.t1);
-            REQUIRE(p.z0 == any_depth(m, e, p.t0, divided));
-            REQUIRE(p.z1 == any_depth(m, e, p.t1, divided));
-            const T share = p.passed - passed;
-            // Twice as long would not have done.
-            if (passed + 2 * share <= 1) {
-                const T longer = moving_depth_time(begin, end, passed + 2 * share);
-                REQUIRE(moving_depth_line(m, e, p.t0, longer, divided).deviation > tolerance);
-            }
-            passed = p.passed;
-            shortest += share == T(0x1p-5);
-            if (moving_depth_line(m, e, p.t0, p.t1, divided).deviation > tolerance) {
-                REQUIRE(share == T(0x1p-5));
-                continue;
-            }
-            T worst = 0;
-            for (int j = 1; j < 64; ++j) {
-                const T part = T(j) / 64, z = any_depth(m, e, p.t0 * (1 - part) + p.t1 * part, divided);
-                worst = std::max(worst, std::abs(z - (p.z0 * (1 - part) + p.z1 * part)));
-            }
-            misjudged += worst > T(0.006);
-        }
-    }
-    CHECK(1000 * misjudged <= count);
-    CHECK(count < 4 * intervals);
-    CHECK(10 * shortest < count);
-    CHECK(most > 8);
 }
 
 // Depth is linear in time there. In float the noise of slivers may exceed the tolerance.

@@ -127,10 +127,17 @@ TEST_CASE_TEMPLATE("range_total: what a list hides from a receiver behind it, wi
                               {T(1), T(0), T(2), T(2), T(1)},
                               {nan, T(1), T(2), T(2), T(1)}})
             total = range_total_add(total, r);
-        T farthest = T(-1);
+        T nearest = T(2), farthest = T(-1), id = T(range_nothing);
         for (const auto& r : list)
-            if (r.t0 < r.t1) farthest = std::max({farthest, r.z0, r.z1});
+            if (r.t0 < r.t1) {
+                nearest = std::min({nearest, r.z0, r.z1}), farthest = std::max({farthest, r.z0, r.z1});
+                id = id == T(range_nothing) || id == r.id ? r.id : T(range_mixed);
+            }
         REQUIRE(total.farthest == farthest);
+        REQUIRE(total.id == id);
+        REQUIRE(receiver_is_in_front(nearest, total) == 1);
+        REQUIRE(receiver_is_in_front(std::nextafter(nearest, T(9)), total) == (nearest == 2));
+        REQUIRE(receiver_is_in_front(nan, total) == 0);
 
         const T weight = T(bits.uniform(0, 1));
         const auto at = [&](T z, T begin, T end) {
@@ -141,6 +148,12 @@ TEST_CASE_TEMPLATE("range_total: what a list hides from a receiver behind it, wi
         REQUIRE(static_receiver_is_behind(at(T(2), T(0), T(0.5)), total) == 0);
         REQUIRE(static_receiver_is_behind(at(nan, T(0), T(1)), total) == 0);
         static_receiver<T> one_by_one = at(T(2), T(0), T(1)), at_once = one_by_one;
+        // Several ids, or the receiver's own: nobody knows whose ranges were in front.
+        const auto seen_by = [&](T own) { return static_receiver_begin(T(2), own, T(0), T(1)); };
+        REQUIRE(static_receiver_is_behind(at_once, total) == (id == T(range_mixed) ? 0 : 1));
+        REQUIRE(static_receiver_is_behind(seen_by(id), total) == 0);
+        total.id = T(range_nothing);
+        REQUIRE(static_receiver_is_behind(seen_by(id), total) == (id == T(range_nothing) ? 0 : 1));
         REQUIRE(static_receiver_is_behind(at_once, total) == 1);
         at_once = static_receiver_add_total(at_once, total);
         wide expected = 0;

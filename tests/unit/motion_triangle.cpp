@@ -73,44 +73,22 @@ TEST_CASE_TEMPLATE("depth of the covering triangle, and between its vertices' de
     CHECK(double(sharp) > 0.8 * double(asked));
 }
 
-// Halved until the deviation found is within the tolerance, or the piece is a millionth of the shutter: what happens
-// there, in float where the edge functions nearly vanish together, is noise.
-TEST_CASE_TEMPLATE("depth by lines, split to a tolerance", T, float, double)
+// The tolerance for what is at rest: of depths in [-1, 1] and edge functions that sum up to no less than a hundredth.
+TEST_CASE_TEMPLATE("lines of depth end on it, and are straight for what is at rest", T, float, double)
 {
-    constexpr T tolerance = T(0.005), shortest = T(0x1p-20);
-    std::int64_t intervals = 0, pieces = 0, misjudged = 0;
+    std::int64_t still = 0;
     for_each_scene<T>(30'000, 9, [&](const moving_triangle<T>& m, T s_x, T s_y, movement how) {
         const moving_edges<T> e = moving_triangle_edges(m, s_x, s_y);
         const coverage_times<T> x = moving_coverage(e, 1);
-        std::vector<std::array<T, 2>> waiting;
-        if (x.count > 0) waiting.push_back({x.begin0, x.end0});
-        intervals += x.count > 0;
-        while (!waiting.empty()) {
-            const auto [begin, end] = waiting.back();
-            waiting.pop_back();
-            const depth_line<T> line = moving_triangle_depth_line(m, e, begin, end);
-            REQUIRE(line.z0 == moving_triangle_depth(m, e, begin));
-            REQUIRE(line.z1 == moving_triangle_depth(m, e, end));
-            const T middle = (begin + end) / 2;
-            if (line.deviation > tolerance && end - begin > shortest) {
-                waiting.push_back({begin, middle});
-                waiting.push_back({middle, end});
-                continue;
-            }
-            ++pieces;
-            if (how == movement::still) REQUIRE(line.deviation <= 64 * u<T>);
-            T worst = 0;
-            for (int i = 1; i < 32 && line.deviation <= tolerance; ++i) {
-                const T passed = T(i) / 32;
-                const T z = moving_triangle_depth(m, e, begin * (1 - passed) + end * passed);
-                worst = std::max(worst, std::abs(z - (line.z0 * (1 - passed) + line.z1 * passed)));
-            }
-            misjudged += worst > T(0.006);
-        }
+        if (x.count == 0) return;
+        const depth_line<T> line = moving_triangle_depth_line(m, e, x.begin0, x.end0);
+        REQUIRE(line.z0 == moving_triangle_depth(m, e, x.begin0));
+        REQUIRE(line.z1 == moving_triangle_depth(m, e, x.end0));
+        if (how != movement::still || e.a.e0 + e.b.e0 + e.c.e0 < T(0.01)) return;
+        ++still;
+        REQUIRE(line.deviation <= 6400 * T(u<T>));
     });
-    CHECK(pieces > intervals);
-    CHECK(pieces < 5 * intervals);
-    CHECK(1000 * misjudged <= pieces);
+    CHECK(still > 0);
 }
 
 namespace {

@@ -38,8 +38,8 @@ template <class T> struct random_map {
                 const double a = bits.uniform(0, 1), b = bits.uniform(0, 1);
                 r = range_between(T(a), T(bits.uniform(-1, 1)), T(b), T(bits.uniform(-1, 1)), T(bits.below(5)));
             }
-            std::vector<visible_span<T>> room(resolve_capacity(list.size()));
-            for (const auto& s : resolve_ranges<T>(list, room)) {
+            std::vector<visible_span<T>> room(resolve_capacity(list.size(), range_ids::any));
+            for (const auto& s : resolve_ranges<T>(list, room, range_ids::any)) {
                 texels.push_back(std::uint32_t(range_map<T>::texel(width, i % width, i / width)));
                 all.push_back(range_of<T>(list, s));
             }
@@ -161,7 +161,7 @@ TEST_CASE_TEMPLATE("totals change nothing but roundings, one by one and by packs
         const random_map<T> random(bits);
         range_map<T> with_totals = random.map();
         std::vector<range_total<T>> totals(random.first.size() - 1);
-        set_totals(with_totals, std::span(totals));
+        set_totals(with_totals, std::span(totals), range_ids::any);
         with_totals.totals = totals;
         const int look_ups = 1 + int(bits.below(3));
         std::vector<placed_receiver<T>> receivers(bits.below(100));
@@ -210,7 +210,7 @@ TEST_CASE("static_shadows say what does not fit")
     map.totals = totals;
     CHECK_THROWS_WITH_AS(static_shadows<pack>(map, receivers, std::span(shadows)),
                          doctest::Contains("static_shadows: map.totals.size() + 1 is"), std::invalid_argument);
-    CHECK_THROWS_WITH_AS(set_totals(random.map(), std::span(few)),
+    CHECK_THROWS_WITH_AS(set_totals(random.map(), std::span(few), range_ids::any),
                          doctest::Contains("range totals: totals.size() + 1 is 4"), std::invalid_argument);
     CHECK(shadows == std::vector<float>(2, 7.f));
 }

@@ -2,6 +2,7 @@
 #include "../support/effort.hpp"
 #include "../support/hostile.hpp"
 
+#include <gnomon/passes/backdrop.hpp>
 #include <gnomon/passes/range_map.hpp>
 #include <gnomon/passes/resolve.hpp>
 
@@ -37,9 +38,10 @@ template <class T> list<T> any_list(bit_source& bits, std::size_t most)
 
 template <class T> list<T> resolved(const list<T>& ranges)
 {
-    std::vector<visible_span<T>> room(resolve_capacity(ranges.size()));
+    std::vector<visible_span<T>> room(resolve_capacity(ranges.size(), range_ids::surfaces));
     list<T> result;
-    for (const visible_span<T>& s : resolve_ranges<T>(ranges, room)) result.push_back(range_of<T>(ranges, s));
+    for (const visible_span<T>& s : resolve_ranges<T>(ranges, room, range_ids::surfaces))
+        result.push_back(range_of<T>(ranges, s));
     return result;
 }
 
@@ -167,9 +169,9 @@ TEST_CASE("without_backdrop: what is behind all else at all times, and nothing e
 TEST_CASE("resolve and range map say what does not fit")
 {
     const list<float> ranges(3, depth_time_range<float>{0, 1, 0, 0, 1});
-    std::vector<visible_span<float>> room(resolve_capacity(3) - 1);
-    CHECK_THROWS_WITH_AS(resolve_ranges<float>(ranges, room), doctest::Contains("resolve: spans.size() is"),
-                         std::invalid_argument);
+    std::vector<visible_span<float>> room(resolve_capacity(3, range_ids::any) - 1);
+    CHECK_THROWS_WITH_AS(resolve_ranges<float>(ranges, room, range_ids::any),
+                         doctest::Contains("resolve: spans.size() is"), std::invalid_argument);
     std::vector<std::uint32_t> first(5, 7);
     list<float> sorted(3);
     CHECK_THROWS_WITH_AS(sort_into_lists<float>(std::vector<std::uint32_t>{0, 1}, ranges, first, sorted),

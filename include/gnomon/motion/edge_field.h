@@ -28,6 +28,12 @@
 //
 //     curve = moving_depth_curve(depths, edges, s_x, s_y);   depths = depth_field_of(field, triangle), once for a tile
 //     z = depth_curve_at(curve, t);   linear_depth_at, where the depths move alike as well
+//
+// Lines stand for it where they are near enough, else lines of pieces, as for moving_depth_line:
+//
+//     line = depth_curve_line(curve, begin, end);   if (line.deviation <= tolerance), else
+//     for (passed = 0; passed < 1; passed = piece.passed)
+//         piece = depth_curve_piece(curve, begin, end, passed, tolerance);
 #ifndef GNOMON_MOTION_EDGE_FIELD_H
 #define GNOMON_MOTION_EDGE_FIELD_H
 #include "moving_triangle.h"
@@ -52,6 +58,8 @@ GNOMON_STRUCT depth_field
 
 /// The same at a sample, and the coefficients of D, the middle one times 2.
 GNOMON_STRUCT depth_curve { Real n0, n1, n2, n3, d0, d1, d2, z0, z1, least, most; };
+
+GNOMON_CONSTANT(edge_field_margin, 0.0000019073486328125); // 2^-19, 32 2^-p in float
 
 /// The line through two points of the plane, homogeneous.
 GNOMON_KERNEL GNOMON_T(sample_plane) homogeneous_line(Real a_x, Real a_y, Real a_w, Real b_x, Real b_y, Real b_w)
@@ -216,6 +224,49 @@ GNOMON_KERNEL GNOMON_T(moving_field)
     return f;
 }
 
+/// The largest value within h_x and h_y of the origin, but for its sign.
+GNOMON_KERNEL Real sample_plane_size(GNOMON_T(sample_plane) p, Real h_x, Real h_y)
+{
+    return (gnomon_abs(p.x) * h_x + gnomon_abs(p.y) * h_y) + gnomon_abs(p.c);
+}
+
+/// The largest value of its coefficients there.
+GNOMON_KERNEL Real edge_field_size(GNOMON_T(edge_field) f, Real h_x, Real h_y)
+{
+    Real outer = gnomon_max(sample_plane_size(f.e0, h_x, h_y), sample_plane_size(f.e2, h_x, h_y));
+    return gnomon_max(outer, sample_plane_size(f.e1, h_x, h_y));
+}
+
+/// How much rounding may take from an edge function at the samples within h_x and h_y of the origin, in all: from
+/// planes that were exact before they were rounded to float, from their coefficients at the sample, and from the times
+/// of moving_edge_inside, in float. That is 1 + 4 + 16 of 2^-24 of the largest coefficient; returned are 32.
+GNOMON_KERNEL Real edge_field_error(GNOMON_T(edge_field) f, Real h_x, Real h_y)
+{
+    return GNOMON_LITERAL(edge_field_margin) * edge_field_size(f, h_x, h_y);
+}
+
+/// The same for linear_edge_inside, whose times take 2 for 16: 8 are returned, and how far the edge function departs
+/// from the one that is linear in time, a quarter of e0 - 2 e1 + e2.
+GNOMON_KERNEL Real linear_field_error(GNOMON_T(edge_field) f, Real h_x, Real h_y)
+{
+    GNOMON_T(sample_plane) bend;
+    bend.x = f.e0.x - Real(2) * f.e1.x + f.e2.x;
+    bend.y = f.e0.y - Real(2) * f.e1.y + f.e2.y;
+    bend.c = f.e0.c - Real(2) * f.e1.c + f.e2.c;
+    return Real(0.25) * (edge_field_error(f, h_x, h_y) + sample_plane_size(bend, h_x, h_y));
+}
+
+/// The edge moved outwards by an error: it is inside at all times at which the exact one is. Triangles around a common
+/// vertex then leave no crack beside it, where each edge is rounded by itself, but overlap by as little.
+GNOMON_KERNEL GNOMON_T(moving_edge) moving_edge_widened(GNOMON_T(moving_edge) e, Real error, GNOMON_SETTING facing)
+{
+    Real by = facing * error;
+    e.e0 = e.e0 + by;
+    e.e1 = e.e1 + by;
+    e.e2 = e.e2 + by;
+    return e;
+}
+
 /// The plane a times k_a and b times k_b.
 GNOMON_KERNEL GNOMON_T(sample_plane)
     sample_planes_weighed(GNOMON_T(sample_plane) a, Real k_a, GNOMON_T(sample_plane) b, Real k_b)
@@ -295,6 +346,67 @@ GNOMON_KERNEL Real linear_depth_at(GNOMON_T(depth_curve) c, Real t)
     Real s = Real(1) - t;
     Real z = (c.z0 * s + c.z1 * t) + (c.n0 * s + c.n3 * t) / (c.d0 * s + c.d2 * t);
     return gnomon_max(gnomon_min(z, c.most), c.least); // a NaN becomes the most
+}
+
+/// The line that stands for the depth between two times, that of depth_curve_at at both, and a bound of how far the
+/// depth between departs from it. Where D may vanish, all that the limits allow. Domain: begin <= end, in [0, 1].
+/// Error: 24 2^-p (n + d (r + deviation)) / |D| and 8 2^-p of the largest depth: n and d the largest coefficients of N
+/// and D, those in the middle as means, not times 3 and 2; r the larger |N / D| at an end, |D| where it is least.
+GNOMON_KERNEL GNOMON_T(depth_line) depth_curve_line(GNOMON_T(depth_curve) c, Real begin, Real end)
+{
+    Real b = Real(1) - begin;
+    Real f = Real(1) - end;
+    // Bernstein coefficients between the times: blossoms.
+    Real three0 = Real(3) * c.n0;
+    Real three3 = Real(3) * c.n3;
+    Real n0 = (c.n0 * b + c.n1 * begin) * (b * b) + (c.n2 * b + c.n3 * begin) * (begin * begin);
+    Real n1 = ((three0 * f + c.n1 * end) * (b * b) + (c.n2 * f + three3 * end) * (begin * begin)) +
+              (c.n1 * f + c.n2 * end) * (Real(2) * (b * begin));
+    Real n2 = ((three0 * b + c.n1 * begin) * (f * f) + (c.n2 * b + three3 * begin) * (end * end)) +
+              (c.n1 * b + c.n2 * begin) * (Real(2) * (f * end));
+    Real n3 = (c.n0 * f + c.n1 * end) * (f * f) + (c.n2 * f + c.n3 * end) * (end * end);
+    Real d0 = (c.d0 * b + c.d1 * begin) * b + c.d2 * (begin * begin);
+    Real d1 = (Real(2) * (c.d0 * f) + c.d1 * end) * b + (c.d1 * f + Real(2) * (c.d2 * end)) * begin;
+    Real d2 = (c.d0 * f + c.d1 * end) * f + c.d2 * (end * end);
+    Real q0 = n0 / d0;
+    Real q1 = n3 / d2;
+    Real p0 = (n1 - q0 * d1) - q1 * d0;
+    Real p1 = (n2 - q1 * d1) - q0 * d2;
+    Real bend = depth_bend(gnomon_max(gnomon_abs(p0), gnomon_abs(p1)), d0, d2, d1, d1);
+    Real free0 = (c.z0 * b + c.z1 * begin) + q0;
+    Real free1 = (c.z0 * f + c.z1 * end) + q1;
+    Real z0 = gnomon_max(gnomon_min(free0, c.most), c.least);
+    Real z1 = gnomon_max(gnomon_min(free1, c.most), c.least);
+    return depth_line_within(z0, z1, free0, free1, bend, c.least, c.most);
+}
+
+/// The same where N and D are linear in time, with depths of linear_depth_at; the bound is attained.
+GNOMON_KERNEL GNOMON_T(depth_line) linear_depth_line(GNOMON_T(depth_curve) c, Real begin, Real end)
+{
+    Real b = Real(1) - begin;
+    Real f = Real(1) - end;
+    Real d0 = c.d0 * b + c.d2 * begin;
+    Real d1 = c.d0 * f + c.d2 * end;
+    Real q0 = (c.n0 * b + c.n3 * begin) / d0;
+    Real q1 = (c.n0 * f + c.n3 * end) / d1;
+    Real bend = depth_bend(gnomon_abs((q1 - q0) * (d1 - d0)), d0, d1, d0 + d1, d0 + d1);
+    Real free0 = (c.z0 * b + c.z1 * begin) + q0;
+    Real free1 = (c.z0 * f + c.z1 * end) + q1;
+    Real z0 = gnomon_max(gnomon_min(free0, c.most), c.least);
+    Real z1 = gnomon_max(gnomon_min(free1, c.most), c.least);
+    return depth_line_within(z0, z1, free0, free1, bend, c.least, c.most);
+}
+
+/// As moving_depth_piece, of lines of depth_curve_line, for what is linear, too.
+GNOMON_KERNEL GNOMON_T(depth_piece)
+    depth_curve_piece(GNOMON_T(depth_curve) c, Real begin, Real end, Real passed, GNOMON_SETTING tolerance)
+{
+    GNOMON_T(depth_trial) r = depth_trial_begin(begin, end, passed);
+    for (int i = 0; i < 6; ++i) {
+        if (gnomon_any(r.settled < Real(1)))
+            r = depth_trial_next(r, depth_curve_line(c, r.piece.t0, r.piece.t1), begin, end, tolerance);
+    }
+    return r.piece;
 }
 
 GNOMON_NAMESPACE_END

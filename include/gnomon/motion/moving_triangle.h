@@ -9,7 +9,10 @@
 // mean of the vertices weighted by the edge functions across from them. So its depth is a cubic over a cubic,
 //     z / w = sum_k e_k(t) z_k(t) / sum_k e_k(t) w_k(t)
 // and depth that is linear in view distance, being affine in the point, with 1 for w_k, a cubic over a quadratic. Lists
-// of intervals approximate it by lines (Palmer 2011, 2.1 and 2.3.2), as many as a tolerance asks for (chapter 5).
+// of intervals approximate it by lines (Palmer 2011, 2.1 and 2.3.2), as many as a tolerance asks for (chapter 5). How
+// far the depth departs from a line is bounded, not sampled. With depth N / D and the line h through it at both ends of
+// an interval, u from 0 to 1 there, N - h D vanishes at both and is u (1 - u) P(u); D / (u (1 - u)) is no less than
+// some c. So |N / D - h| is at most |P| / c, and equal to it for a parabola.
 #ifndef GNOMON_MOTION_MOVING_TRIANGLE_H
 #define GNOMON_MOTION_MOVING_TRIANGLE_H
 #include "coverage_times.h"
@@ -23,11 +26,22 @@ GNOMON_STRUCT moving_triangle { GNOMON_T(moving_vertex) a, b, c; };
 /// Relative to a sample, at shutter open and at shutter close.
 GNOMON_STRUCT sheared_vertex { Real x0, y0, x1, y1; };
 
-/// Depth at the ends of an interval, and how far the depth between departs from the line.
+/// Depth at the ends of an interval, and how far at most the depth between departs from the line.
 GNOMON_STRUCT depth_line { Real z0, z1, deviation; };
 
 /// A line of depth from time t0 to t1, and how much of the interval that it is a piece of has passed by then.
 GNOMON_STRUCT depth_piece { Real t0, t1, z0, z1, passed; };
+
+/// A piece that begins where start of an interval has passed, while a length for it is searched: the share of the
+/// interval that it has now, and whether it is settled, 1 or 0.
+GNOMON_STRUCT depth_trial
+{
+    GNOMON_T(depth_piece) piece;
+    Real start, share, settled;
+};
+
+/// Bernstein coefficients of a cubic, those in the middle times 3.
+GNOMON_STRUCT bernstein_cubic { Real c0, c1, c2, c3; };
 
 /// The sample is in the same units as x / w.
 GNOMON_KERNEL GNOMON_T(sheared_vertex) moving_vertex_sheared(GNOMON_T(moving_vertex) v, Real s_x, Real s_y)
@@ -114,26 +128,99 @@ GNOMON_KERNEL Real moving_triangle_linear_depth(GNOMON_T(moving_triangle) m, GNO
     return moving_depth_at(m, e, t, Real(0));
 }
 
-/// The line that stands for the depth between two times, exact at both, and the largest distance of the depth from it
-/// at five times, 13/64 of the way apart. Depth less line is a quartic over a cubic, both ends among its roots: it
-/// cannot vanish at all five. Divided as for moving_depth_at.
-/// Error: where a deviation of 0.005 is found, 999 of 1000 intervals are within 0.006; near a turn of the facing depth
-/// may run more steeply than any samples tell.
+/// How far N / D departs at most from its chord, where N - chord D = u (1 - u) P(u), |P| <= most, and D is a cubic with
+/// Bernstein coefficients d0, d0 + turn0, d3 + turn1, d3, those in the middle times 3. With turn the lesser of the two
+///     D(u) / (u (1 - u)) >= d0 / u + d3 / (1 - u) + turn - d0 - d3 >= turn + 2 sqrt(d0 d3)
+/// for positive D, and the same with -D. 4, more than all depths, where D may vanish or anything is NaN.
+GNOMON_KERNEL Real depth_bend(Real most, Real d0, Real d3, Real turn0, Real turn1)
+{
+    GNOMON_MASK negative = d0 < Real(0);
+    Real turn = gnomon_select(negative, Real(-1) * gnomon_max(turn0, turn1), gnomon_min(turn0, turn1));
+    Real product = d0 * d3;
+    Real least = turn + Real(2) * gnomon_sqrt(product);
+    GNOMON_MASK known = Real(0) < product && Real(0) < least && least < GNOMON_LITERAL(moving_edge_limit);
+    return gnomon_select(known, most / least, Real(4));
+}
+
+/// The line from depth z0 to z1, between limits. Without limits depth would be free0 and free1 at the ends, and depart
+/// by bend from the line between these. A limit that is passed on the way adds no more than its distance from either
+/// end; and nothing departs by more than the limits allow.
+GNOMON_KERNEL GNOMON_T(depth_line)
+    depth_line_within(Real z0, Real z1, Real free0, Real free1, Real bend, Real least, Real most)
+{
+    Real beyond = gnomon_max(gnomon_abs(free0 - z0), gnomon_abs(free1 - z1));
+    Real all = gnomon_max(most - gnomon_min(z0, z1), gnomon_max(z0, z1) - least);
+    GNOMON_T(depth_line) r;
+    r.z0 = z0;
+    r.z1 = z1;
+    r.deviation = gnomon_min(bend + gnomon_min(beyond, gnomon_abs(z1 - z0)), all); // a NaN becomes all
+    return r;
+}
+
+/// The edge function from begin to end, by its Bernstein coefficients there, the middle one times 2.
+GNOMON_KERNEL GNOMON_T(moving_edge) moving_edge_between(GNOMON_T(moving_edge) e, Real begin, Real end)
+{
+    Real left = Real(1) - end;
+    GNOMON_T(moving_edge) r;
+    r.e0 = moving_edge_at(e, begin);
+    r.e1 = Real(2) * ((e.e0 * left + e.e1 * end) * (Real(1) - begin) + (e.e1 * left + e.e2 * end) * begin);
+    r.e2 = moving_edge_at(e, end);
+    return r;
+}
+
+/// The sum of edge functions of moving_edge_between, each times what goes linearly from the one number to the other.
+GNOMON_KERNEL GNOMON_T(bernstein_cubic)
+    moving_edges_combined(GNOMON_T(moving_edges) e, Real a0, Real a1, Real b0, Real b1, Real c0, Real c1)
+{
+    GNOMON_T(bernstein_cubic) r;
+    r.c0 = (e.a.e0 * a0 + e.b.e0 * b0) + e.c.e0 * c0;
+    r.c1 = ((e.a.e0 * a1 + e.a.e1 * a0) + (e.b.e0 * b1 + e.b.e1 * b0)) + (e.c.e0 * c1 + e.c.e1 * c0);
+    r.c2 = ((e.a.e1 * a1 + e.a.e2 * a0) + (e.b.e1 * b1 + e.b.e2 * b0)) + (e.c.e1 * c1 + e.c.e2 * c0);
+    r.c3 = (e.a.e2 * a1 + e.b.e2 * b1) + e.c.e2 * c1;
+    return r;
+}
+
+/// The line that stands for the depth between two times, exact at both, and a bound of how far the depth departs from
+/// it. Divided as for moving_depth_at. Where the point may get behind the light, or D near 0, all that depths in
+/// [-1, 1] can depart by. Domain: begin <= end, both within one interval of moving_coverage.
+/// Error: 64 2^-p sum_k e_k (z_k + (1 + deviation) v_k) / |D|, D = sum_k e_k(t) v_k(t) where it is least and in the
+/// numerator the largest coefficients of e_k, |z_k| and |v_k|, v = w where divided, else 1.
 GNOMON_KERNEL GNOMON_T(depth_line) moving_depth_line(GNOMON_T(moving_triangle) m, GNOMON_T(moving_edges) e, Real begin,
                                                      Real end, GNOMON_SETTING divided)
 {
-    GNOMON_T(depth_line) r;
-    r.z0 = moving_depth_at(m, e, begin, divided);
-    r.z1 = moving_depth_at(m, e, end, divided);
-    r.deviation = Real(0);
-    Real passed = Real(0.09375); // exact, as are its sums
-    for (int i = 0; i < 5; ++i) {
-        Real left = Real(1) - passed;
-        Real z = moving_depth_at(m, e, begin * left + end * passed, divided);
-        r.deviation = gnomon_max(r.deviation, gnomon_abs(z - (r.z0 * left + r.z1 * passed)));
-        passed = passed + Real(0.203125);
-    }
-    return r;
+    Real b = Real(1) - begin;
+    Real f = Real(1) - end;
+    GNOMON_T(moving_edges) x;
+    x.a = moving_edge_between(e.a, begin, end);
+    x.b = moving_edge_between(e.b, begin, end);
+    x.c = moving_edge_between(e.c, begin, end);
+    GNOMON_T(bernstein_cubic)
+    n = moving_edges_combined(x, m.a.z0 * b + m.a.z1 * begin, m.a.z0 * f + m.a.z1 * end, m.b.z0 * b + m.b.z1 * begin,
+                              m.b.z0 * f + m.b.z1 * end, m.c.z0 * b + m.c.z1 * begin, m.c.z0 * f + m.c.z1 * end);
+    Real a_w0 = m.a.w0 * b + m.a.w1 * begin;
+    Real a_w1 = m.a.w0 * f + m.a.w1 * end;
+    Real b_w0 = m.b.w0 * b + m.b.w1 * begin;
+    Real b_w1 = m.b.w0 * f + m.b.w1 * end;
+    Real c_w0 = m.c.w0 * b + m.c.w1 * begin;
+    Real c_w1 = m.c.w0 * f + m.c.w1 * end;
+    GNOMON_MASK before =
+        Real(0) < a_w0 && Real(0) < a_w1 && Real(0) < b_w0 && Real(0) < b_w1 && Real(0) < c_w0 && Real(0) < c_w1;
+    GNOMON_MASK by_w = Real(0) < divided;
+    GNOMON_T(bernstein_cubic)
+    d = moving_edges_combined(x, gnomon_select(by_w, a_w0, Real(1)), gnomon_select(by_w, a_w1, Real(1)),
+                              gnomon_select(by_w, b_w0, Real(1)), gnomon_select(by_w, b_w1, Real(1)),
+                              gnomon_select(by_w, c_w0, Real(1)), gnomon_select(by_w, c_w1, Real(1)));
+    Real free0 = n.c0 / d.c0;
+    Real free1 = n.c3 / d.c3;
+    Real turn0 = d.c1 - d.c0;
+    Real turn1 = d.c2 - d.c3;
+    Real p0 = (n.c1 - free0 * turn0) - free1 * d.c0;
+    Real p1 = (n.c1 + n.c2) - (free0 * d.c2 + free1 * d.c1);
+    Real p2 = (n.c2 - free1 * turn1) - free0 * d.c3;
+    Real most = gnomon_max(gnomon_max(gnomon_abs(p0), gnomon_abs(p2)), Real(0.5) * gnomon_abs(p1));
+    Real bend = gnomon_select(before, depth_bend(most, d.c0, d.c3, turn0, turn1), Real(4));
+    return depth_line_within(moving_depth_at(m, e, begin, divided), moving_depth_at(m, e, end, divided), free0, free1,
+                             bend, Real(-1), Real(1));
 }
 
 /// The same for depth z / w.
@@ -143,48 +230,67 @@ GNOMON_KERNEL GNOMON_T(depth_line)
     return moving_depth_line(m, e, begin, end, Real(1));
 }
 
-/// Where an interval is so much passed, in 32nds: begin and end themselves where passed is 0 and 1, in order between.
+/// When so much of an interval has passed: begin and end themselves where passed is 0 and 1, in order between.
 GNOMON_KERNEL Real moving_depth_time(Real begin, Real end, Real passed)
 {
     return gnomon_select(passed < Real(1), begin + gnomon_product(end - begin, passed), end);
 }
 
-/// The longest piece of an interval, from where it is passed on, whose line deviates by no more than the tolerance: all
-/// that is left, or a half, a quarter, ... a 32nd of the whole. Lines of unlike length fit where they can and halve
-/// where they must (Palmer 2011, chapter 5):
+/// All that is left of an interval of which so much has passed; NaN counts as 0.
+GNOMON_KERNEL GNOMON_T(depth_trial) depth_trial_begin(Real begin, Real end, Real passed)
+{
+    GNOMON_T(depth_trial) r;
+    r.start = saturate_or_zero(passed);
+    r.share = Real(1) - r.start;
+    r.settled = Real(0);
+    r.piece.t0 = moving_depth_time(begin, end, r.start);
+    r.piece.t1 = end;
+    r.piece.z0 = Real(1);
+    r.piece.z1 = Real(1);
+    r.piece.passed = Real(1);
+    return r;
+}
+
+/// Settled where its line deviates by no more than the tolerance, or it is no longer than 33/1024: 31 such pieces and
+/// what is then left are the most, for all that passed is rounded. Else shortened to a half, or to a third where a half
+/// would not do: lines of a parabola deviate by the squares of their lengths. What is settled stays so, by the same
+/// line.
+GNOMON_KERNEL GNOMON_T(depth_trial) depth_trial_next(GNOMON_T(depth_trial) trial, GNOMON_T(depth_line) fit, Real begin,
+                                                     Real end, GNOMON_SETTING tolerance)
+{
+    Real shortest = Real(0.0322265625);
+    GNOMON_MASK fits = fit.deviation <= tolerance || trial.share <= shortest;
+    Real parts = gnomon_select(fit.deviation <= Real(4) * tolerance, Real(2), Real(3));
+    Real shorter = gnomon_max(trial.share / parts, shortest);
+    Real to = gnomon_min(trial.start + shorter, Real(1));
+    trial.piece.z0 = fit.z0;
+    trial.piece.z1 = fit.z1;
+    trial.piece.t1 = gnomon_select(fits, trial.piece.t1, moving_depth_time(begin, end, to));
+    trial.piece.passed = gnomon_select(fits, trial.piece.passed, to);
+    trial.share = gnomon_select(fits, trial.share, shorter);
+    trial.settled = gnomon_select(fits, Real(1), Real(0));
+    return trial;
+}
+
+/// A piece of an interval whose line deviates by no more than the tolerance, from where it is passed on: all that is
+/// left, or a half or a third of that, and so on. Lines of unlike length fit where they can and get shorter where they
+/// must (Palmer 2011, chapter 5):
 ///     for (passed = 0; passed < 1; passed = piece.passed)
 ///         piece = moving_depth_piece(m, e, begin, end, passed, divided, tolerance);
 /// gives 1 to 32 pieces. Each begins where the one before has ended, bit for bit, the first at begin, the last ends at
-/// end. A 32nd is taken whatever it deviates: beside a turn of the facing no line is near. Deviation is what
-/// moving_depth_line finds, with its error. A tolerance that is NaN or below 0 gives 32 pieces, passed that is NaN
-/// counts as 0.
+/// end. Deviation is that of moving_depth_line, with its error. A piece of 33/1024 of the interval is taken whatever it
+/// deviates: beside a turn of the facing no line is near. A tolerance that is NaN or below 0 gives 32 pieces, passed
+/// that is NaN counts as 0.
 GNOMON_KERNEL GNOMON_T(depth_piece)
     moving_depth_piece(GNOMON_T(moving_triangle) m, GNOMON_T(moving_edges) e, Real begin, Real end, Real passed,
                        GNOMON_SETTING divided, GNOMON_SETTING tolerance)
 {
-    Real start = saturate_or_zero(passed);
-    Real share = Real(1);
-    GNOMON_T(depth_piece) r;
-    r.t0 = moving_depth_time(begin, end, start);
-    r.t1 = end;
-    r.z0 = Real(1);
-    r.z1 = Real(1);
-    r.passed = start;
-    GNOMON_MASK searching = share <= Real(1);
+    GNOMON_T(depth_trial) r = depth_trial_begin(begin, end, passed);
     for (int i = 0; i < 6; ++i) {
-        if (gnomon_any(searching)) {
-            Real to = gnomon_min(start + share, Real(1));
-            Real t1 = moving_depth_time(begin, end, to);
-            GNOMON_T(depth_line) fit = moving_depth_line(m, e, r.t0, t1, divided);
-            r.t1 = gnomon_select(searching, t1, r.t1);
-            r.z0 = gnomon_select(searching, fit.z0, r.z0);
-            r.z1 = gnomon_select(searching, fit.z1, r.z1);
-            r.passed = gnomon_select(searching, to, r.passed);
-            searching = searching && !(fit.deviation <= tolerance);
-        }
-        share = Real(0.5) * share;
+        if (gnomon_any(r.settled < Real(1)))
+            r = depth_trial_next(r, moving_depth_line(m, e, r.piece.t0, r.piece.t1, divided), begin, end, tolerance);
     }
-    return r;
+    return r.piece;
 }
 
 GNOMON_NAMESPACE_END

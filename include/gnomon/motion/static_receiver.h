@@ -12,9 +12,15 @@
 // row + j), i and j from 0 to K:
 //     state = static_receiver_weigh(state, texel_weight(u, i, K) * texel_weight(v, j, K));
 //
-// Most receivers are behind all ranges of a texel, above all where its backdrop is left out (passes/resolve.hpp). They
-// need no list, only its total, two numbers a texel:
+// A list may have a second layer (passes/resolve.hpp), for receivers whose own range is in front:
+//     front = range_empty(range_nothing);
+//     for every range of the texel, in order: if range_is_second_layer(front, range), leave it out unless front.id ==
+//     id; else front = range
+//
+// Most receivers are behind all ranges of a texel, above all where its backdrop is left out (passes/resolve.hpp), or in
+// front of all. They need no list, only its total, four numbers a texel:
 //     total = range_total_begin(-1);   total = range_total_add(total, range);        for every range of the texel
+//     if (receiver_is_in_front(z_f, total) > 0) nothing is added
 //     if (static_receiver_is_behind(state, total) > 0) state = static_receiver_add_total(state, total);
 #ifndef GNOMON_MOTION_STATIC_RECEIVER_H
 #define GNOMON_MOTION_STATIC_RECEIVER_H
@@ -26,9 +32,10 @@ GNOMON_NAMESPACE_BEGIN
 /// light that is gone so far.
 GNOMON_STRUCT static_receiver { Real depth, id, begin, end, weight, shadowed; };
 
-/// The farthest depth of some ranges, and what they hide together from a receiver behind it, of a shutter that is open
-/// from 0 to 1.
-GNOMON_STRUCT range_total { Real farthest, shadowed; };
+/// The nearest and the farthest depth of some ranges, and what they hide together from a receiver behind them, of a
+/// shutter that is open from 0 to 1. Whose they are: range_mixed of several, range_nothing where no receiver is behind
+/// ranges of its own id.
+GNOMON_STRUCT range_total { Real nearest, farthest, shadowed, id; };
 
 /// No range yet. Any z_f; whatever needs a depth bias takes it off z_f first.
 GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_begin(Real z_f, Real id, Real begin, Real end)
@@ -70,6 +77,13 @@ GNOMON_KERNEL GNOMON_T(depth_time_range)
     level.z1 = state.depth;
     level.id = state.id;
     return range_in_front(r, level, state.begin, state.end);
+}
+
+/// Whether r, the next one of a resolved list, is of the second layer behind front, the last one that was not. Those
+/// begin before it ends.
+GNOMON_KERNEL GNOMON_MASK range_is_second_layer(GNOMON_T(depth_time_range) front, GNOMON_T(depth_time_range) r)
+{
+    return front.t0 <= r.t0 && r.t0 < front.t1;
 }
 
 /// The light lost between two shares of what the shutter lets in, where the range that hides it has another id; 0 for
@@ -117,8 +131,10 @@ GNOMON_KERNEL GNOMON_T(static_receiver)
 GNOMON_KERNEL GNOMON_T(range_total) range_total_begin(Real near_plane)
 {
     GNOMON_T(range_total) total;
+    total.nearest = GNOMON_LITERAL(range_far);
     total.farthest = near_plane;
     total.shadowed = Real(0);
+    total.id = GNOMON_LITERAL(range_nothing);
     return total;
 }
 
@@ -126,19 +142,31 @@ GNOMON_KERNEL GNOMON_T(range_total) range_total_begin(Real near_plane)
 GNOMON_KERNEL GNOMON_T(range_total) range_total_add(GNOMON_T(range_total) total, GNOMON_T(depth_time_range) r)
 {
     GNOMON_MASK some = r.t0 < r.t1 && r.z0 == r.z0 && r.z1 == r.z1;
+    GNOMON_MASK first = total.id == GNOMON_LITERAL(range_nothing);
+    Real nearest = gnomon_min(total.nearest, gnomon_min(r.z0, r.z1));
     Real farthest = gnomon_max(total.farthest, gnomon_max(r.z0, r.z1));
     Real share = saturate_or_zero(r.t1) - saturate_or_zero(r.t0);
+    Real id = gnomon_select(first || total.id == r.id, r.id, GNOMON_LITERAL(range_mixed));
+    total.nearest = gnomon_select(some, nearest, total.nearest);
     total.farthest = gnomon_select(some, farthest, total.farthest);
     total.shadowed = gnomon_select(some, total.shadowed + share, total.shadowed);
+    total.id = gnomon_select(some, id, total.id);
     return total;
 }
 
-/// 1 where the total is all that the receiver needs: it is behind all ranges, and exposed from 0 to 1. Its own surface
-/// must not be among them, as it is not where that is at rest, too, and the depth bias keeps it in front of it.
+/// 1 where no range is in front of depth z_f, as of a receiver, or of both ends of its course: nothing is lost.
+GNOMON_KERNEL Real receiver_is_in_front(Real z_f, GNOMON_T(range_total) total)
+{
+    return gnomon_select(z_f <= total.nearest, Real(1), Real(0));
+}
+
+/// 1 where the total is all that the receiver needs: it is behind all ranges, exposed from 0 to 1, and none of them can
+/// be its own.
 GNOMON_KERNEL Real static_receiver_is_behind(GNOMON_T(static_receiver) state, GNOMON_T(range_total) total)
 {
     GNOMON_MASK whole = state.begin <= Real(0) && Real(1) <= state.end;
-    return gnomon_select(whole && total.farthest < state.depth, Real(1), Real(0));
+    GNOMON_MASK own = total.id == GNOMON_LITERAL(range_mixed) || total.id == state.id;
+    return gnomon_select(whole && total.farthest < state.depth && !own, Real(1), Real(0));
 }
 
 /// All ranges at once. Error: 4 2^-p for each of them.

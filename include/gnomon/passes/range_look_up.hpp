@@ -58,13 +58,31 @@ void for_each_static_texel(const range_map<T>& map, T x, T y, int look_ups, cons
     });
 }
 
+/// Calls visit(range) for what counts for a receiver of this id in a resolved list.
+template <class T, class Visit>
+void for_each_counted(std::span<const depth_time_range<T>> list, T id, const Visit& visit)
+{
+    depth_time_range<T> front = range_empty(T(range_nothing));
+    for (const depth_time_range<T>& r : list) {
+        if (!range_is_second_layer(front, r)) front = r;
+        else if (!(front.id == id)) continue;
+        visit(r);
+    }
+}
+
 /// By its total where that is enough; else by calling add_list(list).
 template <class T, class AddList>
 void add_static_texel(const range_map<T>& map, std::size_t texel, static_receiver<T>& state, const AddList& add_list)
 {
-    if (!map.totals.empty() && static_receiver_is_behind(state, map.totals[texel]) > 0)
-        state = static_receiver_add_total(state, map.totals[texel]);
-    else add_list(map[texel]);
+    if (!map.totals.empty()) {
+        const range_total<T>& total = map.totals[texel];
+        if (receiver_is_in_front(state.depth, total) > 0) return;
+        if (static_receiver_is_behind(state, total) > 0) {
+            state = static_receiver_add_total(state, total);
+            return;
+        }
+    }
+    add_list(map[texel]);
 }
 
 } // namespace detail
@@ -75,7 +93,7 @@ template <class T, class Add = box_shutter>
 T static_shadow(const range_map<T>& map, T x, T y, static_receiver<T> state, int look_ups = 1, const Add& add = {})
 {
     const auto add_list = [&](std::span<const depth_time_range<T>> list) {
-        for (const depth_time_range<T>& r : list) state = add(state, r);
+        detail::for_each_counted(list, state.id, [&](const depth_time_range<T>& r) { state = add(state, r); });
     };
     detail::for_each_static_texel(map, x, y, look_ups, [&](T weight, std::size_t texel) {
         state = static_receiver_weigh(state, weight);
@@ -98,8 +116,9 @@ T moving_shadow(const range_map<T>& map, const receiver_path<T>& path, T begin, 
             const auto list = map[texel];
             if (list.empty()) return;
             state = moving_receiver_tap(state, sweep, T(i), T(j), k);
-            for (const depth_time_range<T>& r : list)
+            detail::for_each_counted(list, path.depth.id, [&](const depth_time_range<T>& r) {
                 if (r.t0 < sweep.t_end && sweep.t_begin < r.t1) state = add(state, r);
+            });
         });
         if (!(sweep.t_end < sweep.path.depth.t1)) return moving_receiver_end(state);
     }

@@ -13,6 +13,16 @@
 
 namespace gnomon {
 
+/// What ids tell of the receivers that look maps up, each of which ignores the ranges of its own id.
+enum class range_ids {
+    /// The caller promises that no point of an id's surface is behind another point of it, as seen from the light, at
+    /// any time: an id is that of a triangle, a plane or the lit side of a convex part. Who sees his own surface in
+    /// front of himself is lit.
+    surfaces,
+    /// No promise: a receiver may be behind ranges of its own id, and in the shadow of others behind these.
+    any
+};
+
 /// Texel i, by range_map::texel, has the ranges first[i] to first[i + 1] - 1. Texels are counted by tiles of 32 x 32,
 /// in these by blocks of 4 x 4, and row by row in each, so that neighbours along either axis are near one another in
 /// memory and a rasterizer lays out tile after tile; tiles are whole, so first holds texels(width, height) + 1 numbers.
@@ -46,14 +56,30 @@ template <class T> struct range_map {
 };
 
 /// The totals of a map's resolved lists, one for each texel.
-template <class T> void set_totals(const range_map<T>& map, std::span<range_total<T>> totals)
+template <class T> void set_totals(const range_map<T>& map, std::span<range_total<T>> totals, range_ids ids)
 {
+    GNOMON_EXPECTS(map.first.size() == map.texels(map.width, map.height) + 1,
+                   mismatch("range totals", "map.first.size()", map.first.size(), "texels of the map, and one",
+                            map.texels(map.width, map.height) + 1));
+    GNOMON_EXPECTS(map.first.back() <= map.ranges.size(), mismatch("range totals", "map.first.back()", map.first.back(),
+                                                                   "map.ranges.size()", map.ranges.size()));
     GNOMON_EXPECTS(
         totals.size() + 1 == map.first.size(),
         mismatch("range totals", "totals.size() + 1", totals.size() + 1, "map.first.size()", map.first.size()));
     for (std::size_t i = 0; i < totals.size(); ++i) {
-        totals[i] = range_total_begin(T(-1));
-        for (const depth_time_range<T>& r : map[i]) totals[i] = range_total_add(totals[i], r);
+        range_total<T> total = range_total_begin(T(-1));
+        depth_time_range<T> front = range_empty(T(range_nothing));
+        for (const depth_time_range<T>& r : map[i]) {
+            // Who is behind all fronts needs no second layer, unless they are his own.
+            if (range_is_second_layer(front, r)) {
+                total.nearest = gnomon_min(total.nearest, gnomon_min(r.z0, r.z1));
+                continue;
+            }
+            front = r;
+            total = range_total_add(total, r);
+        }
+        if (ids == range_ids::surfaces) total.id = T(range_nothing);
+        totals[i] = total;
     }
 }
 

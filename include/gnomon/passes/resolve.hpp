@@ -2,19 +2,26 @@
 // the lower envelope over the shutter interval (Gribel et al. 2010; Palmer 2011, 2.1). A receiver asks the spans and
 // gets the same answer as of all ranges, and static_receiver.h may add them up.
 //
+// A receiver ignores the ranges of its own id, so it may see past a span that is in front. Where that can happen
+// (range_ids), the spans of a second layer follow each span: what is in front among the ranges of other ids than the
+// span's, while the span lasts. range_is_second_layer tells which they are; they count for receivers of the span's id
+// alone.
+//
 // Ranges come one at a time. A span keeps the number of its range, not cut depths, and two ranges always cross at one
 // time, computed from the ranges as they came. So depths are interpolated once, at the end, and the order in which
 // ranges come matters only where three lines meet within rounding.
 #ifndef GNOMON_PASSES_RESOLVE_HPP
 #define GNOMON_PASSES_RESOLVE_HPP
 
-#include "../motion/coverage_map.h"
-#include "expects.hpp"
+#include "range_map.hpp"
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <limits>
 #include <span>
 
 namespace gnomon {
@@ -25,22 +32,41 @@ template <class T> struct visible_span {
     std::uint32_t range;
 };
 
-/// Room that resolving n ranges takes. Their spans are the lower envelope of n segments, a Davenport-Schinzel sequence
-/// of order 3, which is no longer than n (1 + 2 H(n - 1)), H the harmonic numbers (Sharir & Agarwal 1995, 1.2); an
-/// insertion rewrites as many as it changes, aside.
-constexpr std::size_t resolve_capacity(std::size_t n) { return 2 * (n * (3 + 2 * std::size_t(std::bit_width(n))) + 2); }
+/// Depths as near as that count as one, lest rounding makes spans of no use where surfaces meet.
+template <class T> inline constexpr T resolve_tie = T(0x1p-18);
 
-/// The spans of one texel's ranges, in the caller's memory.
-template <class T> class range_resolver {
+namespace detail {
+
+/// How many spans n ranges have at most: their lower envelope is a Davenport-Schinzel sequence of order 3, which is no
+/// longer than n (1 + 2 H(n - 1)), H the harmonic numbers (Sharir & Agarwal 1995, 1.2).
+constexpr std::size_t envelope_capacity(std::size_t n) { return n * (3 + 2 * std::size_t(std::bit_width(n))) + 2; }
+
+} // namespace detail
+
+/// Room that resolving n ranges takes, E = envelope_capacity(n). An insertion rewrites as many spans as it changes,
+/// aside: 2 E for ids of surfaces. For any ids the spans of both layers follow, up to 6 E. Proof: let each id have one
+/// of two colours at random. A span of the second layer that does not begin with one in front begins in the envelope of
+/// its colour if its own id and that of the span before it have the one colour and the id in front has the other, as
+/// one colouring in four has it. Both envelopes have E spans together, so there are 4 E such spans; E spans are in
+/// front, and E begin with these.
+constexpr std::size_t resolve_capacity(std::size_t n, range_ids ids)
+{
+    return (ids == range_ids::surfaces ? 2 : 9) * detail::envelope_capacity(n);
+}
+
+namespace detail {
+
+/// The spans in front of those ranges of a texel that are inserted, in the caller's memory.
+template <class T> class front_resolver {
   public:
-    /// spans: at least resolve_capacity(ranges.size()).
-    range_resolver(std::span<const depth_time_range<T>> ranges, std::span<visible_span<T>> spans)
-        : ranges_(ranges), spans_(spans.first(spans.size() / 2)), changed_(spans.last(spans.size() - spans.size() / 2))
-    {
-        GNOMON_EXPECTS(spans.size() >= resolve_capacity(ranges.size()),
-                       mismatch("resolve", "spans.size()", spans.size(), "resolve_capacity(ranges.size())",
-                                resolve_capacity(ranges.size())));
-    }
+    /// spans and changed: envelope_capacity(ranges.size()) each.
+    front_resolver(std::span<const depth_time_range<T>> ranges, std::span<visible_span<T>> spans,
+                   std::span<visible_span<T>> changed)
+        : ranges_(ranges), spans_(spans), changed_(changed)
+    {}
+
+    /// Nothing is inserted yet, and of what will be, only what is from one time to the other.
+    void restart(T from, T to) { count_ = 0, from_ = from, to_ = to; }
 
     /// In order; in time that nothing covers there is none.
     std::span<const visible_span<T>> spans() const { return spans_.first(count_); }
@@ -49,17 +75,20 @@ template <class T> class range_resolver {
     void insert(std::uint32_t number)
     {
         const depth_time_range<T>& r = ranges_[number];
-        if (!(r.t0 < r.t1) || !std::isfinite(r.z0) || !std::isfinite(r.z1)) return;
+        const T t0 = std::max(r.t0, from_), t1 = std::min(r.t1, to_);
+        if (!(r.t0 < r.t1 && t0 < t1) || !std::isfinite(r.z0) || !std::isfinite(r.z1)) return;
         std::size_t first = 0;
-        while (first < count_ && spans_[first].t1 <= r.t0) ++first;
-        if (is_behind(r, first)) return;
+        while (first < count_ && spans_[first].t1 <= t0) ++first;
+        if (is_behind(r, t0, t1, first)) return;
         changes_ = 0;
-        T reached = r.t0;
+        bool unchanged = true;
+        T reached = t0;
         std::size_t next = first;
-        for (; next < count_ && spans_[next].t0 < r.t1; ++next) {
+        for (; next < count_ && spans_[next].t0 < t1; ++next) {
             const visible_span<T> old = spans_[next];
-            const T begin = std::max(old.t0, r.t0), end = std::min(old.t1, r.t1);
+            const T begin = std::max(old.t0, t0), end = std::min(old.t1, t1);
             const succession who = succession_of(number, old.range);
+            unchanged = unchanged && !(reached < begin) && who.early == old.range && who.late == old.range;
             const T change = std::clamp(who.change, begin, end);
             change_to({old.t0, begin, old.range});
             change_to({reached, begin, number});
@@ -68,12 +97,13 @@ template <class T> class range_resolver {
             change_to({end, old.t1, old.range});
             reached = end;
         }
-        change_to({reached, r.t1, number});
+        if (unchanged && !(reached < t1)) return;
+        change_to({reached, t1, number});
         const std::size_t removed = next - first, rest = count_ - next;
         GNOMON_EXPECTS(first + changes_ + rest <= spans_.size(),
                        mismatch("resolve", "spans", first + changes_ + rest, "capacity", spans_.size()));
-        if (changes_ != removed)
-            std::copy_n(spans_.begin() + std::ptrdiff_t(next), rest, spans_.begin() + std::ptrdiff_t(first + changes_));
+        if (changes_ != removed && rest > 0)
+            std::memmove(&spans_[first + changes_], &spans_[next], rest * sizeof spans_[0]);
         std::copy_n(changed_.begin(), changes_, spans_.begin() + std::ptrdiff_t(first));
         count_ = first + changes_ + rest;
     }
@@ -85,16 +115,16 @@ template <class T> class range_resolver {
         T change;
     };
 
-    /// Whether all spans in its time, from the first on, are in front of all of it.
-    bool is_behind(const depth_time_range<T>& r, std::size_t first) const
+    /// Whether all spans from t0 to t1, from the first on, are in front of all of it.
+    bool is_behind(const depth_time_range<T>& r, T t0, T t1, std::size_t first) const
     {
-        T reached = r.t0;
-        for (; first < count_ && reached < r.t1 && spans_[first].t0 <= reached; ++first) {
+        T reached = t0;
+        for (; first < count_ && reached < t1 && spans_[first].t0 <= reached; ++first) {
             const depth_time_range<T>& front = ranges_[spans_[first].range];
             if (!(std::max(front.z0, front.z1) < std::min(r.z0, r.z1))) return false;
             reached = spans_[first].t1;
         }
-        return !(reached < r.t1);
+        return !(reached < t1);
     }
 
     /// The same whichever comes first. At one depth throughout, the lower id is in front.
@@ -106,11 +136,16 @@ template <class T> class range_resolver {
         if (std::max(a.z0, a.z1) < std::min(b.z0, b.z1)) return {i, i, T(0)};
         if (std::max(b.z0, b.z1) < std::min(a.z0, a.z1)) return {j, j, T(0)};
         const T begin = std::max(a.t0, b.t0), end = std::min(a.t1, b.t1);
-        const T early = range_depth(a, begin) - range_depth(b, begin), late = range_depth(a, end) - range_depth(b, end);
+        const T slope_a = (a.z1 - a.z0) / (a.t1 - a.t0), slope_b = (b.z1 - b.z0) / (b.t1 - b.t0);
+        const auto distance = [&](T t) {
+            const T d = (a.z0 + (t - a.t0) * slope_a) - (b.z0 + (t - b.t0) * slope_b);
+            return std::abs(d) <= resolve_tie<T> ? T(0) : d;
+        };
+        const T early = distance(begin), late = distance(end);
         if (early == 0 && late == 0) return b.id < a.id ? succession{j, j, T(0)} : succession{i, i, T(0)};
         if (early <= 0 && late <= 0) return {i, i, T(0)};
         if (early >= 0 && late >= 0) return {j, j, T(0)};
-        const T change = range_crossing(a, b);
+        const T change = begin + (end - begin) * (early / (early - late));
         return early < 0 ? succession{i, j, change} : succession{j, i, change};
     }
 
@@ -129,42 +164,47 @@ template <class T> class range_resolver {
     std::span<const depth_time_range<T>> ranges_;
     std::span<visible_span<T>> spans_, changed_;
     std::size_t count_ = 0, changes_ = 0;
+    T from_ = std::numeric_limits<T>::lowest(), to_ = std::numeric_limits<T>::max();
 };
 
-/// The spans of a list, in spans, which has room for resolve_capacity(ranges.size()).
+} // namespace detail
+
+/// The spans of a list, in spans, which has room for resolve_capacity(ranges.size(), ids): those in front in order,
+/// each followed by those of its second layer, if there are any.
 template <class T>
 std::span<const visible_span<T>> resolve_ranges(std::span<const depth_time_range<T>> ranges,
-                                                std::span<visible_span<T>> spans)
+                                                std::span<visible_span<T>> spans, range_ids ids)
 {
-    range_resolver<T> resolver(ranges, spans);
-    for (std::uint32_t i = 0; i < ranges.size(); ++i) resolver.insert(i);
-    return resolver.spans();
-}
+    GNOMON_EXPECTS(spans.size() >= resolve_capacity(ranges.size(), ids),
+                   mismatch("resolve", "spans.size()", spans.size(), "resolve_capacity(ranges.size(), ids)",
+                            resolve_capacity(ranges.size(), ids)));
+    const std::size_t room = detail::envelope_capacity(ranges.size());
+    detail::front_resolver<T> front(ranges, spans.first(room), spans.subspan(room, room));
+    for (std::uint32_t i = 0; i < ranges.size(); ++i) front.insert(i);
+    if (ids == range_ids::surfaces) return front.spans();
 
-/// A list without its backdrop, in place: what is there for the whole of the shutter, behind all else, as the ground
-/// often is. It is the cover (coverage_map.h) of the list seen from behind. It shadows nothing that its texel sees, and
-/// where nothing is in front of it no list remains; keep it where receivers come from outside of the map's scene.
-/// A receiver that only part of the texel sees, beside the backdrop's border, may be behind it.
-template <class T> std::span<depth_time_range<T>> without_backdrop(std::span<depth_time_range<T>> list)
-{
-    range_cover<T> from_behind = range_cover_begin(T(1));
-    for (const depth_time_range<T>& r : list)
-        from_behind = range_cover_add(from_behind, {r.t0, r.t1, -r.z0, -r.z1, r.id});
-    const depth_time_range<T> backdrop = range_cover_end(from_behind);
-    const auto is_it = [&](const depth_time_range<T>& r) {
-        return r.id == backdrop.id && r.t0 == backdrop.t0 && r.t1 == backdrop.t1 && r.z0 == -backdrop.z0 &&
-               r.z1 == -backdrop.z1;
+    detail::front_resolver<T> second(ranges, spans.subspan(room, room), spans.subspan(2 * room, room));
+    const std::span<visible_span<T>> both = spans.subspan(3 * room);
+    std::size_t count = 0;
+    const auto keep = [&](const visible_span<T>& s) {
+        GNOMON_EXPECTS(count < both.size(), mismatch("resolve", "spans", count + 1, "capacity", both.size()));
+        both[count++] = s;
     };
-    const auto found = backdrop.id < 0 ? list.end() : std::find_if(list.begin(), list.end(), is_it);
-    if (found == list.end()) return list;
-    std::copy(found + 1, list.end(), found);
-    return list.first(list.size() - 1);
+    for (const visible_span<T>& s : front.spans()) {
+        keep(s);
+        second.restart(s.t0, s.t1);
+        for (std::uint32_t i = 0; i < ranges.size(); ++i)
+            if (!(ranges[i].id == ranges[s.range].id)) second.insert(i);
+        for (const visible_span<T>& behind : second.spans()) keep(behind);
+    }
+    return both.first(count);
 }
 
 /// The part of its range that a span shows.
 template <class T> depth_time_range<T> range_of(std::span<const depth_time_range<T>> ranges, const visible_span<T>& s)
 {
-    return range_clip(ranges[s.range], s.t0, s.t1);
+    const depth_time_range<T>& r = ranges[s.range];
+    return s.t0 <= r.t0 && r.t1 <= s.t1 ? r : range_clip(r, s.t0, s.t1);
 }
 
 } // namespace gnomon

@@ -42,7 +42,7 @@ template <class Pack> class loss_queue {
     /// What is never in front of the receiver is left behind.
     void add(const static_receiver<lane>& s, std::span<const depth_time_range<lane>> list)
     {
-        for (const depth_time_range<lane>& r : list) {
+        for_each_counted(list, s.id, [&](const depth_time_range<lane>& r) {
             const std::array<lane, members> pair{s.depth, s.id, s.begin, s.end, s.weight, r.t0, r.t1, r.z0, r.z1, r.id};
             for (std::size_t k = 0; k < members; ++k) pairs_[k][count_] = pair[k];
             count_ += r.z0 < s.depth || r.z1 < s.depth;
@@ -52,7 +52,7 @@ template <class Pack> class loss_queue {
                 flush();
                 next(receiver);
             }
-        }
+        });
         ends_[parts_ - 1] = count_;
     }
 
