@@ -154,26 +154,39 @@ def needed_by_accumulation(scene, time):
     return time_at(scene.rows, time, max(AS_GOOD * scene.row(ANALYTIC)["rmse"], INVISIBLE))
 
 
-def who_wins(scenes):
-    """In words, from the rows: where accumulation is cheaper, and where analytic receivers are."""
-    def words(time, wins, ratio):
-        found = [(ratio(needed, time(scene.row(ANALYTIC))), scene.title) for scene in scenes
-                 if (needed := needed_by_accumulation(scene, time)) and wins(needed, time(scene.row(ANALYTIC)))]
-        return ", ".join(f"{title} ({times:,.1f} x)" for times, title in sorted(found, reverse=True)) or "none"
+def advantage(scene, time):
+    """How many times cheaper analytic receivers are than an accumulation as good; None where none is."""
+    needed = needed_by_accumulation(scene, time)
+    return None if needed is None else needed / time(scene.row(ANALYTIC))
 
+
+def so_many(times):
+    return f"{times:,.0f} x" if times >= 10 else f"{times:.1f} x"
+
+
+def verdict(scene, time):
+    """In words, from the rows: which is cheaper at equal error."""
+    found = advantage(scene, time)
+    if found is None:
+        return "no accumulation is as good"
+    return f"analytic: {so_many(found)} cheaper" if found > 1 else f"accumulation: {so_many(1 / found)} cheaper"
+
+
+def who_wins(scenes):
     text = ""
-    for (time, _), what in zip(TIMES, ("by its look-ups alone", "with the time to build maps")):
-        never = [scene.title for scene in scenes if needed_by_accumulation(scene, time) is None]
-        text += f"""<p>At equal error and {what}, accumulation is cheaper in these scenes, so many times:
-<b>{escape(words(time, lambda needed, spent: needed < spent, lambda needed, spent: spent / needed))}</b>; analytic receivers in
-these: <b>{escape(words(time, lambda needed, spent: needed > spent, lambda needed, spent: needed / spent))}</b>.
-{escape("As good as analytic receivers no accumulation is in: " + ", ".join(never) + ".") if never else ""}</p>
+    for (time, _), what in zip(TIMES, ("by look-ups alone", "with the time to build maps")):
+        found = sorted(((advantage(scene, time), scene.title) for scene in scenes if advantage(scene, time)))
+        lost = ", ".join(f"{title} ({so_many(1 / times)})" for times, title in found if times < 1)
+        won = ", ".join(f"{title} ({so_many(times)})" for times, title in reversed(found) if times >= 1)
+        never = ", ".join(scene.title for scene in scenes if advantage(scene, time) is None)
+        text += f"""<p>At equal error, {what}, <b>accumulation is cheaper</b> in: {escape(lost or "no scene")}. <b>Analytic
+receivers are cheaper</b> in: {escape(won or "no scene")}. No accumulation is as good as they are in: {escape(never or "no scene")}.</p>
 """
     return text
 
 
 def equal_error(out, folder, scenes):
-    views = [[(scene.title, scene.rows, *time) for scene in scenes] for time in TIMES]
+    views = [[(f"{scene.title}\n{verdict(scene, time)}", scene.rows, time, unit) for scene in scenes] for time, unit in TIMES]
     if len(scenes) == 1:
         views = [views[0] + views[1]]
     for view, name in zip(views, ("chart-equal-error", "chart-equal-error-total")):

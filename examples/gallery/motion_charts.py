@@ -53,9 +53,9 @@ def equal_error(panels, folder, name):
     markers = dict(zip(in_order(parts(row)[0] for row in ranges), cycle(MARKERS)))
     columns = min(4, len(panels))
     lines = -(-len(panels) // columns)
-    width, height = max(3.5 * columns, 12), 2.9 * lines + 1.1
+    width, height = max(3.5 * columns, 12), 3 * lines + 1.1
     figure, axes = plt.subplots(lines, columns, figsize=(width, height), squeeze=False)
-    figure.subplots_adjust(left=0.7 / width, right=0.99, top=1 - 0.3 / height, bottom=1.3 / height, wspace=0.25, hspace=0.5)
+    figure.subplots_adjust(left=0.7 / width, right=0.99, top=1 - 0.45 / height, bottom=1.3 / height, wspace=0.25, hspace=0.6)
     for unused in axes.flat[len(panels):]:
         unused.remove()
     for panel, (title, rows, time, label) in zip(axes.flat, panels):

@@ -24,13 +24,14 @@ using namespace toolbox;
 
 namespace {
 
-// Of the models, and the part of its animation in which it moves, in seconds.
+// One of the models, and a part of its animation in which it moves, in seconds.
 struct animated_file {
     std::string_view name;
     double open, closing;
 };
-constexpr std::array animated_files{animated_file{"X/Testwuson.X", 0, 1. / 24},
-                                    animated_file{"X/BCN_Epileptic.X", 0, 1. / 24}};
+constexpr double exposure = 1. / 24; // a frame of film
+constexpr std::array animated_files{animated_file{"X/Testwuson.X", 0, exposure},
+                                    animated_file{"X/BCN_Epileptic.X", 0.5, 0.5 + exposure}};
 
 struct kind {
     std::string_view method;
