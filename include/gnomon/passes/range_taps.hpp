@@ -92,7 +92,10 @@ template <class T> void add_list_box(static_receiver<T>& state, std::span<const 
 template <class T> bool add_total_box(static_receiver<T>& state, const range_total<T>& total)
 {
     if (receiver_is_in_front(state.depth, total) > 0) return true;
-    if (!(static_receiver_is_behind(state, total) > 0)) return false;
+    static_receiver<T> exposed = state;
+    const bool always = total.shadowed >= 1 && 0 <= state.begin && state.begin < state.end && state.end <= 1;
+    if (always) exposed.begin = 0, exposed.end = 1; // what hides at all times hides in any exposure
+    if (!(static_receiver_is_behind(exposed, total) > 0)) return false;
     state = static_receiver_add_total(state, total);
     return true;
 }
