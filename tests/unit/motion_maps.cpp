@@ -281,7 +281,7 @@ TEST_CASE("kinds of maps take the memory that they say, in the order that they s
     const auto casters = caster_ranges(stage.world, stage.light, resolution), packed_casters = packed_ranges(casters);
     CHECK(casters.bytes < resolved.bytes);
     CHECK(packed_casters.bytes < packed.bytes);
-    CHECK(with_totals(casters).bytes == casters.bytes + 8 * (casters.first.size() - 1));
+    CHECK(with_totals(casters).bytes == casters.bytes + sizeof(range_total<float>) * (casters.first.size() - 1));
 }
 
 TEST_CASE("packed, the ranges of casters take at most a third of what all ranges take, however many cubes")
