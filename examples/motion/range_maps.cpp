@@ -235,7 +235,7 @@ range_shadow_map caster_ranges(const moving_scene& world, const moving_camera& l
 
 range_shadow_map with_totals(range_shadow_map resolved)
 {
-    resolved.method += " with totals", resolved.format += fmt::format(", {} B totals", sizeof(range_total<float>));
+    resolved.method += " with totals", resolved.format += ", 16 B totals";
     resolved.totals.resize(texels_of(resolved.resolution));
     resolved.build_ms +=
         steady_ms([&] { set_totals(resolved.map(), std::span(resolved.totals), range_ids::surfaces); });
