@@ -144,6 +144,44 @@ class Demo(unittest.TestCase):
             self.assertLess(self.motion(scene, "interval lists of 4, receivers analytic", "leak"),
                             self.motion(scene, ANALYTIC, "leak") + 1e-5, scene)
 
+    def test_ids_of_surfaces_spare_short_lists_from_shadowing_themselves(self):
+        for capacity in (4, 8):
+            lists = f"interval lists of {capacity}"
+            self.assertLess(4 * self.motion("cubes to the light", f"{lists}, ids of surfaces, receivers analytic", "acne"),
+                            self.motion("cubes to the light", f"{lists}, receivers analytic", "acne"))
+        unbiased = (self.motion("random cubes", method, "acne_unbiased")
+                    for method in ("resolved ranges, ids of surfaces, receivers analytic", ANALYTIC))
+        self.assertLess(2 * next(unbiased), next(unbiased))
+
+    def test_a_cover_that_is_asked_first_answers_as_the_list(self):
+        self.assertAlmostEqual(self.motion("random cubes", "exact ranges, cover first, 16 times"),
+                               self.motion("random cubes", "exact ranges, 16 times"), 5)
+
+    def test_a_wider_filter_is_integrated_better_than_it_is_sampled(self):
+        errors = {row["method"]: row["rmse"] for row in self.report
+                  if row["reference"] == "filtered" and row["method"].endswith("3 x 3")}
+        self.assertEqual(len(errors), 3)
+        self.assertLess(errors[f"{ANALYTIC}, 3 x 3"], errors["accumulation of 64, 3 x 3"])
+        self.assertLess(errors["accumulation of 64, 3 x 3"], errors["accumulation of 16, 3 x 3"])
+
+    def test_receivers_at_rest_are_asked_for_behind_casters_and_among_them(self):
+        facts = json.loads((self.out / "gallery" / "motion_analytic" / "facts.json").read_text())
+        found = {(row["where"], row["factor"], row["method"]): row["rmse"] for row in facts["static"]}
+        for where in ("ground", "among"):
+            for factor in (1, 4):
+                self.assertAlmostEqual(found[where, factor, "caster ranges with totals, packed, receivers analytic"],
+                                       found[where, factor, "caster ranges with totals, receivers analytic"], 3)
+        # Under a tent both count the same times: errors are of the size that they have under a box.
+        for factor in (1, 4):
+            self.assertLess(found["ground", factor, f"{ANALYTIC}, tent shutter"], 2 * found["ground", factor, ANALYTIC])
+
+    def test_meshes_and_curves_have_a_row_per_case(self):
+        facts = json.loads((self.out / "gallery" / "motion_analytic" / "facts.json").read_text())
+        self.assertGreaterEqual({mesh["scene"] for mesh in facts["meshes"]}, {"400 random cubes", "waving sheet"})
+        for mesh in facts["meshes"]:
+            self.assertEqual(len({row["method"] for row in mesh["maps"]}), 3)
+        self.assertEqual(len({row["half_extent"] for row in facts["memory"]["rows"]}), 2)
+
     def test_known_answers(self):
         known = {row["scene"]: row["max_abs"] for row in self.report if row["reference"] == "closed-form"}
         self.assertLess(known["trapezoid"], 1e-5)
@@ -202,6 +240,8 @@ class Demo(unittest.TestCase):
                       ["--model", broken], ["--model", self.folder.name], ["--out", broken, "bounds"],
                       ["--animation", "slide"], ["--shutter", "0,1"], ["--model", cube, "--animation"],
                       ["--model", cube, "--animation", "jump"], ["--model", cube, "--shutter"],
+                      ["--model="], ["--model", cube, "--animation=", "--size"],
+                      ["--model", cube, "--animation=", "--shutter", "0,9"],
                       *(["--model", cube, "--shutter", times]
                         for times in ("x", "", "0", "0,x", "0,1,2", "1,0", "-1,0", "0,9", "nan,1", "0,inf"))):
             ended = run(DEMO, *words, *([] if "--out" in words else ["--out", self.out]))
@@ -232,6 +272,11 @@ class Demo(unittest.TestCase):
             errors = {row["method"]: row["rmse"] for row in report}
             self.assertLess(errors[ANALYTIC], errors["accumulation of 8"])
             self.assertIn("cube", (Path(out) / "gallery" / "index.html").read_text())
+            # An empty name is the first animation and takes no flag for a name.
+            ended = run(DEMO, "--model", cube, "--animation=", "--tiny", "--out", out)
+            self.assertEqual(ended.returncode, 0, ended.stderr)
+            facts = json.loads((Path(out) / "gallery" / "animated_model" / "facts.json").read_text())
+            self.assertEqual(facts["animation"], "")
 
 
 if __name__ == "__main__":

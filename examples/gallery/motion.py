@@ -18,6 +18,8 @@ AS_GOOD, INVISIBLE = 1.1, 0.5 / 255
 FIGURES = {"cube_over_plane": "4.1", "cube_over_turning_plane": "4.2", "cube_near_turning_plane": "4.3"}
 GAIN = 4
 
+PLACES = {"ground": "behind all", "among": "among casters"}
+
 NOTES = {
     "pillars": """After Figure 11 of Andersson et al. Only the light moves. That takes each point on a long way over the
 shadow map, and what an analytic receiver costs grows with the number of texels on it.""",
@@ -44,12 +46,13 @@ class Scene:
         self.key, self.title = facts["key"], facts["title"]
         found = {row["method"]: row for row in report
                  if row["scene"] == facts["scene"] and row["reference"] == "traced"}
-        if not found.keys() >= {method["method"] for method in facts["methods"]}:
+        if not found.keys() >= {method["method"] for method in facts["methods"]} | set(facts["unpictured"]):
             raise SystemExit(f"report.json: rows of the scene {facts['scene']} are missing; run the demo again")
         self.rows = [found[method["method"]] for method in facts["methods"]]
+        self.unpictured = [found[method] for method in facts["unpictured"]]
 
     def row(self, method):
-        return next(row for row in self.rows if row["method"] == method)
+        return next(row for row in self.rows + self.unpictured if row["method"] == method)
 
     def file(self, method, what="picture"):
         return next(m[what] for m in self.facts["methods"] if m["method"] == method)
@@ -146,8 +149,44 @@ def time_at(rows, time, error):
 TIMES = ((lambda row: row["ns_per_receiver"], "ns per receiver"), (millis, "ms for map and receivers"))
 
 
+def needed_by_accumulation(scene, time):
+    """What an accumulation takes that is as good as analytic receivers, None where none is."""
+    return time_at(scene.rows, time, max(AS_GOOD * scene.row(ANALYTIC)["rmse"], INVISIBLE))
+
+
+def advantage(scene, time):
+    """How many times cheaper analytic receivers are than an accumulation as good; None where none is."""
+    needed = needed_by_accumulation(scene, time)
+    return None if needed is None else needed / time(scene.row(ANALYTIC))
+
+
+def so_many(times):
+    return f"{times:,.0f} x" if times >= 10 else f"{times:.1f} x"
+
+
+def verdict(scene, time):
+    """In words, from the rows: which is cheaper at equal error."""
+    found = advantage(scene, time)
+    if found is None:
+        return "no accumulation is as good"
+    return f"analytic: {so_many(found)} cheaper" if found > 1 else f"accumulation: {so_many(1 / found)} cheaper"
+
+
+def who_wins(scenes):
+    text = ""
+    for (time, _), what in zip(TIMES, ("by look-ups alone", "with the time to build maps")):
+        found = sorted(((advantage(scene, time), scene.title) for scene in scenes if advantage(scene, time)))
+        lost = ", ".join(f"{title} ({so_many(1 / times)})" for times, title in found if times < 1)
+        won = ", ".join(f"{title} ({so_many(times)})" for times, title in reversed(found) if times >= 1)
+        never = ", ".join(scene.title for scene in scenes if advantage(scene, time) is None)
+        text += f"""<p>At equal error, {what}, <b>accumulation is cheaper</b> in: {escape(lost or "no scene")}. <b>Analytic
+receivers are cheaper</b> in: {escape(won or "no scene")}. No accumulation is as good as they are in: {escape(never or "no scene")}.</p>
+"""
+    return text
+
+
 def equal_error(out, folder, scenes):
-    views = [[(scene.title, scene.rows, *time) for scene in scenes] for time in TIMES]
+    views = [[(f"{scene.title}\n{verdict(scene, time)}", scene.rows, time, unit) for scene in scenes] for time, unit in TIMES]
     if len(scenes) == 1:
         views = [views[0] + views[1]]
     for view, name in zip(views, ("chart-equal-error", "chart-equal-error-total")):
@@ -159,7 +198,7 @@ def equal_error(out, folder, scenes):
         yield number(1e3 * analytic["rmse"], 2)
         for time, _ in TIMES:
             spent = time(analytic)
-            needed = time_at(scene.rows, time, max(AS_GOOD * analytic["rmse"], INVISIBLE))
+            needed = needed_by_accumulation(scene, time)
             yield number(spent)
             if needed is None:
                 yield from ((1e99, "&infin;"), (1e99, "&infin;", True))
@@ -177,27 +216,121 @@ with the number of maps.""")
     return f"""<h3>Equal error</h3>
 <p>What an accumulation costs that is as good, of up to {accumulated[-1]} maps: interpolated between those that were made, at an
 error at most {AS_GOOD - 1:.0%} above that of analytic receivers, since texels limit both, or of {1e3 * INVISIBLE:.2f}
-thousandths, half a step of eight bits. A ratio above one, marked, is how many times faster analytic receivers are; below one
-accumulation wins, as it does where points pass many texels or lists are long. &infin;: no accumulation of so many maps is as
-good. Where the smallest, of {accumulated[0]}, is good enough, its time stands.</p>
+thousandths, half a step of eight bits. Receivers are projected beforehand for all methods; accumulation looks its maps up by
+packs of receivers, the others one receiver at a time. A ratio above one, marked, is how many times faster analytic receivers
+are; below one accumulation is. &infin;: no accumulation of so many maps is as good. Where the smallest, of {accumulated[0]}, is
+good enough, its time stands.</p>
+{who_wins(scenes)}
 {table(heads, map(cells, scenes), words=1)}
 {charts}"""
+
+
+def surfaces(scenes):
+    """Rows by ids of triangles, and by those of surfaces."""
+    def pairs(scene):
+        for row in scene.unpictured:
+            plain = row["method"].replace(", ids of surfaces", "")
+            if plain != row["method"]:
+                yield from ((scene, "triangles", scene.row(plain)), (scene, "surfaces", row))
+
+    def cells(scene, whose, row):
+        yield scene.title, f'{escape(scene.title)}, {scene.facts["surfaces"]:,} surfaces of {scene.facts["triangles"]:,} triangles'
+        yield row["method"], escape(row["method"].replace(", ids of surfaces", ""))
+        yield whose, whose
+        for key in ("rmse", "leak", "acne", "acne_unbiased"):
+            yield number(1e3 * row[key], 2)
+        yield number(row["bytes_per_texel"])
+
+    rows = [pair for scene in scenes for pair in pairs(scene)]
+    if not rows:
+        return ""
+    return """<h3>Ids of surfaces</h3>
+<p>A receiver is not shadowed by what has its own id. That may be its triangle, or all triangles that cannot shadow one another
+since they stay in one plane or form one convex part (Palm&eacute;r, 2.3.2). Ranges of one id also merge into one of that id, where
+a list is full, instead of into one that shadows everybody. Acne is shown with the depth bias of all methods and without it.</p>
+""" + table(("scene", "method", "ids", "RMSE", "leak", "acne", "acne, no bias", "bytes per texel"),
+            (cells(*row) for row in rows), words=3)
+
+
+def cover_first(scenes):
+    rows = [(scene, row) for scene in scenes for first in scene.unpictured if first["method"].startswith("exact ranges, cover first")
+            for row in (*(scene.row(f"exact ranges{kind}, 16 times") for kind in ("", " with coverage")), first)]
+    if not rows:
+        return ""
+    return """<h3>The cover first</h3>
+<p>The shadow test of Hong & Oh 2017 asks a texel's cover, and its list only where there is none.</p>
+""" + table(("scene", "method", "RMSE", "bytes per texel", "ns per receiver", "map, ms"),
+            ([(scene.title, escape(scene.title)), (row["method"], escape(row["method"])), number(1e3 * row["rmse"], 2),
+              number(row["bytes_per_texel"]), number(row["ns_per_receiver"]), number(row["build_ms"], 1)]
+             for scene, row in rows))
+
+
+def wide_filter(facts, report):
+    found = facts.get("wide_filter")
+    if not found:
+        return ""
+    rows = [row for method in found["methods"] for row in report
+            if (row["scene"], row["method"], row["reference"]) == (found["scene"], method, "filtered")]
+    return f"""<h3>A wider filter</h3>
+<p>The scene {escape(found["scene"])} by percentage-closer filtering of 3 x 3 bilinear look-ups, against the mean over
+{found["maps"]} shadow maps under the same filter: errors are those of time alone.</p>
+""" + table(("method", "RMSE", "largest error", "ns per receiver", "map, ms"),
+            ([(row["method"], escape(row["method"])), number(1e3 * row["rmse"], 2), number(1e3 * row["max_abs"], 1),
+              number(row["ns_per_receiver"]), number(row["build_ms"], 1)] for row in rows), words=1)
 
 
 def memory(out, folder, facts):
     found = facts.get("memory")
     if not found:
         return ""
-    motion_charts.cubes(found["rows"], out / "gallery" / folder, "chart-memory")
     size = found["resolution"]
+    motion_charts.cubes(found["rows"], size, out / "gallery" / folder, "chart-memory")
+
+    def saved(row):
+        bytes_of = {m["method"]: m["building_bytes"] for m in row["maps"]}
+        return bytes_of["prism ranges"] / bytes_of["prism ranges with coverage"]
+
+    def described(row):
+        return f"{saved(row):.1f} times as much ({row['count']} cubes of half-extent {row['half_extent']:g}, speed {row['factor']:g})"
+
+    least, *_, most = sorted(found["rows"], key=saved)
     return f"""<h3>Memory and time</h3>
-<p>The curves of Hong & Oh: random cubes, seen by shadow maps of {size} x {size} texels, more and more of them on the left, faster
-and faster on the right. The longest way of a cube is {found["longest"]:g} times the speed. Prisms need memory for the fragments
-that they pair. Coverage leaves out what is hidden where one triangle covers a texel for the whole time. Resolved lists have what
-is in front when. Those of casters leave out the backdrop as well, what is behind all else in a texel for the whole time, as the
-ground often is: it shadows nothing. Packed are the same in fewer bits.</p>
-{chart(folder, "chart-memory", '''From top to bottom: what a map takes once it is built, how long that takes, and how long for each
-texel that a triangle covers at some time.''')}"""
+<p>The curves of Hong & Oh: random cubes, seen by shadow maps of {size} x {size} texels: more and more of them on the left, faster
+and faster in the middle, and on the right as well, of larger ones. The longest way of a cube is {found["longest"]:g} times the
+speed. Memory is that of the map that look-ups read. To be built, prisms need memory for the fragments that they pair, too: that
+sum, their formula (2), is dotted. Level lines are time-dependent shadow maps of {", ".join(map(str, motion_charts.SAMPLES))}
+samples, 4 bytes each. Coverage leaves out what is hidden where one triangle covers a texel for the whole time: without it prisms
+need, by their formula, from {described(least)} to {described(most)}. Resolved lists have what is in front when. Those of casters leave out the
+backdrop as well, what is behind all else in a texel for the whole time, as the ground often is: it shadows nothing. Packed are
+the same in fewer bits, which look-ups read as they are. Time includes all that a look-up needs, so that of resolved lists is that
+of building and resolving.</p>
+{chart(folder, "chart-memory", '''From top to bottom: what a map takes, how long it takes to build, and how long for each texel that a
+triangle covers at some time.''')}"""
+
+
+def meshes(facts):
+    found = facts.get("meshes")
+    if not found:
+        return ""
+
+    def cells(mesh, row):
+        yield mesh["scene"], escape(mesh["scene"])
+        yield row["method"], escape(row["method"])
+        yield number(mesh["triangles"])
+        yield f"{mesh['resolution']}", f"{mesh['resolution']} x {mesh['resolution']}"
+        yield number(mesh["pairs"])
+        yield number(row["ranges"])
+        yield number(row["bytes"] / 2**20, 1)
+        yield number(row["build_ms"], 1)
+        yield number(row["ns_per_pair"], 1)
+        yield number(mesh["accumulation_ms"], 1)
+
+    return """<h3>Meshes that people have</h3>
+<p>What it takes to build maps, and to resolve them: cubes, a finely tessellated sheet whose triangles are as small as texels, and
+animated models of Debian's assimp-testmodels, where that is installed. A pair is a triangle and a texel that it covers at some
+time.</p>
+""" + table(("mesh", "method", "triangles", "map", "pairs", "ranges", "MiB", "map, ms", "ns per pair", "16 shadow maps, ms"),
+            (cells(mesh, row) for mesh in found for row in mesh["maps"]))
 
 
 def known_answers(facts):
@@ -210,12 +343,16 @@ def known_answers(facts):
               (row["max_abs"], f"{row['max_abs']:.1e}")] for row in facts["closed_forms"]))
     if facts.get("static"):
         text += """<h3>Receivers at rest</h3>
-<p>Visibility over the whole shutter interval, against ray tracing with motion blur. Totals are what all ranges of a texel hide
-together: where backdrops are left out, a receiver on the ground needs no list. Errors in thousandths; the ratio is how many
-times as fast as the first method.</p>
-""" + table(("motion", "method", "ns per receiver", "RMSE", "ratio"),
-            ([(row["factor"], f"{row['factor']:g} x"), (row["method"], escape(row["method"])), number(row["ns"]),
-              number(1e3 * row["rmse"], 2), number(row["ratio"], 1)] for row in facts["static"]))
+<p>Visibility over the whole shutter interval, against ray tracing with motion blur, on the ground behind all casters and at random
+heights among them. Totals are what all ranges of a texel hide together: a receiver behind all of them needs no list. Maps that
+are accumulated keep the depths of a texel side by side, since a receiver at rest asks all of them at one place. A tent shutter
+opens and closes evenly; its reference is traced at times as dense as it is open. Errors in thousandths; the ratio is how many
+times as fast as 16 rays.</p>
+""" + table(("motion", "receivers", "method", "bytes per texel", "map, ms", "ns per receiver", "RMSE", "ratio"),
+            ([(row["factor"], f"{row['factor']:g} x"), (row["where"], PLACES[row["where"]]),
+              (row["method"], escape(row["method"])), number(row["bytes_per_texel"], 1), number(row["build_ms"]),
+              number(row["ns"]), number(1e3 * row["rmse"], 2), number(row["ratio"], 1)]
+             for row in sorted(facts["static"], key=lambda row: (row["factor"], row["where"] == "among"))), words=3)
     return text
 
 
@@ -223,7 +360,7 @@ def setting(facts):
     width, height, texels = facts["width"], facts["height"], facts["map_resolution"]
     return f"""{width} x {height} pixels and a shadow map of {texels} x {texels} texels, looked up with bilinear weights. The
 reference traces {facts["samples"]:,} rays per pixel from the eye, each at a time of its own, and one from each hit to the light.
-Times are those of one core; numbers of errors are in thousandths. {legend_of_errors(facts)} In a table the best of each column
+Times are those of one core, the least of several runs, or of one that takes long; numbers of errors are in thousandths. {legend_of_errors(facts)} In a table the best of each column
 is marked; a click on a head sorts."""
 
 
@@ -246,7 +383,11 @@ Approach</i> (2015).</p>
 {pictures}
 {figures_of_palmer(out, folder, scenes)}
 {equal_error(out, folder, scenes)}
+{surfaces(scenes)}
+{cover_first(scenes)}
+{wide_filter(facts, report)}
 {memory(out, folder, facts)}
+{meshes(facts)}
 {known_answers(facts)}
 """
 

@@ -10,6 +10,7 @@ from charts import plt, save, set_error_scale
 
 COLOURS = ("#7f7f7f", "#9467bd", "#ff7f0e", "#2ca02c", "#d62728", "#17becf", "#8c6d31", "#e377c2")
 SATURATED = 0.98  # how dark the darkest channel of an error's colour is at most
+SAMPLES = (8, 20, 64)  # of a time-dependent shadow map
 MARKERS = ("^", "s", "D", "o", "v", "P", "X", "*", "<", ">")
 
 
@@ -52,9 +53,9 @@ def equal_error(panels, folder, name):
     markers = dict(zip(in_order(parts(row)[0] for row in ranges), cycle(MARKERS)))
     columns = min(4, len(panels))
     lines = -(-len(panels) // columns)
-    width, height = max(3.5 * columns, 12), 2.9 * lines + 1.1
+    width, height = max(3.5 * columns, 12), 3 * lines + 1.1
     figure, axes = plt.subplots(lines, columns, figsize=(width, height), squeeze=False)
-    figure.subplots_adjust(left=0.7 / width, right=0.99, top=1 - 0.3 / height, bottom=1.3 / height, wspace=0.25, hspace=0.5)
+    figure.subplots_adjust(left=0.7 / width, right=0.99, top=1 - 0.45 / height, bottom=1.3 / height, wspace=0.25, hspace=0.6)
     for unused in axes.flat[len(panels):]:
         unused.remove()
     for panel, (title, rows, time, label) in zip(axes.flat, panels):
@@ -123,36 +124,49 @@ def close_ups(rows, gain, folder, name):
     save(figure, folder, name)
 
 
-def spread(rows, fixed, free):
-    """Of the rows that have the same value of `fixed`, those of which there are most, from least to most of `free`."""
-    values = [row[fixed] for row in rows]
-    value = max(in_order(values), key=values.count)
-    return value, sorted((row for row in rows if row[fixed] == value), key=lambda row: row[free])
-
-
-def cubes(rows, folder, name):
-    """What maps take, against number and speed of cubes."""
+def cubes(rows, resolution, folder, name):
+    """What maps take, against number, speed and size of cubes."""
     quantities = (("bytes", "MiB", 2**-20), ("build_ms", "ms, one core", 1), ("ns_per_pair", "ns per texel and triangle", 1))
-    views = (("factor", "count", "cubes", "speed {:g}"), ("count", "factor", "speed", "{} cubes"))
+    small, large = sorted({row["half_extent"] for row in rows})
+    number = max(in_order(row["count"] for row in rows), key=[row["count"] for row in rows].count)
+    views = (("count", "cubes", f"cubes of half-extent {small:g}, speed 1", lambda row: row["factor"] == 1),
+             ("factor", "speed", f"{number} cubes of half-extent {small:g}", lambda row: row["count"] == number),
+             ("factor", "speed", f"{number} cubes of half-extent {large:g}", lambda row: row["count"] == number))
     methods = dict(zip(in_order(m["method"] for row in rows for m in row["maps"]), zip(cycle(COLOURS), cycle(MARKERS))))
-    figure, panels = plt.subplots(len(quantities), len(views), figsize=(11, 9.5), sharey="row")
-    figure.subplots_adjust(left=0.08, right=0.99, top=0.96, bottom=0.12, wspace=0.06, hspace=0.27)
-    for column, (fixed, free, label, title) in zip(panels.T, views):
-        value, chosen = spread(rows, fixed, free)
-        column[0].set_title(title.format(value))
-        places = [row[free] for row in chosen]
+    figure, panels = plt.subplots(len(quantities), len(views), figsize=(13, 9.5), sharey="row")
+    figure.subplots_adjust(left=0.06, right=0.99, top=0.96, bottom=0.13, wspace=0.06, hspace=0.27)
+    for i, (column, (free, label, title, chosen)) in enumerate(zip(panels.T, views)):
+        size = large if i == 2 else small
+        shown = sorted((row for row in rows if row["half_extent"] == size and chosen(row)), key=lambda row: row[free])
+        column[0].set_title(title, fontsize=10)
+        places = [row[free] for row in shown]
         for axes, (key, _, scale) in zip(column, quantities):
-            for method, (colour, marker) in methods.items():
-                values = [scale * m[key] for row in chosen for m in row["maps"] if m["method"] == method]
-                axes.plot(places, values, color=colour, marker=marker, ms=5, lw=1.3, alpha=0.85)
+            def line(method, of, style):
+                values = [scale * m[of] for row in shown for m in row["maps"] if m["method"] == method]
+                colour, marker = methods[method]
+                if any(values):
+                    axes.plot(places, values, style, color=colour, marker=marker, ms=5, lw=1.3, alpha=0.85)
+
+            for method in methods:
+                line(method, key, "-")
+                if key == "bytes":
+                    line(method, "building_bytes", ":")
+            if key == "bytes":
+                for samples in SAMPLES:
+                    level = scale * 4 * samples * resolution**2
+                    axes.axhline(level, color="black", lw=0.8, ls="--", alpha=0.6)
+                    axes.annotate(f"{samples} samples", (1, level), xycoords=("axes fraction", "data"), ha="right", va="center",
+                                  fontsize=7, bbox={"color": "white", "alpha": 0.7, "pad": 0.5})
             axes.set_xscale("log", base=2)
             axes.set_yscale("log")
-            axes.set_xticks(places, [f"{place:g}" for place in places])
+            axes.set_xticks(places, [f"1/{1 / place:g}" if place < 1 else f"{place:g}" for place in places])
             axes.minorticks_off()
             axes.set_xlabel(label)
     for axes, (_, unit, _) in zip(panels[:, 0], quantities):
         axes.set_ylabel(unit)
         label_decades(axes.yaxis)
     handles = [Line2D([], [], color=colour, marker=marker, label=method) for method, (colour, marker) in methods.items()]
-    figure.legend(handles=handles, loc="lower center", ncols=-(-len(handles) // 2), frameon=False, fontsize=9)
+    handles += [Line2D([], [], color="black", ls=":", label="the same with the fragments that building needs"),
+                Line2D([], [], color="black", lw=0.8, ls="--", label="time-dependent shadow map")]
+    figure.legend(handles=handles, loc="lower center", ncols=4, frameon=False, fontsize=9)
     save(figure, folder, name)

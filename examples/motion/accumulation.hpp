@@ -1,31 +1,67 @@
 // What motion blur is made of without ranges: a shadow map and a picture for each of some times, and their mean
-// (Haeberli & Akeley 1990).
+// (Haeberli & Akeley 1990). Look-ups are by percentage-closer filtering with bilinear weights, a pack at a time.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <gnomon/simd/xsimd.hpp>
+#include <span>
 #include <vector>
 
+#include "light_receivers.hpp"
 #include "toolbox/image.hpp"
 #include "toolbox/moving_view.hpp"
 
 namespace gnomon::demo {
 
-// Shadow maps in the middle of as many equal parts of the shutter interval.
+using accumulation_pack = xsimd::batch<float>;
+
 struct accumulated_maps {
     int resolution = 0;
+    std::vector<float> times; // in order
     std::vector<toolbox::image<std::array<float, 1>>> depths;
-
-    float time(std::size_t i) const { return (float(i) + 0.5f) / float(depths.size()); }
 };
 
+// The middles of as many equal parts of the shutter interval.
+std::vector<float> middle_times(int count);
+
 accumulated_maps accumulate(const toolbox::moving_scene& world, const toolbox::moving_camera& light, int resolution,
-                            int count);
+                            std::vector<float> times);
 
 // What each pixel sees at these times, as courses of one time, in order.
-toolbox::seen_motion seen_at_times(const toolbox::seen_motion& seen, const accumulated_maps& maps);
+toolbox::seen_motion seen_at_times(const toolbox::seen_motion& seen, std::span<const float> times);
 
-// The visibility of each of these courses, by 2 x 2 percentage-closer filtering with bilinear weights.
-std::vector<float> accumulated_visibility(const toolbox::seen_motion& at_times, const toolbox::moving_camera& light,
-                                          const accumulated_maps& maps);
+// Those of these courses that face the light, as the map of their time sees them, and which courses they are.
+struct accumulated_receivers {
+    std::vector<float> x, y, depth; // texel position and biased depth; whole packs of them
+    std::vector<std::uint32_t> course;
+};
+
+// One for each map.
+std::vector<accumulated_receivers> accumulated_receivers_of(const toolbox::seen_motion& at_times,
+                                                            const toolbox::moving_camera& light,
+                                                            const accumulated_maps& maps);
+
+// The visibility of each, in their order, one map after the other, by 1 or 3 x 3 bilinear look-ups.
+void accumulated_visibility(const accumulated_maps& maps, std::span<const accumulated_receivers> receivers,
+                            std::vector<float>& visibility, int look_ups = 1);
+
+// The same in the order of the courses, and 0 for those that face away.
+std::vector<float> in_order_of_courses(std::span<const accumulated_receivers> receivers,
+                                       std::span<const float> visibility, std::size_t courses);
+
+// The maps of a light at rest for receivers at rest, which ask all of them at one place: the depths of a texel are one
+// after the other.
+struct interleaved_maps {
+    int resolution = 0, count = 0;
+    std::vector<float> depths; // texel by texel, row by row, whole packs of them
+
+    std::size_t depths_per_texel() const;
+};
+
+interleaved_maps interleave(const accumulated_maps& maps);
+
+// The mean of a receiver's visibility over all maps. The receiver is at rest and faces the light.
+float resting_visibility(const interleaved_maps& maps, const light_receiver& r);
 
 } // namespace gnomon::demo

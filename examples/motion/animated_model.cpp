@@ -13,7 +13,8 @@ void gnomon::demo::animated_model(const settings& how, const std::filesystem::pa
     const std::filesystem::path folder = how.out / "gallery" / "animated_model";
     const toolbox::moving_stage scenery = toolbox::animated_model_stage(
         toolbox::load_animated_model(file, animation, shutter[0], shutter[1]), double(size.width) / size.height);
-    const motion_results found = compare_motion({"model", scenery.world.open.name}, scenery, size, folder);
+    const motion_results found =
+        compare_motion({.key = "model", .title = scenery.world.open.name}, scenery, size, folder);
     nlohmann::ordered_json facts = facts_of(size);
     facts["animation"] = animation;
     facts["shutter"] = shutter;

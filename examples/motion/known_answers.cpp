@@ -23,7 +23,7 @@ report_row row_of(const moving_stage& scenery, const seen_motion& seen, const st
     const range_shadow_map map = resolved_ranges(scenery.world, scenery.light, size.map_resolution);
     const std::vector<light_receiver> receivers = light_receivers_of(seen, scenery.light, size.map_resolution);
     std::vector<float> found(receivers.size());
-    const double spent = seconds_on_one_core([&] {
+    const double spent = least_seconds([&] {
         for (std::size_t i = 0; i < found.size(); ++i) found[i] = analytic_visibility(map.map(), receivers[i]);
     });
     return {.scene = scenery.world.open.name,

@@ -5,6 +5,8 @@
 #include <gnomon/motion/facing.h>
 #include <gnomon/motion/moving_receiver.h>
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "toolbox/moving_view.hpp"
@@ -21,9 +23,12 @@ struct light_receiver {
 // either side.
 inline constexpr double motion_bias_radius = 1.5;
 
-// One for each course.
+// One for each course, with a bias for so many texels around its point.
 std::vector<light_receiver> light_receivers_of(const toolbox::seen_motion& seen, const toolbox::moving_camera& light,
-                                               int resolution);
+                                               int resolution, double radius = motion_bias_radius);
+
+// Another id than the triangle's own.
+void set_ids(std::span<light_receiver> receivers, std::span<const std::uint32_t> id_of_triangle);
 
 // Calls tap(column, row, weight) for the four texels around a place.
 template <class Tap> void for_each_tap(const texel_position<float>& at, const Tap& tap)

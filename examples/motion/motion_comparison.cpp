@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -11,6 +13,7 @@
 #include "range_maps.hpp"
 #include "shadow_tests.hpp"
 #include "timing.hpp"
+#include "toolbox/surface_ids.hpp"
 #include "toolbox/tracer.hpp"
 
 namespace gnomon::demo {
@@ -28,6 +31,13 @@ struct outcome {
     double bytes_per_texel, build_ms, ns_per_receiver;
     const seen_motion* seen;
     std::vector<float> visibility; // per course
+    int lanes = 1;
+    std::optional<double> acne_unbiased{};
+};
+
+// Courses as receivers, with the depth bias and without.
+struct course_receivers {
+    std::vector<light_receiver> biased, unbiased;
 };
 
 using shadow_test = float (*)(const range_map<float>&, const light_receiver&);
@@ -36,7 +46,7 @@ class motion_comparison {
   public:
     motion_comparison(const motion_scene& listed, const moving_stage& scenery, const motion_sizes& size,
                       const std::filesystem::path& folder)
-        : key_(listed.key), stage_(scenery), size_(size), folder_(folder)
+        : listed_(listed), stage_(scenery), size_(size), folder_(folder)
     {
         progress(folder.filename().string(),
                  fmt::format("{}: ray tracing at {} times", listed.title, size.reference_samples));
@@ -44,18 +54,21 @@ class motion_comparison {
         reference_ = rays.photograph(stage_.light, stage_.eye, size.width, size.height, size.reference_samples);
         analytic_ = toolbox::analytic_visibility(stage_.world, stage_.eye, size.width, size.height, depth_tolerance);
         stochastic_ = stochastic_visibility(stage_.world, stage_.eye, size.width, size.height, stochastic_samples);
-        analytic_receivers_ = light_receivers_of(analytic_, stage_.light, size.map_resolution);
+        by_triangles_.biased = light_receivers_of(analytic_, stage_.light, size.map_resolution);
+        if (listed.surfaces)
+            by_triangles_.unbiased = light_receivers_of(analytic_, stage_.light, size.map_resolution, 0);
         stochastic_receivers_ = light_receivers_of(stochastic_, stage_.light, size.map_resolution);
         for (std::size_t pixel = 0; pixel < reference_.visibility.pixels.size(); ++pixel)
             if (!analytic_(pixel).empty() && reference_.coverage.pixels[pixel] > 0) pixels_.push_back(pixel);
-        facts_ = {{"key", key_},
+        facts_ = {{"key", listed.key},
                   {"title", listed.title},
                   {"scene", stage_.world.open.name},
                   {"triangles", triangle_numbers(stage_.world.open).count()},
                   {"receivers", pixels_.size()},
                   {"reference", file("reference")},
                   {"insets", nlohmann::json::array()},
-                  {"methods", nlohmann::json::array()}};
+                  {"methods", nlohmann::json::array()},
+                  {"unpictured", nlohmann::json::array()}};
         for (const point_of_interest& place : stage_.interests) {
             const rectangle r = inset_around(place, stage_.eye, size.width / inset_share, size.width, size.height);
             facts_["insets"].push_back(
@@ -81,15 +94,16 @@ class motion_comparison {
         add_courses(resolved, "semi-analytic", semi_analytic_visibility);
         add_courses(resolved, "analytic", demo::analytic_visibility);
         add_courses(with_totals(caster_ranges(world, light, resolution)), "analytic", demo::analytic_visibility);
-        add_courses(interval_lists(exact, 4), "analytic", demo::analytic_visibility);
-        add_courses(interval_lists(exact, 8), "analytic", demo::analytic_visibility);
-        add_courses(interval_lists(exact, 16), "analytic", demo::analytic_visibility);
+        for (const int capacity : {4, 8, 16})
+            add_courses(interval_lists(exact, capacity), "analytic", demo::analytic_visibility);
+        if (listed_.surfaces) add_surfaces(exact, resolved);
+        if (listed_.cover_first) add_cover_first(cover_first_ranges(exact));
     }
 
     motion_results results() && { return {std::move(facts_), std::move(rows_)}; }
 
   private:
-    std::string file(std::string_view what) const { return fmt::format("{}-{}.png", key_, what); }
+    std::string file(std::string_view what) const { return fmt::format("{}-{}.png", listed_.key, what); }
 
     double per_receiver(double seconds) const
     {
@@ -99,37 +113,121 @@ class motion_comparison {
     void add_accumulation(int count)
     {
         accumulated_maps maps;
-        const double build =
-            seconds_on_one_core([&] { maps = accumulate(stage_.world, stage_.light, size_.map_resolution, count); });
-        const seen_motion seen = seen_at_times(analytic_, maps);
+        const double build = least_seconds(
+            [&] { maps = accumulate(stage_.world, stage_.light, size_.map_resolution, middle_times(count)); });
+        const seen_motion seen = seen_at_times(analytic_, maps.times);
+        const auto receivers = accumulated_receivers_of(seen, stage_.light, maps);
         std::vector<float> visibility;
-        const double spent =
-            seconds_on_one_core([&] { visibility = accumulated_visibility(seen, stage_.light, maps); });
+        const double spent = least_seconds([&] { accumulated_visibility(maps, receivers, visibility); });
         add({fmt::format("accumulation of {}", count), "32 bit depth", 4.0 * count, 1e3 * build, per_receiver(spent),
-             &seen, std::move(visibility)});
+             &seen, in_order_of_courses(receivers, visibility, seen.courses.size()), int(accumulation_pack::size)});
     }
 
     // Hong & Oh: at one time per camera sample.
-    void add_stochastic(const range_shadow_map& map)
+    template <class Test> outcome stochastic(const map_facts& map, const Test& test) const
     {
         std::vector<float> visibility(stochastic_receivers_.size());
-        const double spent = seconds_on_one_core([&] {
+        const double spent = least_seconds([&] {
             for (std::size_t i = 0; i < visibility.size(); ++i)
-                visibility[i] =
-                    visibility_at(map.map(), stochastic_receivers_[i], stochastic_receivers_[i].path.depth.t0);
+                visibility[i] = test(stochastic_receivers_[i], stochastic_receivers_[i].path.depth.t0);
         });
-        add({fmt::format("{}, {} times", map.method, stochastic_samples), map.format, map.bytes_per_texel(),
-             map.build_ms, per_receiver(spent), &stochastic_, std::move(visibility)});
+        return {fmt::format("{}, {} times", map.method, stochastic_samples),
+                map.format,
+                map.bytes_per_texel(),
+                map.build_ms,
+                per_receiver(spent),
+                &stochastic_,
+                std::move(visibility)};
     }
 
-    void add_courses(const range_shadow_map& map, std::string_view receivers, shadow_test test)
+    void add_stochastic(const range_shadow_map& map)
     {
-        std::vector<float> visibility(analytic_receivers_.size());
-        const double spent = seconds_on_one_core([&] {
-            for (std::size_t i = 0; i < visibility.size(); ++i) visibility[i] = test(map.map(), analytic_receivers_[i]);
-        });
-        add({fmt::format("{}, receivers {}", map.method, receivers), map.format, map.bytes_per_texel(), map.build_ms,
-             per_receiver(spent), &analytic_, std::move(visibility)});
+        add(stochastic(map, [&](const light_receiver& r, float t) { return visibility_at(map.map(), r, t); }));
+    }
+
+    void add_cover_first(const range_shadow_map& map)
+    {
+        add_unpictured(
+            stochastic(map, [&](const light_receiver& r, float t) { return cover_first_visibility_at(map, r, t); }));
+    }
+
+    outcome by_courses(const range_shadow_map& map, const course_receivers& receivers, std::string_view how,
+                       shadow_test test) const
+    {
+        std::vector<float> visibility(receivers.biased.size());
+        const auto look_up = [&](const std::vector<light_receiver>& some) {
+            for (std::size_t i = 0; i < some.size(); ++i) visibility[i] = test(map.map(), some[i]);
+        };
+        std::optional<double> acne;
+        if (!receivers.unbiased.empty()) {
+            look_up(receivers.unbiased);
+            acne = errors_of(mean_visibility(analytic_, visibility)).acne;
+        }
+        const double spent = least_seconds([&] { look_up(receivers.biased); });
+        return {fmt::format("{}, receivers {}", map.method, how),
+                map.format,
+                map.bytes_per_texel(),
+                map.build_ms,
+                per_receiver(spent),
+                &analytic_,
+                std::move(visibility),
+                1,
+                acne};
+    }
+
+    void add_courses(const range_shadow_map& map, std::string_view how, shadow_test test)
+    {
+        add(by_courses(map, by_triangles_, how, test));
+    }
+
+    // Where triangles that cannot shadow one another share an id.
+    void add_surfaces(const range_shadow_map& exact, const range_shadow_map& resolved)
+    {
+        const std::vector<std::uint32_t> ids = surface_ids(stage_.world);
+        facts_["surfaces"] = std::set(ids.begin(), ids.end()).size();
+        course_receivers by_surfaces = by_triangles_;
+        set_ids(by_surfaces.biased, ids), set_ids(by_surfaces.unbiased, ids);
+        const auto add_one = [&](const range_shadow_map& map) {
+            add_unpictured(by_courses(map, by_surfaces, "analytic", demo::analytic_visibility));
+        };
+        add_one(with_ids(resolved, ids));
+        const range_shadow_map renamed = with_ids(exact, ids);
+        for (const int capacity : {4, 8, 16}) {
+            range_shadow_map lists = interval_lists(renamed, capacity);
+            lists.method += ", ids of surfaces";
+            add_one(lists);
+        }
+    }
+
+    error_statistics errors_of(const image<float>& estimate) const
+    {
+        std::vector<float> found, expected;
+        for (const std::size_t pixel : pixels_) {
+            found.push_back(estimate.pixels[pixel]);
+            expected.push_back(reference_.visibility.pixels[pixel]);
+        }
+        return compare(found, expected);
+    }
+
+    void add_row(const outcome& o, const image<float>& estimate)
+    {
+        rows_.push_back({.scene = stage_.world.open.name,
+                         .method = o.method,
+                         .format = o.format,
+                         .reference = "traced",
+                         .receivers = static_cast<long long>(pixels_.size()),
+                         .bytes_per_texel = o.bytes_per_texel,
+                         .errors = errors_of(estimate),
+                         .acne_unbiased = o.acne_unbiased,
+                         .ns_per_receiver = o.ns_per_receiver,
+                         .build_ms = o.build_ms,
+                         .lanes = o.lanes});
+    }
+
+    void add_unpictured(const outcome& o)
+    {
+        facts_["unpictured"].push_back(o.method);
+        add_row(o, mean_visibility(*o.seen, o.visibility));
     }
 
     void add(const outcome& o)
@@ -140,29 +238,17 @@ class motion_comparison {
         write_png(folder_ / file(name + "-error"), error_picture(estimate, reference_.visibility, error_scale));
         facts_["methods"].push_back(
             {{"method", o.method}, {"format", o.format}, {"picture", file(name)}, {"error", file(name + "-error")}});
-        std::vector<float> found, expected;
-        for (const std::size_t pixel : pixels_) {
-            found.push_back(estimate.pixels[pixel]);
-            expected.push_back(reference_.visibility.pixels[pixel]);
-        }
-        rows_.push_back({.scene = stage_.world.open.name,
-                         .method = o.method,
-                         .format = o.format,
-                         .reference = "traced",
-                         .receivers = static_cast<long long>(pixels_.size()),
-                         .bytes_per_texel = o.bytes_per_texel,
-                         .errors = compare(found, expected),
-                         .ns_per_receiver = o.ns_per_receiver,
-                         .build_ms = o.build_ms});
+        add_row(o, estimate);
     }
 
-    std::string key_;
+    motion_scene listed_;
     const moving_stage& stage_;
     motion_sizes size_;
     std::filesystem::path folder_;
     reference_picture reference_;
     seen_motion analytic_, stochastic_;
-    std::vector<light_receiver> analytic_receivers_, stochastic_receivers_;
+    course_receivers by_triangles_; // of what analytic_ sees
+    std::vector<light_receiver> stochastic_receivers_;
     std::vector<std::size_t> pixels_; // that see a surface at some time
     nlohmann::ordered_json facts_;
     std::vector<report_row> rows_;

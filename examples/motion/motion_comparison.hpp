@@ -13,7 +13,9 @@
 namespace gnomon::demo {
 
 struct motion_scene {
-    std::string key, title; // key: the beginning of its files' names
+    std::string key, title;   // key: the beginning of its files' names
+    bool surfaces = false;    // also by ids of surfaces instead of triangles
+    bool cover_first = false; // also by covers before lists
 };
 
 struct motion_sizes {

@@ -26,8 +26,6 @@ std::uint64_t depth_code(double z)
     return static_cast<std::uint64_t>(std::clamp(std::floor((z + 1) * (0.5 * span_depths)), 0.0, span_depths - 1));
 }
 
-double depth_of(std::uint64_t code) { return double(code & (std::uint64_t(span_depths) - 1)) * (2 / span_depths) - 1; }
-
 // Depth along a range, and beyond its ends.
 double depth_at(const range& r, double t)
 {
@@ -137,18 +135,6 @@ void pack_spans(std::span<const range> resolved, packed_spans& to)
         reached = s.end;
     }
     if (0 < reached && reached < span_times) add(reached, 1, 1, span_nothing, to);
-}
-
-void unpack_spans(const packed_spans& from, std::size_t list, std::vector<range>& to)
-{
-    const std::size_t end = from.begin(list + 1);
-    for (std::size_t i = from.begin(list); i < end; ++i) {
-        const std::uint64_t body = from.bodies[i], id = body >> 40;
-        if (id == span_nothing) continue;
-        const double t0 = from.begins[i] / span_times, t1 = i + 1 < end ? from.begins[i + 1] / span_times : 1;
-        to.push_back({float(t0), float(t1), float(depth_of(body)), float(depth_of(body >> 20)),
-                      id == span_mixed ? float(range_mixed) : float(id)});
-    }
 }
 
 } // namespace gnomon::demo

@@ -39,7 +39,19 @@ struct packed_spans {
 // std::invalid_argument for others, std::length_error where a group has more than 2^16 spans.
 void pack_spans(std::span<const depth_time_range<float>> resolved, packed_spans& to);
 
-// A list, as ranges.
-void unpack_spans(const packed_spans& from, std::size_t list, std::vector<depth_time_range<float>>& to);
+// Calls visit(range) for each of a list.
+template <class Visit> void for_each_span(const packed_spans& from, std::size_t list, const Visit& visit)
+{
+    constexpr std::uint64_t mask = (std::uint64_t(1) << 20) - 1;
+    const auto depth = [&](std::uint64_t code) { return float(double(code & mask) * (2 / span_depths) - 1); };
+    const std::size_t end = from.begin(list + 1);
+    for (std::size_t i = from.begin(list); i < end; ++i) {
+        const std::uint64_t body = from.bodies[i], id = body >> 40;
+        if (id == span_nothing) continue;
+        const double t0 = from.begins[i] / span_times, t1 = i + 1 < end ? from.begins[i + 1] / span_times : 1;
+        visit(depth_time_range<float>{float(t0), float(t1), depth(body), depth(body >> 20),
+                                      id == span_mixed ? float(range_mixed) : float(id)});
+    }
+}
 
 } // namespace gnomon::demo

@@ -1,5 +1,6 @@
 #include "shadow_tests.hpp"
 
+#include <gnomon/motion/coverage_map.h>
 #include <gnomon/passes/range_look_up.hpp>
 
 #include <algorithm>
@@ -33,13 +34,14 @@ float path_visibility_in_place(const range_map<float>& map, receiver_path<float>
     return 1 - moving_shadow(map, path, path.depth.t0, path.depth.t1);
 }
 
-float path_visibility(const range_map<float>& map, const receiver_path<float>& path)
+float path_visibility(const range_map<float>& map, const receiver_path<float>& path, int look_ups)
 {
     if (path.depth.z0 != path.depth.z1 || receiver_path_length(path) > 1e-4f)
-        return 1 - moving_shadow(map, path, path.depth.t0, path.depth.t1);
+        return 1 - moving_shadow(map, path, path.depth.t0, path.depth.t1, look_ups);
     const texel_position<float> at = receiver_path_at(path, path.depth.t0);
     return 1 - static_shadow(map, at.x, at.y,
-                             static_receiver_begin(path.depth.z0, path.depth.id, path.depth.t0, path.depth.t1));
+                             static_receiver_begin(path.depth.z0, path.depth.id, path.depth.t0, path.depth.t1),
+                             look_ups);
 }
 
 float path_visibility_sampled(const range_map<float>& map, const receiver_path<float>& path)
@@ -54,14 +56,37 @@ bool in_one_texel(const receiver_path<float>& path)
     return texel_below(open.x) == texel_below(close.x) && texel_below(open.y) == texel_below(close.y);
 }
 
+bool faces_at(const light_receiver& r, float t)
+{
+    const float passed = range_passed(r.path.depth, t);
+    return r.facing.begin <= passed && passed <= r.facing.end &&
+           !(r.facing.gap_begin < passed && passed < r.facing.gap_end);
+}
+
 } // namespace
 
 float visibility_at(const range_map<float>& map, const light_receiver& r, float t)
 {
-    const float passed = range_passed(r.path.depth, t);
-    const bool faces = r.facing.begin <= passed && passed <= r.facing.end &&
-                       !(r.facing.gap_begin < passed && passed < r.facing.gap_end);
-    return faces ? 1 - shadow_at(map, r.path, t, 0.f) : 0;
+    return faces_at(r, t) ? 1 - shadow_at(map, r.path, t, 0.f) : 0;
+}
+
+float cover_first_visibility_at(const range_shadow_map& map, const light_receiver& r, float t)
+{
+    if (!faces_at(r, t)) return 0;
+    const float z = range_depth(r.path.depth, t), id = r.path.depth.id, size = float(map.resolution);
+    float shadow = 0;
+    for_each_tap(receiver_path_at(r.path, t), [&](float column, float row, float weight) {
+        if (!(column >= 0 && row >= 0 && column < size && row < size)) return;
+        const std::size_t texel =
+            range_map<float>::texel(std::size_t(map.resolution), std::size_t(column), std::size_t(row));
+        const cover_answer<float> answer = range_cover_answer(map.texel_covers[texel], t, z, id, 0.f);
+        float hidden = answer.intensity;
+        if (answer.decided == 0)
+            for (const auto& range : list_of(map, texel))
+                hidden = std::max(hidden, range_intensity(range, t, z, id, 0.f));
+        shadow += weight * hidden;
+    });
+    return 1 - saturate_or_zero(shadow);
 }
 
 float sampled_visibility(const range_map<float>& map, const light_receiver& r)
@@ -88,7 +113,12 @@ float semi_analytic_visibility(const range_map<float>& map, const light_receiver
 
 float analytic_visibility(const range_map<float>& map, const light_receiver& r)
 {
-    return while_facing(r, [&](const receiver_path<float>& path) { return path_visibility(map, path); });
+    return while_facing(r, [&](const receiver_path<float>& path) { return path_visibility(map, path, 1); });
+}
+
+float wide_visibility(const range_map<float>& map, const light_receiver& r)
+{
+    return while_facing(r, [&](const receiver_path<float>& path) { return path_visibility(map, path, 3); });
 }
 
 } // namespace gnomon::demo

@@ -3,14 +3,16 @@
 // course's own time.
 #pragma once
 
-#include <gnomon/passes/range_map.hpp>
-
 #include "light_receivers.hpp"
+#include "range_maps.hpp"
 
 namespace gnomon::demo {
 
 // At one time in the course's. What lies outside of the map is lit.
 float visibility_at(const range_map<float>& map, const light_receiver& r, float t);
+
+// The same where the map has covers: a list is asked where there is none.
+float cover_first_visibility_at(const range_shadow_map& map, const light_receiver& r, float t);
 
 // By n = max(2 |p_e - p_s|, 5) samples in the middle of their strata (Palmer 2011, 4.1).
 float sampled_visibility(const range_map<float>& map, const light_receiver& r);
@@ -23,5 +25,8 @@ float semi_analytic_visibility(const range_map<float>& map, const light_receiver
 
 // In closed form along the way. The lists are resolved.
 float analytic_visibility(const range_map<float>& map, const light_receiver& r);
+
+// The same by percentage-closer filtering of 3 x 3 bilinear look-ups.
+float wide_visibility(const range_map<float>& map, const light_receiver& r);
 
 } // namespace gnomon::demo

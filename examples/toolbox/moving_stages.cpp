@@ -208,17 +208,18 @@ moving_stage cubes_to_the_light(double aspect)
                      {{"ground", {-1.8f, 0, 0.6f}, green}, {"face", {1, 1.3f, 0.5f}, cyan}});
 }
 
-moving_stage random_cubes(double aspect, int count, float longest)
+moving_stage random_cubes(double aspect, int count, float longest, float half_extent)
 {
     mesh open = painted("cubes", sand), closing = open;
+    const glm::vec3 size(2 * half_extent);
     uniform random(1);
     for (int i = 0; i < count; ++i) {
         const float x = random(-4, 4), y = random(0.5f, 4.5f), z = random(-4, 4);
         const float upwards = random(-1, 1), angle = random(0, glm::two_pi<float>()), length = random(0, longest);
         const float level = std::sqrt(1 - upwards * upwards);
         const glm::vec3 half_way = 0.5f * length * glm::vec3(level * std::cos(angle), upwards, level * std::sin(angle));
-        add_box(open, upright(glm::vec3(x, y, z) - half_way, glm::vec3(0.25f)));
-        add_box(closing, upright(glm::vec3(x, y, z) + half_way, glm::vec3(0.25f)));
+        add_box(open, upright(glm::vec3(x, y, z) - half_way, size));
+        add_box(closing, upright(glm::vec3(x, y, z) + half_way, size));
     }
     moving_scene casters{{"random cubes", {}}, {}};
     add(casters, open, closing);
@@ -264,6 +265,29 @@ moving_stage fan(double aspect)
     add(casters, blades(0), blades(glm::half_pi<float>()));
     return on_ground(casters, {{0, 8, 0}, {0, 8, 0}}, {{0, 6, 6}, {0, 0.6, 0}, 45}, aspect,
                      {{"rim", {0, 0, 1.8f}, green}, {"hub", {0, 0, 0.3f}, cyan}});
+}
+
+moving_stage waving_sheet(double aspect, int cells)
+{
+    const auto at = [&](float drift, float phase) {
+        mesh result = painted("sheet", moss);
+        const auto count = static_cast<std::uint32_t>(cells);
+        for (std::uint32_t j = 0; j <= count; ++j)
+            for (std::uint32_t i = 0; i <= count; ++i) {
+                const float u = static_cast<float>(i) / static_cast<float>(cells),
+                            v = static_cast<float>(j) / static_cast<float>(cells);
+                const float wave = std::sin(2 * glm::two_pi<float>() * (u + phase)) + std::sin(9 * v - 5 * u);
+                result.positions.push_back({4 * u - 2 + drift, 1.2f + 0.15f * wave, 4 * v - 2});
+                if (i == count || j == count) continue;
+                const std::uint32_t a = j * (count + 1) + i, b = a + 1, c = b + count + 1, d = c - 1;
+                result.triangles.insert(result.triangles.end(), {{a, c, b}, {a, d, c}});
+            }
+        return result;
+    };
+    moving_scene casters{{"waving sheet", {}}, {}};
+    add(casters, at(-0.1f, 0), at(0.1f, 0.1f));
+    return on_ground(casters, {{1, 8, 1}, {1, 8, 1}}, {{0, 5, 6}, {0, 0.6, 0}, 45}, aspect,
+                     {{"sheet", {0, 1.2f, 0}, green}});
 }
 
 moving_stage lit_ramp(double aspect)

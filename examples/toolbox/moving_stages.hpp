@@ -29,7 +29,7 @@ moving_stage cubes_to_the_light(double aspect);
 
 // Hong & Oh 2017: cubes at random places, halfway through the shutter, on ways of random directions and of random
 // lengths up to `longest`. The directions and places do not depend on it: it scales the motion.
-moving_stage random_cubes(double aspect, int count, float longest);
+moving_stage random_cubes(double aspect, int count, float longest, float half_extent = 0.125f);
 
 // Palmer 2011, Figures 4.1 to 4.3: a cube crosses a plane that turns about the x axis, corner by corner along straight
 // lines, from -degrees to +degrees. The cube is at (0, height, z) halfway.
@@ -37,6 +37,9 @@ moving_stage cube_over_plane(double aspect, float degrees, float height, float z
 
 // A fan of eight level blades that turns by 90 degrees about the y axis, corner by corner along straight lines.
 moving_stage fan(double aspect);
+
+// A sheet of cells x cells quads that waves and drifts above the ground: what finely tessellated cloth asks of a map.
+moving_stage waving_sheet(double aspect, int cells);
 
 // After Andersson et al. 2015, Figure 10: a tilted quad that rises towards the light and shadows nothing, but for a
 // method that forgets when it was where. The visibility is 1 everywhere at all times.

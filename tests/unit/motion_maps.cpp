@@ -2,6 +2,8 @@
 #include "../support/effort.hpp"
 #include "../support/hostile.hpp"
 
+#include <gnomon/passes/range_look_up.hpp>
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -13,8 +15,10 @@
 #include "motion/cube_curves.hpp"
 #include "motion/packed_spans.hpp"
 #include "motion/range_maps.hpp"
+#include "motion/shadow_tests.hpp"
 #include "toolbox/camera.hpp"
 #include "toolbox/moving_stages.hpp"
+#include "toolbox/surface_ids.hpp"
 
 using namespace gnomon;
 using namespace gnomon::demo;
@@ -69,11 +73,13 @@ template <class Ask> void ask(std::uint64_t seed, const Ask& visit)
     }
 }
 
+bool equal(const range& r, const range& s)
+{
+    return r.t0 == s.t0 && r.t1 == s.t1 && r.z0 == s.z0 && r.z1 == s.z1 && r.id == s.id;
+}
+
 bool same_maps(const range_shadow_map& a, const range_shadow_map& b)
 {
-    const auto equal = [](const range& r, const range& s) {
-        return r.t0 == s.t0 && r.t1 == s.t1 && r.z0 == s.z0 && r.z1 == s.z1 && r.id == s.id;
-    };
     return a.first == b.first && std::ranges::equal(a.ranges, b.ranges, equal) && a.bytes == b.bytes;
 }
 
@@ -126,6 +132,60 @@ TEST_CASE("a cover changes no shadow test, whoever asks")
         REQUIRE(intensity(by_passes.map()(q.x, q.y), q.t, z, -3) == intensity(prisms.map()(q.x, q.y), q.t, z, -3));
     });
     CHECK(shadowed > effort(20'000) / 20);
+}
+
+TEST_CASE("a cut range that covers is a cover, as many as of prisms, and changes no shadow test")
+{
+    const moving_stage turning = toolbox::cube_over_plane(1, 20, 2, 0);
+    const auto all = exact_ranges(turning.world, turning.light, resolution);
+    const auto covered = covered_ranges(all);
+    const auto prisms = covered_prism_ranges(turning.world, turning.light, resolution);
+    CHECK(prisms.covers > 1000);
+    // Prisms pair only two fragments: where a triangle's edge passes a texel they may find what edge functions do not.
+    CHECK(double(covered.covers) == doctest::Approx(double(prisms.covers)).epsilon(0.02));
+    int shadowed = 0;
+    ask(6, [&](const question& q, bit_source& bits) {
+        const auto list = all.map()(q.x, q.y), kept = covered.map()(q.x, q.y);
+        const auto z = static_cast<float>(bits.uniform(-1, 1));
+        REQUIRE(intensity(kept, q.t, z, -3) == intensity(list, q.t, z, -3));
+        shadowed += intensity(list, q.t, z, -3) > 0;
+    });
+    CHECK(shadowed > effort(20'000) / 20);
+}
+
+TEST_CASE("a cover that is asked first answers as the list does")
+{
+    for (const moving_stage& stage : {cubes(), toolbox::cube_over_plane(1, 20, 2, 0)}) {
+        const auto all = exact_ranges(stage.world, stage.light, resolution);
+        const auto first = cover_first_ranges(all);
+        CHECK(first.covers > 1000);
+        int decided = 0, other = 0;
+        ask(7, [&](const question& q, bit_source& bits) {
+            const auto z = static_cast<float>(bits.uniform(-1, 1));
+            const float x = float(q.x) + 0.5f, y = float(q.y) + 0.5f; // one texel has all the weight
+            const light_receiver r{{{0, 1, z, z, -3}, x, y, 1, x, y, 1}, {0, 1, 2, 2}};
+            decided += first.texel_covers[range_map<float>::texel(resolution, q.x, q.y)].id >= 0;
+            other += cover_first_visibility_at(first, r, q.t) != visibility_at(all.map(), r, q.t);
+        });
+        CHECK(decided > 100);
+        CHECK(other == 0);
+    }
+}
+
+TEST_CASE("ids of surfaces change ids alone, and merging lists keeps them")
+{
+    const auto ids = toolbox::surface_ids(cubes().world);
+    const auto renamed = with_ids(exact(), ids);
+    REQUIRE(renamed.ranges.size() == exact().ranges.size());
+    for (std::size_t i = 0; i < renamed.ranges.size(); ++i) {
+        range expected = exact().ranges[i];
+        expected.id = float(ids[std::size_t(expected.id)]);
+        REQUIRE(equal(renamed.ranges[i], expected));
+    }
+    const auto mixed = [](const range_shadow_map& m) {
+        return std::ranges::count(m.ranges, float(range_mixed), &range::id);
+    };
+    CHECK(mixed(interval_lists(renamed, 4)) < mixed(interval_lists(exact(), 4)));
 }
 
 TEST_CASE("without backdrops, every surface of the scene gets the shadow it had")
@@ -200,7 +260,7 @@ TEST_CASE("packed spans are never farther than the list, and little nearer")
         REQUIRE(packed.begins.size() - before <= 2 * list.size() + 1);
         pack_spans({}, packed);
         std::vector<range> unpacked;
-        unpack_spans(packed, place, unpacked);
+        for_each_span(packed, place, [&](const range& r) { unpacked.push_back(r); });
         const auto at = [](const std::vector<range>& ranges, double time) -> const range* {
             for (const range& r : ranges)
                 if (double(r.t0) <= time && time <= double(r.t1)) return &r;
@@ -244,44 +304,62 @@ TEST_CASE("packed spans are never farther than the list, and little nearer")
                          "packed spans: id 16777216, 0 to 16777213 are possible", std::invalid_argument);
 }
 
-TEST_CASE("packed maps are close to the resolved ones, and less than half as large")
+TEST_CASE("packed maps are close to the resolved ones, less than half as large, and looked up as they are")
 {
-    const auto resolved = resolved_ranges(cubes().world, cubes().light, resolution);
+    const auto resolved = with_totals(resolved_ranges(cubes().world, cubes().light, resolution));
     const auto packed = packed_ranges(resolved);
-    int asked = 0, other = 0;
-    ask(5, [&](const question& q, bit_source&) {
-        const float expected = front(resolved.map()(q.x, q.y), q.t), found = front(packed.map()(q.x, q.y), q.t);
+    range_shadow_map unpacked = resolved;
+    unpacked.first.clear(), unpacked.ranges.clear();
+    for (std::size_t i = 0; i < texels_of(resolution); ++i) {
+        unpacked.first.push_back(std::uint32_t(unpacked.ranges.size()));
+        for_each_span(packed.spans, i, [&](const range& r) { unpacked.ranges.push_back(r); });
+    }
+    unpacked.first.push_back(std::uint32_t(unpacked.ranges.size()));
+    int asked = 0, other = 0, shadowed = 0;
+    ask(5, [&](const question& q, bit_source& bits) {
+        const float expected = front(resolved.map()(q.x, q.y), q.t), found = front(unpacked.map()(q.x, q.y), q.t);
         REQUIRE(found <= expected + 1e-6f); // of range_depth, twice
         ++asked;
         other += found < expected - 1e-5f;
+        const auto receiver = static_receiver_begin(float(bits.uniform(-1, 1.1)), -3.f, 0.f, 1.f);
+        const float x = float(bits.uniform(-2, resolution + 2)), y = float(bits.uniform(-2, resolution + 2));
+        const float shadow = demo::static_shadow(packed, x, y, receiver);
+        REQUIRE(shadow == gnomon::static_shadow(unpacked.map(), x, y, receiver));
+        shadowed += shadow > 0 && shadow < 1;
     });
     CHECK(other < asked / 200);
-    CHECK(2 * packed.bytes < resolved.bytes);
+    CHECK(shadowed > asked / 20);
+    CHECK(2 * packed.bytes < resolved.bytes + packed.totals.size() * sizeof packed.totals[0]);
 }
 
 TEST_CASE("kinds of maps take the memory that they say, in the order that they should")
 {
     const auto& stage = cubes();
+    const auto packed = packed_ranges(resolved_ranges(stage.world, stage.light, resolution));
     const auto covered = covered_ranges(exact()), resolved = resolved_ranges(stage.world, stage.light, resolution),
-               packed = packed_ranges(resolved), prisms = prism_ranges(stage.world, stage.light, resolution),
+               prisms = prism_ranges(stage.world, stage.light, resolution),
                covered_prisms = covered_prism_ranges(stage.world, stage.light, resolution);
     CHECK(packed.bytes < resolved.bytes);
     CHECK(resolved.bytes < covered.bytes);
     CHECK(covered.bytes < exact().bytes);
-    CHECK(exact().bytes < covered_prisms.bytes);
     CHECK(covered_prisms.bytes < prisms.bytes);
-    CHECK(exact().bytes == 20 * exact().ranges.size() + 4 * exact().first.size());
+    CHECK(covered_prisms.building_bytes < prisms.building_bytes);
+    for (const auto& m : {exact(), covered, resolved, prisms, covered_prisms, interval_lists(exact(), 4)})
+        CHECK(m.bytes == 20 * m.ranges.size() + 4 * m.first.size());
+    const auto first = cover_first_ranges(exact());
+    CHECK(first.bytes == 20 * (first.ranges.size() + first.texel_covers.size()) + 4 * first.first.size());
     // Fragments come in pairs, but for what rounding takes.
-    CHECK(double(prisms.bytes) ==
+    CHECK(double(prisms.building_bytes) ==
           doctest::Approx(double((2 * 16 + 24) * prisms.ranges.size() + 8 * 128 * 128)).epsilon(0.01));
     CHECK(same_maps(exact(), exact_ranges(stage.world, stage.light, resolution)));
     CHECK(same_maps(prisms, prism_ranges(stage.world, stage.light, resolution)));
     CHECK(same_maps(interval_lists(exact(), 4), interval_lists(exact(), 4)));
-    CHECK(same_maps(packed, packed_ranges(resolved)));
-    const auto casters = caster_ranges(stage.world, stage.light, resolution), packed_casters = packed_ranges(casters);
+    CHECK(packed.spans.bodies == packed_ranges(resolved).spans.bodies);
+    const auto casters = caster_ranges(stage.world, stage.light, resolution);
+    const auto packed_casters = packed_ranges(casters);
     CHECK(casters.bytes < resolved.bytes);
     CHECK(packed_casters.bytes < packed.bytes);
-    CHECK(with_totals(casters).bytes == casters.bytes + sizeof(range_total<float>) * (casters.first.size() - 1));
+    CHECK(with_totals(casters).bytes == casters.bytes + 16 * (casters.first.size() - 1));
 }
 
 TEST_CASE("packed, the ranges of casters take at most a third of what all ranges take, however many cubes")
@@ -294,18 +372,29 @@ TEST_CASE("packed, the ranges of casters take at most a third of what all ranges
     }
 }
 
-TEST_CASE("curves have a row for each case, and pairs grow with the number and the speed of cubes")
+TEST_CASE("rows of curves have all maps, and pairs grow with the number, the speed and the size of cubes")
 {
-    const auto facts = cube_curves(std::array<cube_case, 3>{{{20, 1}, {40, 1}, {40, 8}}}, 64);
-    REQUIRE(facts["rows"].size() == 3);
-    for (const auto& row : facts["rows"]) {
+    std::size_t pairs = 0;
+    for (const cube_case& some : {cube_case{20, 1}, {40, 1}, {40, 8}, {40, 8, 0.5f}}) {
+        const auto row = cube_costs(some, 64);
         CHECK(row["maps"].size() == 8);
         for (const auto& map : row["maps"]) {
             CHECK(map["bytes"].get<double>() > 0);
             CHECK(map["build_ms"].get<double>() > 0);
         }
+        CHECK(row["triangles"] == some.count * 12 + 2);
+        CHECK(row["pairs"].get<std::size_t>() > pairs);
+        pairs = row["pairs"].get<std::size_t>();
     }
-    CHECK(facts["rows"][0]["triangles"] == 20 * 12 + 2);
-    CHECK(facts["rows"][0]["pairs"] < facts["rows"][1]["pairs"]);
-    CHECK(facts["rows"][1]["pairs"] < facts["rows"][2]["pairs"]);
+}
+
+TEST_CASE("coverage saves most of what prisms need where cubes are large and slow")
+{
+    const auto saved = [](const cube_case& some) {
+        const moving_stage stage = toolbox::random_cubes(1, some.count, 0.5f * some.factor, some.half_extent);
+        return double(prism_ranges(stage.world, stage.light, resolution).building_bytes) /
+               double(covered_prism_ranges(stage.world, stage.light, resolution).building_bytes);
+    };
+    CHECK(saved({400, 1.f / 32, 0.5f}) > 4);
+    CHECK(saved({400, 8, 0.5f}) < 2);
 }

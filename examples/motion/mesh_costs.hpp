@@ -1,0 +1,16 @@
+// What it takes to build maps of ranges of the meshes that people have: animated models and finely tessellated cloth,
+// beside cubes.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "motion_comparison.hpp"
+
+namespace gnomon::demo {
+
+// [{"scene": s, "resolution": n, "triangles": n, "pairs": n, "tested": n, "accumulation_ms": x, the time of 16 shadow
+// maps, "maps": [{"method": s, "ranges": n, "bytes": n, "build_ms": x, "ns_per_pair": x}]}]; times are of building and
+// resolving together. Models are those of Debian's assimp-testmodels; where they are absent a line of progress says so.
+nlohmann::json mesh_costs(const motion_sizes& size);
+
+} // namespace gnomon::demo
