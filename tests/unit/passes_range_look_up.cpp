@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 using namespace gnomon;
@@ -117,8 +118,8 @@ TEST_CASE_TEMPLATE("moving_shadow: the fold of its kernels, with totals and with
             const T behind = T(bits.below(3));
             path.depth.z0 += behind, path.depth.z1 += behind, path.depth.id = T(bits.below(6));
             const int look_ups = 1 + int(bits.below(3));
-            const T begin = bits.chance(0.5) ? path.depth.t0 : T(bits.uniform(-0.2, 0.4)),
-                    end = T(bits.uniform(0.5, 1.2));
+            T begin = bits.chance(0.5) ? path.depth.t0 : T(bits.uniform(-0.2, 0.4)), end = T(bits.uniform(0.5, 1.2));
+            if (bits.chance(0.2)) std::swap(begin, end);
             const T expected = moving_shadow(random.map(), path, begin, end, look_ups, fold);
             // Each of some hundred spans has an error of some hundred roundings times its share of the time; those that
             // run almost at the receiver's depth cross it at times that roundings move.
