@@ -1,9 +1,9 @@
 // Moving triangles, a sample of the shadow map each, seen at some time three times in four: covered times from edges
 // on. The baseline is the usual way, without its list of intervals: six roots sorted, the middle of every two tried.
-// Depth at the ends of an interval, as the mean of the vertices' and by a field for many samples; and all of what a
-// sample sees of a translated triangle, with what all triangles need and with what translations do.
-// Prisms of Hong & Oh give about the same times; and a texel's ranges are searched for a cover, four of them, beside
-// their shadow tests.
+// Depth at the ends of an interval, its line and a piece of it, as the mean of the vertices' and by a field for many
+// samples; and all of what a sample sees of a translated triangle, with what all triangles need and with what
+// translations do. Prisms of Hong & Oh give about the same times; and a texel's ranges are searched for a cover, four
+// of them, beside their shadow tests.
 #include "measure.hpp"
 
 #include "../tests/support/moving_triangles.hpp"
@@ -144,6 +144,21 @@ struct field_and_sample : compilation {
     {
         return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}, {x[6], x[7], x[8]}};
     }
+    template <class Real> static GNOMON_INLINE constexpr depth_curve<Real> curve(const std::array<Real, inputs>& x)
+    {
+        const auto plane = [&](std::size_t k) GNOMON_BENCH_INLINE {
+            return sample_plane<Real>{x[k], x[k + 1], x[k + 2]};
+        };
+        const depth_field<Real> field{plane(9), plane(12), plane(15), plane(18), x[21], x[22], x[23], x[24]};
+        return moving_depth_curve(field, edges(x), x[25], x[26]);
+    }
+    template <class Real>
+    static GNOMON_INLINE constexpr moving_triangle<Real> corners(const std::array<Real, inputs>& x)
+    {
+        std::array<Real, 26> vertices;
+        for (std::size_t i = 0; i < 24; ++i) vertices[i] = x[27 + i];
+        return triangle_and_sample::triangle(vertices);
+    }
 };
 
 struct vertex_depths : field_and_sample {
@@ -152,9 +167,7 @@ struct vertex_depths : field_and_sample {
     {
         using real = std::common_type_t<Reals...>;
         const std::array<real, inputs> x{operands...};
-        std::array<real, 26> vertices;
-        for (std::size_t i = 0; i < 24; ++i) vertices[i] = x[27 + i];
-        const moving_triangle<real> m = triangle_and_sample::triangle(vertices);
+        const moving_triangle<real> m = corners(x);
         return moving_triangle_linear_depth(m, edges(x), real(0.25)) +
                moving_triangle_linear_depth(m, edges(x), real(0.75));
     }
@@ -165,13 +178,49 @@ struct field_depths : field_and_sample {
     template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
     {
         using real = std::common_type_t<Reals...>;
+        const depth_curve<real> c = curve(std::array<real, inputs>{operands...});
+        return depth_curve_at(c, real(0.25)) + depth_curve_at(c, real(0.75));
+    }
+};
+
+// A line and how far depth departs from it; and the first piece of a tolerance, which takes several.
+struct vertex_line : field_and_sample {
+    static constexpr auto name = "line of the vertices' depth";
+    template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
+    {
+        using real = std::common_type_t<Reals...>;
         const std::array<real, inputs> x{operands...};
-        const auto plane = [&](std::size_t k) GNOMON_BENCH_INLINE {
-            return sample_plane<real>{x[k], x[k + 1], x[k + 2]};
-        };
-        const depth_field<real> field{plane(9), plane(12), plane(15), plane(18), x[21], x[22], x[23], x[24]};
-        const depth_curve<real> curve = moving_depth_curve(field, edges(x), x[25], x[26]);
-        return depth_curve_at(curve, real(0.25)) + depth_curve_at(curve, real(0.75));
+        return moving_depth_line(corners(x), edges(x), real(0.25), real(0.75), real(0)).deviation;
+    }
+};
+
+struct field_line : field_and_sample {
+    static constexpr auto name = "line of a field's depth";
+    template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
+    {
+        using real = std::common_type_t<Reals...>;
+        const std::array<real, inputs> x{operands...};
+        return depth_curve_line(curve(x), real(0.25), real(0.75)).deviation;
+    }
+};
+
+struct vertex_piece : field_and_sample {
+    static constexpr auto name = "piece of the vertices' depth";
+    template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
+    {
+        using real = std::common_type_t<Reals...>;
+        const std::array<real, inputs> x{operands...};
+        return moving_depth_piece(corners(x), edges(x), real(0.25), real(0.75), real(0), real(0), real(0.002)).z1;
+    }
+};
+
+struct field_piece : field_and_sample {
+    static constexpr auto name = "piece of a field's depth";
+    template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
+    {
+        using real = std::common_type_t<Reals...>;
+        const std::array<real, inputs> x{operands...};
+        return depth_curve_piece(curve(x), real(0.25), real(0.75), real(0), real(0.002)).z1;
     }
 };
 
@@ -292,6 +341,8 @@ struct cover_search : texel_of_ranges {
 [[maybe_unused]] const bool registered =
     add_kernels<sorted_roots, sorted_roots, coverage, depth, prism_pairs>("motion") &&
     add_kernels<vertex_depths, vertex_depths, field_depths>("motion") &&
+    add_kernels<vertex_line, vertex_line, field_line>("motion") &&
+    add_kernels<vertex_piece, vertex_piece, field_piece>("motion") &&
     add_kernels<any_sight, any_sight, translated_sight>("motion") &&
     add_kernels<shadow_tests, shadow_tests, cover_search>("motion");
 

@@ -23,6 +23,21 @@ constexpr std::array drivers{
     driver{"hard_shadows", gnomon::demo::hard_shadows}, driver{"vulkan_shadows", gnomon::demo::vulkan_shadows},
     driver{"bounds", gnomon::demo::bounds}, driver{"motion_analytic", gnomon::demo::motion_analytic}};
 
+// The words of the command line, the last one first, as CLI11 wants them. It takes the next word for the value of
+// "--name=", so that an empty value is given as a word of its own.
+std::vector<std::string> words_of(int argc, char** argv)
+{
+    std::vector<std::string> words;
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const bool is_empty = word.starts_with("--") && word.ends_with("=") && word.find('=') == word.size() - 1;
+        words.push_back(is_empty ? word.substr(0, word.size() - 1) : word);
+        if (is_empty) words.emplace_back();
+    }
+    std::ranges::reverse(words);
+    return words;
+}
+
 } // namespace
 
 void gnomon::demo::progress(std::string_view driver, std::string_view what)
@@ -62,7 +77,7 @@ try {
             ->needs(still);
     app.add_option("--out", out, "folder for the gallery and report.json")->capture_default_str();
     try {
-        app.parse(argc, argv);
+        app.parse(words_of(argc, argv));
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         fmt::print(stderr, "demo: {}\n", error.what());
@@ -74,9 +89,9 @@ try {
     std::filesystem::create_directories(how.out / "gallery");
 
     if (moving->count() > 0 || exposed->count() > 0) gnomon::demo::animated_model(how, model, animation, shutter);
-    else if (!model.empty()) gnomon::demo::model(how, model);
+    else if (still->count() > 0) gnomon::demo::model(how, model);
     for (const driver& d : drivers)
-        if (names.empty() ? model.empty() : std::count(names.begin(), names.end(), d.name) > 0) d.run(how);
+        if (names.empty() ? still->count() == 0 : std::count(names.begin(), names.end(), d.name) > 0) d.run(how);
     return 0;
 } catch (const std::exception& error) {
     fmt::print(stderr, "demo: {}\n", error.what());

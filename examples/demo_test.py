@@ -240,6 +240,8 @@ class Demo(unittest.TestCase):
                       ["--model", broken], ["--model", self.folder.name], ["--out", broken, "bounds"],
                       ["--animation", "slide"], ["--shutter", "0,1"], ["--model", cube, "--animation"],
                       ["--model", cube, "--animation", "jump"], ["--model", cube, "--shutter"],
+                      ["--model="], ["--model", cube, "--animation=", "--size"],
+                      ["--model", cube, "--animation=", "--shutter", "0,9"],
                       *(["--model", cube, "--shutter", times]
                         for times in ("x", "", "0", "0,x", "0,1,2", "1,0", "-1,0", "0,9", "nan,1", "0,inf"))):
             ended = run(DEMO, *words, *([] if "--out" in words else ["--out", self.out]))
@@ -270,6 +272,11 @@ class Demo(unittest.TestCase):
             errors = {row["method"]: row["rmse"] for row in report}
             self.assertLess(errors[ANALYTIC], errors["accumulation of 8"])
             self.assertIn("cube", (Path(out) / "gallery" / "index.html").read_text())
+            # An empty name is the first animation and takes no flag for a name.
+            ended = run(DEMO, "--model", cube, "--animation=", "--tiny", "--out", out)
+            self.assertEqual(ended.returncode, 0, ended.stderr)
+            facts = json.loads((Path(out) / "gallery" / "animated_model" / "facts.json").read_text())
+            self.assertEqual(facts["animation"], "")
 
 
 if __name__ == "__main__":

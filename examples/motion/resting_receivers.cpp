@@ -1,8 +1,7 @@
 #include "resting_receivers.hpp"
 
 #include <fmt/format.h>
-#include <gnomon/simd/range_look_up.hpp>
-#include <gnomon/simd/xsimd.hpp>
+#include <gnomon/passes/range_look_up.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -169,12 +168,11 @@ class resting_comparison {
         for (const light_receiver& r : receivers_of(at))
             placed.push_back({r.path.x0 / r.path.w0, r.path.y0 / r.path.w0, whole_exposure(r)});
         std::vector<float> found(placed.size());
-        const double spent =
-            least_seconds([&] { static_shadows<xsimd::batch<float>>(map.map(), placed, std::span(found)); });
+        const double spent = least_seconds([&] { static_shadows<float>(map.map(), placed, found); });
         for (float& x : found) x = 1 - x;
         add(at,
-            {fmt::format("{}, receivers analytic, by packs", map.method), map.format, map.bytes_per_texel(),
-             map.build_ms, spent, int(xsimd::batch<float>::size)},
+            {fmt::format("{}, receivers analytic, many at a time", map.method), map.format, map.bytes_per_texel(),
+             map.build_ms, spent},
             found);
     }
 

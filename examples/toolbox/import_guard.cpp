@@ -22,11 +22,16 @@ extern "C" void give_up(int)
 
 } // namespace
 
-import_guard::import_guard(const std::filesystem::path& file)
+import_guard::import_guard(const std::filesystem::path& file) : stack_(static_cast<std::size_t>(SIGSTKSZ))
 {
-    message = file.string() + ": Assimp crashed while reading it\n";
+    message = file.string() + ": its reader crashed\n";
+    stack_t stack{};
+    stack.ss_sp = stack_.data();
+    stack.ss_size = stack_.size();
+    sigaltstack(&stack, &earlier_stack_);
     struct sigaction action {};
     action.sa_handler = give_up;
+    action.sa_flags = SA_ONSTACK;
     for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &action, &earlier_actions_[i]);
     getrlimit(RLIMIT_DATA, &earlier_limit_);
 #ifndef __SANITIZE_ADDRESS__ // whose own tables are larger
@@ -40,6 +45,7 @@ import_guard::~import_guard()
 {
     setrlimit(RLIMIT_DATA, &earlier_limit_);
     for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &earlier_actions_[i], nullptr);
+    sigaltstack(&earlier_stack_, nullptr);
 }
 
 } // namespace gnomon::toolbox

@@ -1,6 +1,6 @@
-// Assimp's readers take some broken files badly: they assert, follow wild pointers, or believe a header that promises
-// 10^11 corners. While a guard lives, memory is limited, so that the last kind ends in std::bad_alloc, and the others
-// end the program with one line, "FILE: cause", and exit code 2. One guard at a time.
+// Readers of models take some broken files badly: they assert, follow wild pointers, descend until the stack is full,
+// or believe a header that promises 10^11 corners. While a guard lives, memory is limited, so that the last kind ends
+// in std::bad_alloc, and the others end the program with one line, "FILE: cause", and exit code 2. One guard at a time.
 #pragma once
 
 #include <sys/resource.h>
@@ -8,6 +8,7 @@
 #include <array>
 #include <csignal>
 #include <filesystem>
+#include <vector>
 
 namespace gnomon::toolbox {
 
@@ -22,6 +23,8 @@ class import_guard {
     static constexpr std::array signals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
     std::array<struct sigaction, signals.size()> earlier_actions_{};
     rlimit earlier_limit_{};
+    std::vector<char> stack_; // for the handler, since the program's own may be full
+    stack_t earlier_stack_{};
 };
 
 } // namespace gnomon::toolbox

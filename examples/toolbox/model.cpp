@@ -1,30 +1,29 @@
 #include "model.hpp"
 
-#include <assimp/material.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <assimp/Importer.hpp>
+#include <cctype>
 #include <cmath>
-#include <cstdint>
 #include <exception>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
-#include "animation.hpp"
+#include "assimp_model.hpp"
+#include "file.hpp"
+#include "gltf_model.hpp"
+#include "gltf_text.hpp"
 #include "import_guard.hpp"
+#include "model_part.hpp"
 
 namespace gnomon::toolbox {
 
 namespace {
-
-glm::vec3 vector(const aiVector3D& v) { return {v.x, v.y, v.z}; }
-
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 std::string one_line(std::string text)
 {
@@ -33,146 +32,106 @@ std::string one_line(std::string text)
     return text.substr(0, text.find_last_not_of(' ') + 1);
 }
 
-glm::vec3 albedo_of(const aiScene& source, unsigned material)
+bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+// Leaves out triangles that have a corner nowhere at either time.
+void drop_undrawable(model_part& part)
 {
-    aiColor3D colour(0.7f);
-    if (material < source.mNumMaterials) source.mMaterials[material]->Get(AI_MATKEY_COLOR_DIFFUSE, colour);
-    const glm::vec3 albedo(colour.r, colour.g, colour.b);
-    return finite(albedo) ? glm::clamp(albedo, 0.f, 1.f) : glm::vec3(0.7f);
+    std::erase_if(part.triangles, [&](const glm::uvec3& t) {
+        return !(finite(part.open[t.x]) && finite(part.open[t.y]) && finite(part.open[t.z]) &&
+                 finite(part.closing[t.x]) && finite(part.closing[t.y]) && finite(part.closing[t.z]));
+    });
 }
 
-// The places where a mesh is when the shutter opens and closes, and the normals that it has before; a mesh that bones
-// move has none.
-struct moving_mesh {
-    mesh open;
-    std::vector<glm::vec3> closing;
-};
-
-struct poses {
-    pose open, closing;
-};
-
-bool drawable(const aiFace& face, const moving_mesh& part)
+// Moves corners that no triangle uses to one that is used, so that they do not count in the bounds.
+void gather_unused(model_part& part)
 {
-    return face.mNumIndices == 3 && std::all_of(face.mIndices, face.mIndices + 3, [&](unsigned index) {
-               return index < part.closing.size() && finite(part.open.positions[index]) && finite(part.closing[index]);
-           });
+    std::vector<bool> used(part.open.size());
+    for (const glm::uvec3& t : part.triangles) used[t.x] = used[t.y] = used[t.z] = true;
+    for (std::size_t i = 0; i < used.size(); ++i)
+        if (!used[i]) {
+            part.open[i] = part.open[part.triangles[0].x];
+            part.closing[i] = part.closing[part.triangles[0].x];
+        }
 }
 
-moving_mesh convert(const aiScene& source, const aiMesh& from, const aiNode& node, const poses& at)
+// The parts on y = 0 above the origin, the longest side of the bounds of both times one. In double, because a box that
+// float can hold may be wider than float's range.
+moving_scene normalised(std::string name, const std::vector<model_part>& parts)
 {
-    moving_mesh part;
-    part.open.name = from.mName.C_Str();
-    part.open.albedo = albedo_of(source, from.mMaterialIndex);
-    const std::vector<aiMatrix4x4> opening = vertex_transforms(from, node, at.open);
-    const std::vector<aiMatrix4x4> closing = vertex_transforms(from, node, at.closing);
-    const bool skinned = opening.size() > 1;
-    const bool mirrored = aiMatrix3x3(opening[0]).Determinant() < 0;
-    const aiMatrix3x3 normal_to_world = aiMatrix3x3(opening[0]).Inverse().Transpose();
-    for (unsigned i = 0; i < from.mNumVertices; ++i) {
-        part.open.positions.push_back(vector(opening[skinned ? i : 0] * from.mVertices[i]));
-        part.closing.push_back(vector(closing[skinned ? i : 0] * from.mVertices[i]));
-        if (from.HasNormals() && !skinned) part.open.normals.push_back(vector(normal_to_world * from.mNormals[i]));
-    }
-    std::vector<glm::uvec3>& triangles = part.open.triangles;
-    for (unsigned i = 0; i < from.mNumFaces; ++i) {
-        const aiFace& face = from.mFaces[i];
-        if (!drawable(face, part)) continue;
-        const glm::uvec3 corners(face.mIndices[0], face.mIndices[1], face.mIndices[2]);
-        triangles.push_back(mirrored ? glm::uvec3(corners.x, corners.z, corners.y) : corners);
-    }
-    // Corners that no triangle uses must not count in the bounds.
-    std::vector<bool> used(part.closing.size());
-    for (const glm::uvec3& t : triangles) used[t.x] = used[t.y] = used[t.z] = true;
-    if (!triangles.empty())
-        for (std::size_t i = 0; i < used.size(); ++i)
-            if (!used[i]) {
-                part.open.positions[i] = part.open.positions[triangles[0].x];
-                part.closing[i] = part.closing[triangles[0].x];
-            }
-    for (glm::vec3& normal : part.open.normals) {
-        const float length = glm::length(normal);
-        normal = length > 0 && std::isfinite(length) ? normal / length : glm::vec3(0);
-    }
-    return part;
-}
-
-void append_node(moving_scene& target, const aiScene& source, const aiNode& node, const poses& at)
-{
-    // Some of Assimp's readers leave references to nothing.
-    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-        if (node.mMeshes[i] >= source.mNumMeshes) continue;
-        moving_mesh part = convert(source, *source.mMeshes[node.mMeshes[i]], node, at);
-        if (part.open.triangles.empty()) continue;
-        target.open.meshes.push_back(std::move(part.open));
-        target.closing.push_back(std::move(part.closing));
-    }
-    for (unsigned i = 0; i < node.mNumChildren; ++i)
-        if (node.mChildren[i]) append_node(target, source, *node.mChildren[i], at);
-}
-
-// In double, because a box that float can hold may be wider than float's range.
-void normalise(moving_scene& model)
-{
-    const bounds box = bounds_of(model);
-    const glm::dvec3 lower(box.lower), upper(box.upper), extent = upper - lower;
+    glm::dvec3 lower = parts[0].open[0], upper = lower;
+    for (const model_part& part : parts)
+        for (const std::vector<glm::dvec3>* places : {&part.open, &part.closing})
+            for (const glm::dvec3& place : *places) lower = glm::min(lower, place), upper = glm::max(upper, place);
+    const glm::dvec3 extent = upper - lower;
     const double longest = std::max({extent.x, extent.y, extent.z});
     if (!(longest > 0)) throw std::runtime_error("all triangles lie in one point");
+    if (!std::isfinite(longest)) throw std::runtime_error("the model is too large");
     const glm::dvec3 origin(0.5 * (lower.x + upper.x), lower.y, 0.5 * (lower.z + upper.z));
-    const auto fit = [&](std::vector<glm::vec3>& positions) {
-        for (glm::vec3& position : positions) position = glm::vec3((glm::dvec3(position) - origin) / longest);
+    const auto fit = [&](const std::vector<glm::dvec3>& places) {
+        std::vector<glm::vec3> result;
+        for (const glm::dvec3& place : places) result.emplace_back((place - origin) / longest);
+        return result;
     };
-    for (mesh& part : model.open.meshes) fit(part.positions);
-    for (std::vector<glm::vec3>& positions : model.closing) fit(positions);
-}
-
-// Reads a file in the poses that `choose` finds for its scene.
-template <class Choose> moving_scene import(const std::filesystem::path& file, const Choose& choose)
-{
-    const import_guard guard(file);
-    Assimp::Importer importer;
-    const aiScene* source = importer.ReadFile(file.string(), aiProcess_Triangulate);
-    if (!source || !source->mRootNode)
-        throw std::runtime_error(importer.GetErrorString() == std::string("std::bad_alloc")
-                                     ? "needs too much memory"
-                                     : importer.GetErrorString());
-    moving_scene model{{file.stem().string(), {}}, {}};
-    append_node(model, *source, *source->mRootNode, choose(*source));
-    if (model.open.meshes.empty()) throw std::runtime_error("no triangles in it");
-    normalise(model);
+    moving_scene model{{std::move(name), {}}, {}};
+    for (const model_part& part : parts) {
+        model.open.meshes.push_back({.name = part.name,
+                                     .albedo = part.albedo,
+                                     .positions = fit(part.open),
+                                     .normals = part.normals,
+                                     .triangles = part.triangles});
+        for (glm::vec3& normal : model.open.meshes.back().normals) {
+            const float length = glm::length(normal);
+            normal = length > 0 && std::isfinite(length) ? normal / length : glm::vec3(0);
+        }
+        model.closing.push_back(fit(part.closing));
+    }
     return model;
 }
 
-template <class Choose> moving_scene load(const std::filesystem::path& file, const Choose& choose)
-try {
+// Whether the file is glTF, but for version 1, which is another format and Assimp's.
+bool is_gltf(const std::filesystem::path& file)
+{
+    std::string extension = file.extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return (extension == ".gltf" || extension == ".glb") && !is_gltf_1(read_file(file));
+}
+
+moving_scene read(const std::filesystem::path& file, const std::optional<exposure>& when)
+{
     if (!std::filesystem::exists(file)) throw std::runtime_error("no such file");
     if (!std::filesystem::is_regular_file(file)) throw std::runtime_error("not a file");
-    return import(file, choose);
+    const import_guard guard(file);
+    std::vector<model_part> parts = is_gltf(file) ? read_gltf_parts(file, when) : read_assimp_parts(file, when);
+    for (model_part& part : parts) drop_undrawable(part);
+    std::erase_if(parts, [](const model_part& part) { return part.triangles.empty(); });
+    if (parts.empty()) throw std::runtime_error("no triangles in it");
+    for (model_part& part : parts) gather_unused(part);
+    return normalised(file.stem().string(), parts);
+}
+
+moving_scene load(const std::filesystem::path& file, const std::optional<exposure>& when)
+try {
+    return read(file, when);
 } catch (const std::exception& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), one_line(error.what())));
+    std::string cause = one_line(error.what());
+    // Assimp catches the exception and keeps its name.
+    if (dynamic_cast<const std::bad_alloc*>(&error) || dynamic_cast<const std::length_error*>(&error) ||
+        cause == "std::bad_alloc")
+        cause = "needs too much memory";
+    const std::string prefix = file.string() + ": ";
+    throw std::runtime_error(cause.starts_with(prefix) ? cause : prefix + cause);
 }
 
 } // namespace
 
-scene load_model(const std::filesystem::path& file)
-{
-    return load(file,
-                [](const aiScene& source) {
-                    const pose rest = pose_at_rest(source);
-                    return poses{rest, rest};
-                })
-        .open;
-}
+scene load_model(const std::filesystem::path& file) { return load(file, std::nullopt).open; }
 
 moving_scene load_animated_model(const std::filesystem::path& file, std::string_view animation, double open,
                                  double closing)
 {
-    return load(file, [&](const aiScene& source) {
-        const aiAnimation& found = find_animation(source, animation);
-        if (!(open <= closing))
-            throw std::runtime_error(fmt::format("the shutter opens at {} s and closes at {} s", open, closing));
-        return poses{pose_at(source, found, open), pose_at(source, found, closing)};
-    });
+    return load(file, exposure{animation, open, closing});
 }
 
 } // namespace gnomon::toolbox

@@ -122,15 +122,16 @@ class texel_lists {
         }
     }
 
-    // The same of what of them is in front.
-    void append_resolved_to(stack<range>& all, std::span<std::uint32_t, texel_pack::size> sizes)
+    // The same of what of them is in front; finish(list) says what of a list, which it may change, is kept.
+    template <class Finish>
+    void append_resolved_to(stack<range>& all, std::span<std::uint32_t, texel_pack::size> sizes, const Finish& finish)
     {
         if (!backdrops_) add_seen(backdrop_.rest().t0 < backdrop_.rest().t1, backdrop_.rest());
         resolve();
         for (std::size_t i = 0; i < texel_pack::size; ++i) {
-            sizes[i] = static_cast<std::uint32_t>(pieces_[i].size());
-            std::ranges::transform(pieces_[i], all.room_for(sizes[i]),
-                                   [&](const piece& p) { return rows_[p.row].range(i); });
+            const std::span list(all.room_for(pieces_[i].size() + 1), pieces_[i].size());
+            std::ranges::transform(pieces_[i], list.begin(), [&](const piece& p) { return rows_[p.row].range(i); });
+            sizes[i] = static_cast<std::uint32_t>(finish(list).size());
             all.grow(sizes[i]);
         }
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <gnomon/passes/join.hpp>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -24,6 +25,7 @@ namespace {
 using map = range_map<float>;
 
 constexpr std::size_t texels_per_tile = map::texels_per_tile, packs_per_tile = moving_samples::packs_per_tile;
+constexpr std::size_t long_lists = 256 * texel_pack::size; // ranges of a pack
 
 // What a tile needs, and what becomes of it.
 struct tile_lists {
@@ -155,14 +157,33 @@ GNOMON_INLINE std::size_t add_facing(const sighting& at, const linear_sight& sig
     return add_facing(at, at.triangle.curved(at.samples, 1), 1);
 }
 
-void rasterize_tile(const tiled_triangles& scenery, std::size_t tile, const range_options& how, tile_lists& to)
+// Joins ranges of one mesh.
+class mesh_joiner {
+  public:
+    mesh_joiner(const scene& world, float tolerance) : numbers_(world), tolerance_(tolerance) {}
+
+    std::span<depth_time_range<float>> operator()(std::span<depth_time_range<float>> list) const
+    {
+        return join_ranges(list, tolerance_, [&](const auto& a, const auto& b) { return mesh(a) == mesh(b); });
+    }
+
+  private:
+    std::uint32_t mesh(const depth_time_range<float>& r) const { return numbers_[std::uint32_t(r.id)].mesh; }
+
+    triangle_numbers numbers_;
+    float tolerance_;
+};
+
+void rasterize_tile(const tiled_triangles& scenery, std::size_t tile, const range_options& how,
+                    const mesh_joiner& joined, tile_lists& to)
 {
     to.members.assign(scenery, tile, how.resolved);
     to.counts = {};
     to.lists.clear();
     for (std::size_t i = 0; i < packs_per_tile; ++i) {
         const moving_samples samples(i);
-        std::size_t budget = how.budget;
+        // Resolving compares ranges with one another, so long lists are thinned out in between.
+        std::size_t budget = how.resolved ? std::min(how.budget, long_lists) : how.budget;
         to.texels.clear(how.resolved, how.backdrops);
         to.members.for_each(i / moving_samples::packs_per_block, [&](const tile_triangle& triangle) {
             const sighting at{triangle, samples, how.depth_tolerance, to.texels};
@@ -177,7 +198,7 @@ void rasterize_tile(const tiled_triangles& scenery, std::size_t tile, const rang
             budget = std::max(budget, 2 * to.texels.room());
         });
         const auto sizes = std::span(to.sizes).subspan(i * texel_pack::size).first<texel_pack::size>();
-        if (how.resolved) to.texels.append_resolved_to(to.lists, sizes);
+        if (how.resolved) to.texels.append_resolved_to(to.lists, sizes, joined);
         else to.texels.append_to(to.lists, sizes);
     }
 }
@@ -254,6 +275,7 @@ const range_lists& range_rasterizer::operator()(const moving_scene& world, const
                                                 int height, const range_options& how)
 {
     const tiled_triangles scenery(world, eye, width, height, how.visible);
+    const mesh_joiner joined(world.open, how.joining);
     lists_.width = width, lists_.height = height, lists_.counts = {};
     lists_.first.resize(map::texels(std::size_t(width), std::size_t(height)) + 1);
     // As many tiles at a time as keep all threads busy and caches full: their lists are laid out while they are there.
@@ -264,7 +286,7 @@ const range_lists& range_rasterizer::operator()(const moving_scene& world, const
     for (std::size_t tile = 0; tile < scenery.tiles(); tile += wave) {
         const std::span tiles = std::span(scratch_->lists).first(std::min(wave, scenery.tiles() - tile));
         tbb::parallel_for(std::size_t(0), tiles.size(),
-                          [&](std::size_t i) { rasterize_tile(scenery, tile + i, how, tiles[i]); });
+                          [&](std::size_t i) { rasterize_tile(scenery, tile + i, how, joined, tiles[i]); });
         for (std::size_t i = 0; i < tiles.size(); ++i) {
             begins[i] = end;
             end += tiles[i].lists.used().size();

@@ -25,6 +25,7 @@ struct range_options {
     bool resolved = false;     // lists of what is in front, without overlaps
     bool backdrops = true;     // resolved lists keep what is behind all else at all times, though it shadows nothing
     float depth_tolerance = 0; // no line is further from depth than this; 0: one line
+    float joining = 0; // resolved ranges of one mesh become one that is behind them by no more than this (join.hpp)
     std::size_t budget = std::size_t(1) << 14; // ranges that a pack of texels has room for before it resolves them
 };
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <gnomon/motion/depth_planes.h>
-#include <gnomon/motion/edge_field.h>
+#include <gnomon/motion/edge_widening.h>
 #include <gnomon/passes/range_map.hpp>
 #include <gnomon/simd/xsimd.hpp>
 

@@ -28,6 +28,7 @@
 #include "motion/coverage_map.h"
 #include "motion/depth_planes.h"
 #include "motion/edge_field.h"
+#include "motion/edge_widening.h"
 #include "motion/facing.h"
 #include "motion/moving_receiver.h"
 #include "motion/moving_triangle.h"

@@ -105,7 +105,6 @@ TEST_CASE("no pass over ranges allocates")
 {
     using namespace gnomon;
     using map = range_map<float>;
-    using pack = xsimd::batch<float>;
     const std::array<depth_time_range<float>, 3> loose{{{0, 0.75f, 0, 0, 1}, {0.25f, 1, -1, 1, 2}, {0, 1, 0.5f, 0, 3}}};
     std::array<visible_span<float>, resolve_capacity(3, range_ids::any)> spans{};
     std::array<std::uint32_t, 16> texels{};
@@ -119,7 +118,7 @@ TEST_CASE("no pass over ranges allocates")
     for (std::size_t i = 0; i < resolved.size(); ++i) some[i] = range_of<float>(loose, resolved[i]);
     sort_into_lists<float>(texels, some, first, ranges);
     const map lists{12, 9, first, ranges};
-    static_shadows<pack>(lists, receivers, std::span<float>(shadows));
+    static_shadows<float>(lists, receivers, shadows);
     const float shadow = static_shadow(lists, 0.5f, 0.5f, static_receiver_begin(0.f, 4.f, 0.f, 1.f)) +
                          moving_shadow(lists, path, 0.f, 1.f) + sampled_shadow(lists, path, 0.f, 16.f);
     CHECK(allocations == before);

@@ -139,7 +139,7 @@ inline constexpr input_family<T> input_families[] = {
      }},
     {"receiver_path", 11,
      [](auto put, const situation& s, bit_source& bits) { put(any_seen_receiver<T>(s, bits).path); }},
-    {"texel_sweep", 19,
+    {"texel_sweep", 20,
      [](auto put, const situation& s, bit_source& bits) { put(any_seen_receiver<T>(s, bits).sweep); }},
     {"moving_receiver", 14,
      [](auto put, const situation& s, bit_source& bits) { put(any_seen_receiver<T>(s, bits).state); }},

@@ -6,6 +6,7 @@
 #include "coverage_check.hpp"
 
 #include <gnomon/motion/depth_planes.h>
+#include <gnomon/motion/edge_widening.h>
 
 #include <doctest/doctest.h>
 

@@ -36,6 +36,70 @@ TEST_CASE_TEMPLATE("shutters: from 0 to 1, never back, their density as said", T
     }
 }
 
+TEST_CASE_TEMPLATE("exposures: between both times, and a moment's is what is there then", T, float, double)
+{
+    constexpr T least = T(0x1p-20);
+    const auto times = [](T a, T b) {
+        const shutter_exposure<T> x = shutter_exposure_of(a, b);
+        return std::array<T, 2>{x.begin, x.end};
+    };
+    CHECK(times(T(0.25), T(0.75)) == std::array<T, 2>{T(0.25), T(0.75)});
+    CHECK(times(T(0.75), T(0.25)) == std::array<T, 2>{T(0.25), T(0.75)});
+    CHECK(times(T(0), T(0)) == std::array<T, 2>{T(0), least});
+    CHECK(times(T(1), T(1)) == std::array<T, 2>{1 - least, T(1)});
+    CHECK(times(T(2), T(2))[0] == 2);
+    CHECK(std::isnan(times(nan_of<T>, T(1))[0]));
+    CHECK(std::isnan(times(T(0), nan_of<T>)[1]));
+
+    // A list of ranges that touch or leave gaps, asked in the midst of one of its parts.
+    bit_source bits(24);
+    std::int64_t shadowed = 0;
+    for (std::int64_t i = 0; i < effort(20'000); ++i) {
+        const auto list = resolved_list<T>(bits);
+        const T t = T(bits.uniform(0, 1)), z = T(bits.uniform(-1, 1)), id = T(bits.below(3));
+        bool clear = true;
+        T there = 0;
+        for (const auto& r : list) {
+            const auto beside = [&](wide time) { return std::abs(time - wide(t)) > 4 * wide(least); };
+            const wide crossing =
+                wide(r.t0) + (wide(z) - wide(r.z0)) / (wide(r.z1) - wide(r.z0)) * (wide(r.t1) - wide(r.t0));
+            clear = clear && beside(wide(r.t0)) && beside(wide(r.t1)) && beside(crossing);
+            there = std::max(there, range_intensity(r, t, z, id, T(0)));
+        }
+        if (!clear) continue;
+        shadowed += there > 0;
+        for (const response kind : responses) {
+            const auto shutter = any_shutter(kind, t, t, bits);
+            static_receiver<T> at_rest = static_receiver_begin(z, id, t, t);
+            const receiver_path<T> path{{T(0), T(1), z, z, id}, T(0.5), T(0.5), T(1), T(0.5), T(0.5), T(1)};
+            moving_receiver<T> moving = moving_receiver_begin(path, t, t);
+            for (const auto& r : list) at_rest = shutter.add(at_rest, r), moving = shutter.add(moving, r);
+            REQUIRE(static_receiver_end(at_rest) == there);
+            REQUIRE(moving_receiver_end(moving) == there);
+        }
+    }
+    CHECK(shadowed > effort(20'000) / 20);
+}
+
+TEST_CASE_TEMPLATE("exposures: swapped ends are the same exposure, anything gives an intensity", T, float, double)
+{
+    hostile_source<T> hostile(25);
+    bit_source bits(26);
+    for (std::int64_t i = 0; i < effort(20'000); ++i) {
+        const auto list = resolved_list<T>(bits);
+        const T a = T(bits.uniform(0, 1)), b = T(bits.uniform(0, 1)), z = T(bits.uniform(-1, 1));
+        const auto shutter = any_shutter(responses[std::size_t(i) % 3], std::min(a, b), std::max(a, b), bits);
+        const auto intensity = [&](T begin, T end) {
+            static_receiver<T> state = static_receiver_begin(z, T(9), begin, end);
+            for (const auto& r : list) state = shutter.add(state, r);
+            return static_receiver_end(state);
+        };
+        REQUIRE(intensity(a, b) == intensity(b, a));
+        const T odd = intensity(hostile.pattern(), bits.chance(0.5) ? hostile.special() : a);
+        REQUIRE((odd >= 0 && odd <= 1));
+    }
+}
+
 TEST_CASE_TEMPLATE("given weights: whatever they are they sum to 1, and without any it is a box", T, float, double)
 {
     hostile_source<T> hostile(21);

@@ -5,7 +5,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cstring>
+#include <vector>
 
 using namespace gnomon;
 using namespace gnomon::test;
@@ -82,9 +85,120 @@ TEST_CASE_TEMPLATE("sweep: without a path it is one texel for all the time", T, 
     receiver_path<T> behind = p;
     behind.w1 = T(-1);
     CHECK(texel_sweep_begin(behind).t_end == T(0.75));
+    CHECK(texel_sweep_over(behind, T(0), T(0), T(9), T(9)).t_last < T(0.75));
+    CHECK(texel_sweep_over(p, T(3), T(0), T(9), T(2)).column == 9); // none
     behind = p;
     behind.depth.t1 = T(0.125);
     CHECK(texel_sweep_begin(behind).t_end == T(0.125));
+}
+
+namespace {
+
+struct texel_area {
+    int left, top, right, bottom;
+};
+
+template <class T> texel_sweep<T> sweep_over(const receiver_path<T>& p, const texel_area& a)
+{
+    return texel_sweep_over(p, T(a.left), T(a.top), T(a.right), T(a.bottom));
+}
+
+/// The texels from (left, top) to before (right, bottom) in which a sweep takes time.
+template <class T> std::vector<std::array<T, 4>> visited(texel_sweep<T> s, const texel_area& a)
+{
+    std::vector<std::array<T, 4>> result;
+    for (;; s = texel_sweep_next(s)) {
+        if (s.t_begin < s.t_end && s.column >= T(a.left) && s.column < T(a.right) && s.row >= T(a.top) &&
+            s.row < T(a.bottom))
+            result.push_back({s.column, s.row, s.t_begin, s.t_end});
+        if (!(s.t_end < s.t_last)) return result;
+    }
+}
+
+texel_area any_area(bit_source& bits)
+{
+    const int left = int(bits.below(9)) - 2, top = int(bits.below(9)) - 2;
+    return {left, top, left + 1 + int(bits.below(6)), top + 1 + int(bits.below(6))};
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("sweep over an area: the bits of the whole sweep there, and no more steps than it takes", T, float,
+                   double)
+{
+    bit_source bits(36);
+    std::int64_t other_bits = 0, some = 0;
+    const std::int64_t cases = effort(50'000);
+    for (std::int64_t i = 0; i < cases; ++i) {
+        const receiver_path<T> p = any_path<T>(bits, 12);
+        const texel_area area = any_area(bits);
+        const auto expected = visited(texel_sweep_begin(p), area), found = visited(sweep_over(p, area), area);
+        some += !expected.empty();
+        if (found == expected) continue;
+        // Where the path enters by a corner or along a border, rounding says by which texel.
+        ++other_bits;
+        const auto time = [](const std::vector<std::array<T, 4>>& texels) {
+            wide sum = 0;
+            for (const auto& t : texels) sum += wide(t[3]) - wide(t[2]);
+            return sum;
+        };
+        const auto on_border = [](T x, T w) { return std::abs(x / w - std::round(x / w)) < T(1e-4); };
+        if (on_border(p.x0, p.w0) || on_border(p.y0, p.w0)) continue; // it belongs to one side
+        REQUIRE(std::abs(time(found) - time(expected)) <= 1000 * rounding<T>);
+    }
+    CHECK(some > cases / 5);
+    CHECK(other_bits < cases / 50);
+}
+
+TEST_CASE_TEMPLATE("sweep over an area: ends in time, whatever the path", T, float, double)
+{
+    hostile_source<T> hostile(37);
+    bit_source bits(38);
+    for (std::int64_t i = 0; i < effort(200'000); ++i) {
+        const receiver_path<T> p = i % 4 ? hostile_path<T>(hostile, bits) : any_path<T>(bits, 1e9);
+        const texel_area a = any_area(bits);
+        texel_sweep<T> s = sweep_over(p, a);
+        for (std::int64_t steps = (a.right - a.left) + (a.bottom - a.top) + 3;; s = texel_sweep_next(s)) {
+            REQUIRE((s.column >= T(a.left - 1) && s.column <= T(a.right)));
+            REQUIRE((s.row >= T(a.top - 1) && s.row <= T(a.bottom)));
+            if (!(s.t_end < s.t_last)) break;
+            REQUIRE(--steps > 0);
+        }
+    }
+}
+
+// The light's plane is where w is 0: behind it the path is not seen.
+TEST_CASE_TEMPLATE("sweep over an area: where the path is, also past the light's plane", T, float, double)
+{
+    bit_source bits(39);
+    std::int64_t inside = 0, behind = 0;
+    for (std::int64_t i = 0; i < effort(50'000); ++i) {
+        receiver_path<T> p = any_path<T>(bits, 12);
+        const double x = bits.uniform(-8, 8), y = bits.uniform(-8, 8), w = bits.uniform(-1, 0.5);
+        if (bits.chance(0.5)) p.x0 = T(x), p.y0 = T(y), p.w0 = T(w);
+        else p.x1 = T(x), p.y1 = T(y), p.w1 = T(w);
+        const texel_area area = any_area(bits);
+        const auto texels = visited(sweep_over(p, area), area);
+        const wide t = wide(p.depth.t0) + wide(bits.uniform(0, 1)) * (wide(p.depth.t1) - wide(p.depth.t0));
+        const exact_position at = exact_path_at(p, t);
+        // x - c w is known within 8 2^-p of 12 + 12 w, and positions, which it is divided by w for, within its 16th.
+        const wide slack = 8 * 24 * 16 * rounding<T> / std::abs(at.w) + 1000 * rounding<T>;
+        const auto off = [&](wide low, wide high, wide position) { return std::max(low - position, position - high); };
+        const wide beyond = std::max(off(area.left, area.right, at.x), off(area.top, area.bottom, at.y));
+        const auto there =
+            std::ranges::find_if(texels, [&](const auto& c) { return wide(c[2]) <= t && t <= wide(c[3]); });
+        if (at.w < 0 || beyond > slack) {
+            behind += at.w < 0 && beyond < 0;
+            REQUIRE(there == texels.end());
+        } else if (beyond < -slack) {
+            ++inside;
+            REQUIRE(there != texels.end());
+            REQUIRE(off(wide((*there)[0]), wide((*there)[0]) + 1, at.x) <= slack);
+            REQUIRE(off(wide((*there)[1]), wide((*there)[1]) + 1, at.y) <= slack);
+        }
+    }
+    CHECK(inside > effort(50'000) / 50);
+    CHECK(behind > 0);
 }
 
 // A point of time well inside of a step is in the step's texel: well means more than the error of border times, and

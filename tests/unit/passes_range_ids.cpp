@@ -5,8 +5,6 @@
 
 #include <gnomon/passes/range_look_up.hpp>
 #include <gnomon/passes/resolve.hpp>
-#include <gnomon/simd/range_look_up.hpp>
-#include <gnomon/simd/xsimd.hpp>
 
 #include <doctest/doctest.h>
 
@@ -75,20 +73,20 @@ template <class T> struct one_texel {
     range_map<T> map() const { return {1, 1, first, ranges}; }
     range_map<T> with_totals() const { return {1, 1, first, ranges, totals}; }
 
-    wide moving(const depth_time_range<T>& course) const
+    wide moving(const range_map<T>& by, const depth_time_range<T>& course) const
     {
         const receiver_path<T> path{course, T(0.5), T(0.5), T(1), T(0.5), T(0.5), T(1)};
-        return wide(moving_shadow(map(), path, course.t0, course.t1));
+        return wide(moving_shadow(by, path, course.t0, course.t1));
     }
     wide resting(const range_map<T>& by, const static_receiver<T>& r) const
     {
         return wide(static_shadow(by, T(0.5), T(0.5), r));
     }
-    wide by_packs(const range_map<T>& by, const static_receiver<T>& r) const
+    wide at_once(const range_map<T>& by, const static_receiver<T>& r) const
     {
         const placed_receiver<T> placed{T(0.5), T(0.5), r};
         T found = 0;
-        static_shadows<xsimd::batch<T>>(by, std::span(&placed, 1), std::span(&found, 1));
+        static_shadows<T>(by, std::span(&placed, 1), std::span(&found, 1));
         return wide(found);
     }
 };
@@ -111,13 +109,14 @@ template <class T> double excess(const list<T>& ranges, const depth_time_range<T
             const wide error = 32 * spans * rounding<T> / (wide(seen.t1) - wide(seen.t0));
             most = std::max(most, double(std::max(low - found, found - high) / error));
         };
-        ask(texel.moving(course), course);
+        ask(texel.moving(texel.map(), course), course);
+        ask(texel.moving(texel.with_totals(), course), course);
         depth_time_range<T> level = course;
         level.z1 = level.z0;
         const auto at_rest = [&](const depth_time_range<T>& seen) {
             const auto r = static_receiver_begin(seen.z0, seen.id, seen.t0, seen.t1);
             for (const range_map<T>& by : {texel.map(), texel.with_totals()})
-                ask(texel.resting(by, r), seen), ask(texel.by_packs(by, r), seen);
+                ask(texel.resting(by, r), seen), ask(texel.at_once(by, r), seen);
         };
         at_rest(level);
         level.t0 = 0, level.t1 = 1; // of which totals are
@@ -220,6 +219,31 @@ TEST_CASE("resolve_ranges: the second layer follows the span that it is behind")
     CHECK(shadow(0.5f, 3) == 1);
     CHECK(shadow(-0.25f, 1) == 0);
     CHECK(resolved(ranges, range_ids::surfaces).size() == 2);
+    CHECK(total_of<float>(spans, range_ids::surfaces).id == 1); // who promises too much keeps the second layer
+}
+
+TEST_CASE_TEMPLATE("total_of: hidden always where spans fill all of the time, and there alone", T, float, double)
+{
+    bit_source bits(74);
+    std::int64_t always = 0;
+    const std::int64_t cases = effort(20'000);
+    for (std::int64_t i = 0; i < cases; ++i) {
+        std::vector<T> times(1 + bits.below(6));
+        for (T& t : times) t = T(bits.uniform(0, 1));
+        times.insert(times.end(), {T(0), T(1)});
+        std::ranges::sort(times);
+        const std::size_t missing = bits.below(2 * times.size()); // or none
+        list<T> spans;
+        for (std::size_t k = 0; k + 1 < times.size(); ++k)
+            if (k != missing && times[k] < times[k + 1])
+                spans.push_back(
+                    {times[k], times[k + 1], T(bits.uniform(-1, 1)), T(bits.uniform(-1, 1)), T(bits.below(3))});
+        const bool filled = missing + 1 >= times.size() || times[missing] == times[missing + 1];
+        REQUIRE((total_of<T>(spans, range_ids::any).shadowed == 1) == filled);
+        always += filled;
+    }
+    CHECK(always > 0);
+    CHECK(always < cases);
 }
 
 #if defined(__cpp_exceptions)

@@ -110,9 +110,13 @@ TEST_CASE_TEMPLATE("resolve_rows: at any time the depth that is in front", Pack,
     std::int64_t there = 0;
     for (std::int64_t n = 0; n < test::effort(2'000); ++n) {
         std::vector<list> lists(Pack::size);
-        const bool coarse = bits.chance(0.3);
+        const bool coarse = bits.chance(0.3), together_within_ties = bits.chance(0.3);
         for (list& some : lists)
-            for (std::size_t k = bits.below(25); k > 0; --k) some.push_back(any_range(bits, coarse, false));
+            for (std::size_t k = bits.below(25); k > 0; --k) {
+                depth_time_range<float> r = any_range(bits, coarse, false);
+                if (together_within_ties) r.z0 *= 1e-5f, r.z1 *= 1e-5f;
+                some.push_back(r);
+            }
         const std::vector<list> together = resolved_together<Pack>(lists);
         for (std::size_t i = 0; i < lists.size(); ++i)
             for (int k = 0; k < 8; ++k) {

@@ -137,3 +137,31 @@ TEST_CASE("resolved maps and caster maps answer as all ranges do, by any budget 
     CHECK(early > 50);
     CHECK(left_out > 50);
 }
+
+// The envelope of many lines is short, so work does not grow by the square of their number.
+TEST_CASE("a texel with thousands of layers that cross one another is resolved, by thinning lists out")
+{
+    bit_source bits(82);
+    moving_part layers;
+    const auto real = [&](double low, double high) { return static_cast<float>(bits.uniform(low, high)); };
+    for (std::uint32_t i = 0; i < 3000; ++i) {
+        const float from = real(-0.9, 0.9), to = std::sqrt(std::max(0.8f - from * from, 0.f)); // around an arc
+        for (const glm::vec2& corner : {glm::vec2(-60, -60), glm::vec2(190, -60), glm::vec2(-60, 190)})
+            layers.add({corner.x, from, corner.y}, {corner.x, to, corner.y});
+        layers.open.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    range_rasterizer rasterize;
+    const auto at = [&](const range_options& how) { return rasterize(world_of({layers}), light_above(), 8, 8, how); };
+    const range_lists all = at({.budget = std::size_t(1) << 20}), resolved = at({.resolved = true});
+    CHECK(all.map()(3, 4).size() == 3000);
+    CHECK(resolved.counts.early_resolves > 0);
+    for (int i = 0; i < 1000; ++i) {
+        const std::size_t x = bits.below(8), y = bits.below(8);
+        const float t = real(0, 1);
+        float nearest = 2, found = 2;
+        for (const auto& r : all.map()(x, y)) nearest = std::min(nearest, range_depth(r, t));
+        for (const auto& r : resolved.map()(x, y))
+            if (r.t0 <= t && t < r.t1) found = std::min(found, range_depth(r, t));
+        REQUIRE(std::abs(found - nearest) < 1e-5f);
+    }
+}

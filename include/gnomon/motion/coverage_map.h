@@ -152,13 +152,11 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_cover_end(GNOMON_T(range_cover) s
     return range_select(covers, state.best, range_empty(Real(-1)));
 }
 
-/// 1 where a range may be left out of a list that keeps the cover, since no test of a receiver changes by it: one that
-/// is never nearer than the cover's farther end, or shadows nothing. At each time a receiver that is behind it is
-/// behind the cover, too, and shadowed by that, whatever range_depth rounds: that is what the margin is for, which also
-/// keeps a level cover from hiding itself. Only the cover's own surface is not shadowed by it; but that is in front of
-/// the range, as long as the receiver is where the cover says that its surface is. One of the cover's id that the
-/// shadow map's resolution puts behind all of the cover may lose a false shadow. Domain: depths in [-1, 1], times in
-/// [0, 1].
+/// 1 where a range may be left out of a list that keeps the cover: one that is never nearer than the cover's farther
+/// end, or shadows nothing. At each time a receiver that is behind it is behind the cover, too, and shadowed by that,
+/// whatever range_depth rounds: that is what the margin is for, which also keeps a level cover from hiding itself. So a
+/// receiver gets the answer of all ranges, unless it has the cover's id and the cover is in front of it by more than
+/// its bias: ids are for what range_list.h says. Domain: depths in [-1, 1], times in [0, 1].
 GNOMON_KERNEL Real range_cover_hides(GNOMON_T(depth_time_range) cover, GNOMON_T(depth_time_range) r)
 {
     GNOMON_MASK some = r.t0 <= r.t1 && r.z0 == r.z0 && r.z1 == r.z1;
@@ -167,15 +165,21 @@ GNOMON_KERNEL Real range_cover_hides(GNOMON_T(depth_time_range) cover, GNOMON_T(
     return gnomon_select(hidden || !some, Real(1), Real(0));
 }
 
-/// The shadow test at time t and depth z on the surface with the given id. Of a cover's own surface: lit. Else shadowed
-/// where it is more than the bias behind the cover; the paper asks no depth, and shadows a neighbouring triangle that
-/// the shadow map's resolution puts into the cover's texel, in front of it. Without a cover undecided.
+/// The shadow test at time t and depth z on the surface with the given id; where it is decided, the answer of all
+/// ranges that the cover is of, bit for bit. Shadowed where z is more than the bias behind the cover, whose own surface
+/// is not shadowed by it; lit where z is within the bias, or less by 2^-19, of the cover's farther end, which nothing
+/// else is in front of. In between, and without a cover, undecided. The paper asks no depth, and shadows a neighbouring
+/// triangle that the shadow map's resolution puts into the cover's texel, in front of it. Domain: times in [0, 1],
+/// depths in
+/// [-1, 1], bias in [0, 1].
 GNOMON_KERNEL GNOMON_T(cover_answer)
     range_cover_answer(GNOMON_T(depth_time_range) cover, Real t, Real z, Real id, GNOMON_SETTING bias)
 {
     GNOMON_T(cover_answer) r;
     r.intensity = range_intensity(cover, t, z, id, bias);
-    r.decided = gnomon_select(Real(0) <= cover.id, Real(1), Real(0));
+    Real behind = gnomon_max(cover.z0, cover.z1) + bias;
+    GNOMON_MASK lit = z + GNOMON_LITERAL(cover_margin) <= behind;
+    r.decided = gnomon_select(Real(0) <= cover.id && (lit || Real(0) < r.intensity), Real(1), Real(0));
     return r;
 }
 

@@ -59,8 +59,6 @@ GNOMON_STRUCT depth_field
 /// The same at a sample, and the coefficients of D, the middle one times 2.
 GNOMON_STRUCT depth_curve { Real n0, n1, n2, n3, d0, d1, d2, z0, z1, least, most; };
 
-GNOMON_CONSTANT(edge_field_margin, 0.0000019073486328125); // 2^-19, 32 2^-p in float
-
 /// The line through two points of the plane, homogeneous.
 GNOMON_KERNEL GNOMON_T(sample_plane) homogeneous_line(Real a_x, Real a_y, Real a_w, Real b_x, Real b_y, Real b_w)
 {
@@ -222,49 +220,6 @@ GNOMON_KERNEL GNOMON_T(moving_field)
     f.b = edge_field_around(f.b, h_x, h_y, facing);
     f.c = edge_field_around(f.c, h_x, h_y, facing);
     return f;
-}
-
-/// The largest value within h_x and h_y of the origin, but for its sign.
-GNOMON_KERNEL Real sample_plane_size(GNOMON_T(sample_plane) p, Real h_x, Real h_y)
-{
-    return (gnomon_abs(p.x) * h_x + gnomon_abs(p.y) * h_y) + gnomon_abs(p.c);
-}
-
-/// The largest value of its coefficients there.
-GNOMON_KERNEL Real edge_field_size(GNOMON_T(edge_field) f, Real h_x, Real h_y)
-{
-    Real outer = gnomon_max(sample_plane_size(f.e0, h_x, h_y), sample_plane_size(f.e2, h_x, h_y));
-    return gnomon_max(outer, sample_plane_size(f.e1, h_x, h_y));
-}
-
-/// How much rounding may take from an edge function at the samples within h_x and h_y of the origin, in all: from
-/// planes that were exact before they were rounded to float, from their coefficients at the sample, and from the times
-/// of moving_edge_inside, in float. That is 1 + 4 + 16 of 2^-24 of the largest coefficient; returned are 32.
-GNOMON_KERNEL Real edge_field_error(GNOMON_T(edge_field) f, Real h_x, Real h_y)
-{
-    return GNOMON_LITERAL(edge_field_margin) * edge_field_size(f, h_x, h_y);
-}
-
-/// The same for linear_edge_inside, whose times take 2 for 16: 8 are returned, and how far the edge function departs
-/// from the one that is linear in time, a quarter of e0 - 2 e1 + e2.
-GNOMON_KERNEL Real linear_field_error(GNOMON_T(edge_field) f, Real h_x, Real h_y)
-{
-    GNOMON_T(sample_plane) bend;
-    bend.x = f.e0.x - Real(2) * f.e1.x + f.e2.x;
-    bend.y = f.e0.y - Real(2) * f.e1.y + f.e2.y;
-    bend.c = f.e0.c - Real(2) * f.e1.c + f.e2.c;
-    return Real(0.25) * (edge_field_error(f, h_x, h_y) + sample_plane_size(bend, h_x, h_y));
-}
-
-/// The edge moved outwards by an error: it is inside at all times at which the exact one is. Triangles around a common
-/// vertex then leave no crack beside it, where each edge is rounded by itself, but overlap by as little.
-GNOMON_KERNEL GNOMON_T(moving_edge) moving_edge_widened(GNOMON_T(moving_edge) e, Real error, GNOMON_SETTING facing)
-{
-    Real by = facing * error;
-    e.e0 = e.e0 + by;
-    e.e1 = e.e1 + by;
-    e.e2 = e.e2 + by;
-    return e;
 }
 
 /// The plane a times k_a and b times k_b.

@@ -5,7 +5,8 @@
 // coverage_times.h, and moving_edge_inside(facing_edge(n, d), 1) has the up to two intervals: from begin to end less a
 // gap. Outside of them the surface is dark, whatever the map says; within, receiver_path_clip has the part of its path.
 // Between a point and a light that both go straight, d is linear; the normal of a triangle is a quadratic, for which
-// its line stands here as in the thesis. f is the same for vectors of any length, so neither needs to be normalised.
+// its line stands here as in the thesis. The sign of f is the same for vectors of any length, if both ends of one are
+// scaled alike, so neither needs to be normalised.
 #ifndef GNOMON_MOTION_FACING_H
 #define GNOMON_MOTION_FACING_H
 #include "coverage_times.h"

@@ -31,14 +31,16 @@ GNOMON_STRUCT moving_receiver
     Real begin, end, t0, t1, u0, v0, u1, v1, shadowed;
 };
 
-/// No texel yet. A path that lasts for a part of the exposure loses light in that part alone; divide by what the
-/// shutter lets in meanwhile. Whatever needs a depth bias takes it off both depths first.
+/// No texel yet. From begin to end as of shutter_exposure_of. A path that lasts for a part of the exposure loses light
+/// in that part alone; divide by what the shutter lets in meanwhile. Whatever needs a depth bias takes it off both
+/// depths first.
 GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_begin(GNOMON_T(receiver_path) path, Real begin, Real end)
 {
+    GNOMON_T(shutter_exposure) open = shutter_exposure_of(begin, end);
     GNOMON_T(moving_receiver) r;
     r.course = path.depth;
-    r.begin = begin;
-    r.end = end;
+    r.begin = open.begin;
+    r.end = open.end;
     r.t0 = path.depth.t0;
     r.t1 = path.depth.t1;
     r.u0 = Real(1);

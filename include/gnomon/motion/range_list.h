@@ -10,6 +10,11 @@
 // one too many comes, first whatever several others hide together goes, then the two most similar ranges become one
 // in front of both (range_merge.h): what is in shadow stays in shadow, and what was lit and is not is counted.
 //
+// What is hidden goes whatever its id. So a receiver gets the answer of all ranges, unless a range of its own id is in
+// front of it by more than its bias: this one does not shadow it, and what it hides is no longer there to do so. Hence
+// an id is for a surface none of whose points is ever behind another of its points: a triangle, a plane, the lit side
+// of a convex part. With one id for a whole object, its farther sides lose shadows that others cast on them.
+//
 // The capacity is GNOMON_RANGE_CAPACITY, if that is defined before inclusion, else 8; in C++ it is a template parameter
 // with this default.
 #ifndef GNOMON_MOTION_RANGE_LIST_H
@@ -39,12 +44,16 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_or_nothing(GNOMON_T(depth_time_ra
     return range_kept(Real(0) <= r.t0 && r.t0 < r.t1 && r.t1 <= Real(1) && known, r);
 }
 
-/// It, moved to the front by 2^-16: by more than roundings of up to 18 cuts and of where they are, 268 2^-24, amount
-/// to.
-GNOMON_KERNEL GNOMON_T(depth_time_range) range_nearer(GNOMON_T(depth_time_range) r)
+/// r moved to the front, or to the back where side is 1 instead of -1, by more than rounding can do to it in up to 18
+/// cuts: 2^-16, since depths at the cuts are rounded, and all that it covers of depth in a time of 2^-21, since times
+/// are. That is 268 2^-p of depth and 4 2^-p of time for two ranges together.
+GNOMON_KERNEL GNOMON_T(depth_time_range) range_moved(GNOMON_T(depth_time_range) r, GNOMON_SETTING side)
 {
-    r.z0 = r.z0 - Real(0.0000152587890625);
-    r.z1 = r.z1 - Real(0.0000152587890625);
+    Real change = gnomon_abs(r.z1 - r.z0);
+    Real brief = gnomon_min(change * Real(0.000000476837158203125) / (r.t1 - r.t0), change);
+    Real by = side * (Real(0.0000152587890625) + brief);
+    r.z0 = r.z0 + by;
+    r.z1 = r.z1 + by;
     return r;
 }
 
@@ -80,8 +89,8 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list)
 
 /// One more range; times outside of [0, 1] are cut off. NaN, or a depth beyond 2^60, inserts nothing. Without an
 /// overflow the ranges of the list depend on no order, bit for bit but for the sign of a zero. With one they do, but at
-/// no time is the front farther than that of all ranges inserted: strictly, as long as depths are in [-1, 1] and the
-/// capacity is not above 16.
+/// no time is the front farther than that of all ranges inserted: strictly, by their lines without rounding, however
+/// steep and brief they are, as long as times are in [0, 1], depths in [-1, 1] and the capacity is not above 16.
 GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list)
     range_list_insert(GNOMON_LIST_T(range_list) list, GNOMON_T(depth_time_range) r)
 {
@@ -97,14 +106,19 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list)
     }
     GNOMON_MASK full = r.t0 < r.t1 && room < Real(1);
     if (gnomon_any(full)) {
-        // Whatever the others hide together, even if it were a margin nearer.
+        // Whatever the others hide together, even if it were a margin nearer and they a margin farther.
+        GNOMON_LIST_T(range_list) hiding = list;
+        for (int h = 0; h < GNOMON_CAPACITY; ++h) hiding.ranges[h] = range_moved(list.ranges[h], Real(1));
+        GNOMON_T(depth_time_range) farther = range_moved(r, Real(1));
         for (int j = 0; j < GNOMON_CAPACITY; ++j) {
-            GNOMON_T(depth_time_range) s = range_trim(range_nearer(list.ranges[j]), r);
-            for (int k = 0; k < GNOMON_CAPACITY; ++k) s = range_trim(s, list.ranges[k]);
-            list.ranges[j] = range_kept(!full || s.t0 < s.t1, list.ranges[j]);
+            GNOMON_T(depth_time_range) s = range_trim(range_moved(list.ranges[j], Real(-1)), farther);
+            for (int k = 0; k < GNOMON_CAPACITY; ++k) s = range_trim(s, hiding.ranges[k]);
+            GNOMON_MASK seen = !full || s.t0 < s.t1;
+            list.ranges[j] = range_kept(seen, list.ranges[j]);
+            hiding.ranges[j] = range_kept(seen, hiding.ranges[j]);
         }
-        GNOMON_T(depth_time_range) left = range_nearer(r);
-        for (int m = 0; m < GNOMON_CAPACITY; ++m) left = range_trim(left, list.ranges[m]);
+        GNOMON_T(depth_time_range) left = range_moved(r, Real(-1));
+        for (int m = 0; m < GNOMON_CAPACITY; ++m) left = range_trim(left, hiding.ranges[m]);
         r = range_kept(!full || left.t0 < left.t1, r);
 
         // The most similar pair, the new one's place being -1. Where there is room now, one of the pair is empty.

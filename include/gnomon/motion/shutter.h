@@ -3,6 +3,9 @@
 //
 // Three responses: a box, which opens and closes at once; a tent, wide open halfway; and eight equal parts of the
 // exposure with any weights, such as those of a camera's measured shutter.
+//
+// An exposure that ends before it begins is the one between its two times, and one of no length shows what is there at
+// that moment (shutter_exposure_of, which receivers begin with).
 #ifndef GNOMON_MOTION_SHUTTER_H
 #define GNOMON_MOTION_SHUTTER_H
 #include "../numerics/select.h"
@@ -11,7 +14,26 @@ GNOMON_NAMESPACE_BEGIN
 /// What each eighth of the exposure lets in, one after the other; together 1 (shutter_weights_of).
 GNOMON_STRUCT shutter_weights { Real w0, w1, w2, w3, w4, w5, w6, w7; };
 
+/// When a shutter opens and closes.
+GNOMON_STRUCT shutter_exposure { Real begin, end; };
+
 GNOMON_CONSTANT(shutter_weight_limit, 1152921504606846976.0); // 2^60: eight of them have a sum in float
+
+/// The exposure between two times in any order. One of less than 2^-20, or of no length, lasts 2^-20 from its begin on,
+/// or until shutter close where it would end later: what hides a receiver meanwhile hides it wholly. A NaN stays one.
+GNOMON_KERNEL GNOMON_T(shutter_exposure) shutter_exposure_of(Real a, Real b)
+{
+    Real least = Real(0.00000095367431640625);
+    GNOMON_MASK swapped = b < a;
+    Real open = gnomon_select(swapped, b, a);
+    Real close = gnomon_select(swapped, a, b);
+    GNOMON_MASK brief = close - open < least;
+    Real early = gnomon_select(open <= Real(1), gnomon_min(open, Real(1) - least), open);
+    GNOMON_T(shutter_exposure) r;
+    r.begin = gnomon_select(brief, early, open);
+    r.end = gnomon_select(brief, early + least, close);
+    return r;
+}
 
 /// When a share of the time from begin to end is over, within 3 2^-p max(|begin|, |end|). For shares between 0 and 1:
 /// at the ends themselves llvmpipe makes 0 of the product with 0, of NaN as well.
@@ -21,7 +43,8 @@ GNOMON_KERNEL Real shutter_time(Real begin, Real end, GNOMON_SETTING share)
 }
 
 /// Share of the light that an open shutter has let in by time t, of what it does from begin to end: a shutter that
-/// opens and closes at once. The share between two times is the difference. In [0, 1]; 0 where anything is NaN.
+/// opens and closes at once. The share between two times is the difference. In [0, 1]; 0 where anything is NaN. Domain:
+/// begin <= end; where they are the same, 0 until then and 1 after.
 GNOMON_KERNEL Real shutter_box(Real t, Real begin, Real end) { return saturate_or_zero((t - begin) / (end - begin)); }
 
 /// The same for a shutter that opens and closes evenly, wide open halfway.

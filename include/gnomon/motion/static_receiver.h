@@ -37,14 +37,16 @@ GNOMON_STRUCT static_receiver { Real depth, id, begin, end, weight, shadowed; };
 /// ranges of its own id.
 GNOMON_STRUCT range_total { Real nearest, farthest, shadowed, id; };
 
-/// No range yet. Any z_f; whatever needs a depth bias takes it off z_f first.
+/// No range yet. Any z_f; whatever needs a depth bias takes it off z_f first. From begin to end as of
+/// shutter_exposure_of: in any order, and what is there at a moment where they are the same.
 GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_begin(Real z_f, Real id, Real begin, Real end)
 {
+    GNOMON_T(shutter_exposure) open = shutter_exposure_of(begin, end);
     GNOMON_T(static_receiver) r;
     r.depth = z_f;
     r.id = id;
-    r.begin = begin;
-    r.end = end;
+    r.begin = open.begin;
+    r.end = open.end;
     r.weight = Real(1);
     r.shadowed = Real(0);
     return r;
@@ -80,10 +82,10 @@ GNOMON_KERNEL GNOMON_T(depth_time_range)
 }
 
 /// Whether r, the next one of a resolved list, is of the second layer behind front, the last one that was not. Those
-/// begin before it ends.
+/// are seen while front lasts and no longer; spans in front that rounding has overlap are not.
 GNOMON_KERNEL GNOMON_MASK range_is_second_layer(GNOMON_T(depth_time_range) front, GNOMON_T(depth_time_range) r)
 {
-    return front.t0 <= r.t0 && r.t0 < front.t1;
+    return front.t0 <= r.t0 && r.t0 < front.t1 && r.t1 <= front.t1;
 }
 
 /// The light lost between two shares of what the shutter lets in, where the range that hides it has another id; 0 for

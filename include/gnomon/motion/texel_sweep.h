@@ -9,20 +9,24 @@
 //
 //     sweep = texel_sweep_begin(path);
 //     for each range of texel (sweep.column, sweep.row): what holds from sweep.t_begin to sweep.t_end
-//     while (sweep.t_end < sweep.path.depth.t1) { sweep = texel_sweep_next(sweep); and the same again }
+//     while (sweep.t_end < sweep.t_last) { sweep = texel_sweep_next(sweep); and the same again }
 //
 // Whatever the path is, the times follow one another bit for bit from t0 to t1, and the loop ends: after |last column -
 // first column| + |last row - first row| + 1 texels at most.
+//
+// texel_sweep_over leaves out what of the path is not over the map, or behind the light: in homogeneous coordinates the
+// borders of the map are edges that the path crosses at one time each, also where w changes its sign.
 #ifndef GNOMON_MOTION_TEXEL_SWEEP_H
 #define GNOMON_MOTION_TEXEL_SWEEP_H
+#include "coverage_times.h"
 #include "receiver_path.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// The texel, from when to when, the texel of the path's end, and where on the way the next borders are met.
+/// The texel, from when to when, the texel at the end and when that is, and where on the way the next borders are met.
 GNOMON_STRUCT texel_sweep
 {
     GNOMON_T(receiver_path) path;
-    Real column, row, t_begin, t_end, last_column, last_row, across_column, across_row;
+    Real column, row, t_begin, t_end, last_column, last_row, t_last, across_column, across_row;
 };
 
 GNOMON_CONSTANT(texel_limit, 65536.0);                    // no map is larger: what is beyond is one texel
@@ -49,14 +53,23 @@ GNOMON_KERNEL Real texel_border_passed(Real x0, Real w0, Real x1, Real w1, Real 
                          saturate_or_zero(distance0 / (distance0 - distance1)));
 }
 
-/// Ends the texel's time at the next border, or with the path.
+/// Ends the texel's time at the next border, or with the sweep.
 GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_timed(GNOMON_T(texel_sweep) sweep)
 {
     Real passed = gnomon_min(sweep.across_column, sweep.across_row);
     Real t = sweep.path.depth.t0 * (Real(1) - passed) + sweep.path.depth.t1 * passed;
-    t = gnomon_min(gnomon_max(t, sweep.t_begin), sweep.path.depth.t1); // never back; what is NaN takes no time
-    sweep.t_end = gnomon_select(passed <= Real(1), t, sweep.path.depth.t1);
+    t = gnomon_min(gnomon_max(t, sweep.t_begin), sweep.t_last); // never back; what is NaN takes no time
+    sweep.t_end = gnomon_select(passed <= Real(1), t, sweep.t_last);
     return sweep;
+}
+
+/// Meets the next borders for the first time.
+GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_started(GNOMON_T(texel_sweep) sweep)
+{
+    GNOMON_T(receiver_path) p = sweep.path;
+    sweep.across_column = texel_border_passed(p.x0, p.w0, p.x1, p.w1, sweep.column, sweep.last_column);
+    sweep.across_row = texel_border_passed(p.y0, p.w0, p.y1, p.w1, sweep.row, sweep.last_row);
+    return texel_sweep_timed(sweep);
 }
 
 /// The first texel. A path with a NaN, with positions beyond 2^60 or with w <= 0 at an end is in one texel for all its
@@ -75,12 +88,63 @@ GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_begin(GNOMON_T(receiver_path) pa
     sweep.column = texel_below(x0);
     sweep.row = texel_below(y0);
     sweep.t_begin = path.depth.t0;
-    sweep.t_end = path.depth.t1;
     sweep.last_column = gnomon_select(known, texel_below(x1), sweep.column);
     sweep.last_row = gnomon_select(known, texel_below(y1), sweep.row);
-    sweep.across_column = texel_border_passed(path.x0, path.w0, path.x1, path.w1, sweep.column, sweep.last_column);
-    sweep.across_row = texel_border_passed(path.y0, path.w0, path.y1, path.w1, sweep.row, sweep.last_row);
-    return texel_sweep_timed(sweep);
+    sweep.t_last = path.depth.t1;
+    return texel_sweep_started(sweep);
+}
+
+/// The shares of the way, of 0 to 1, at which a path is over the texels from (left, top) to before (right, bottom), and
+/// w >= 0. Error: 4 2^-p (|x0| + |c| w0 + |x1| + |c| w1) over the distance from x0 - c w0 to x1 - c w1, for the border
+/// x = c that is crossed, rows alike. None for a NaN, or for positions that differ by 2^60 or more.
+GNOMON_KERNEL GNOMON_T(linear_times)
+    receiver_path_over(GNOMON_T(receiver_path) p, Real left, Real top, Real right, Real bottom)
+{
+    GNOMON_T(linear_times) a = linear_edge_inside(p.x0 - gnomon_product(left, p.w0), p.x1 - gnomon_product(left, p.w1));
+    GNOMON_T(linear_times) b = linear_edge_inside(p.y0 - gnomon_product(top, p.w0), p.y1 - gnomon_product(top, p.w1));
+    GNOMON_T(linear_times)
+    c = linear_edge_inside(gnomon_product(right, p.w0) - p.x0, gnomon_product(right, p.w1) - p.x1);
+    GNOMON_T(linear_times)
+    d = linear_edge_inside(gnomon_product(bottom, p.w0) - p.y0, gnomon_product(bottom, p.w1) - p.y1);
+    GNOMON_T(linear_times) before_light = linear_edge_inside(p.w0, p.w1);
+    a.begin = gnomon_max(gnomon_max(gnomon_max(a.begin, b.begin), gnomon_max(c.begin, d.begin)), before_light.begin);
+    a.end = gnomon_min(gnomon_min(gnomon_min(a.end, b.end), gnomon_min(c.end, d.end)), before_light.end);
+    return a;
+}
+
+/// The column or row of a position from low - 1, before the first, to high, after the last.
+GNOMON_KERNEL Real texel_near(Real x, Real low, Real high)
+{
+    return gnomon_min(gnomon_max(texel_below(x), low - Real(1)), high);
+}
+
+/// The first of the texels from (left, top) to before (right, bottom) that a path is over; (right, bottom) for no time
+/// where there is none. The sweep's times are those of texel_sweep_begin for these texels. Where w <= 0 at an end, it
+/// is of the time in which w > 0. Borders are whole numbers within +-65536.
+GNOMON_KERNEL GNOMON_T(texel_sweep)
+    texel_sweep_over(GNOMON_T(receiver_path) path, Real left, Real top, Real right, Real bottom)
+{
+    GNOMON_T(linear_times) shares = receiver_path_over(path, left, top, right, bottom);
+    GNOMON_MASK some = shares.begin < shares.end;
+    Real passed0 = gnomon_select(some, shares.begin, Real(0));
+    Real passed1 = gnomon_select(some, shares.end, Real(0));
+    Real left0 = Real(1) - passed0;
+    Real left1 = Real(1) - passed1;
+    Real w0 = path.w0 * left0 + path.w1 * passed0;
+    Real w1 = path.w0 * left1 + path.w1 * passed1;
+    GNOMON_T(texel_sweep) sweep;
+    sweep.path = path;
+    sweep.column = texel_near((path.x0 * left0 + path.x1 * passed0) / w0, left, right);
+    sweep.row = texel_near((path.y0 * left0 + path.y1 * passed0) / w0, top, bottom);
+    sweep.last_column = texel_near((path.x0 * left1 + path.x1 * passed1) / w1, left, right);
+    sweep.last_row = texel_near((path.y0 * left1 + path.y1 * passed1) / w1, top, bottom);
+    sweep.column = gnomon_select(some, sweep.column, right);
+    sweep.row = gnomon_select(some, sweep.row, bottom);
+    sweep.last_column = gnomon_select(some, sweep.last_column, right);
+    sweep.last_row = gnomon_select(some, sweep.last_row, bottom);
+    sweep.t_begin = path.depth.t0 * left0 + path.depth.t1 * passed0;
+    sweep.t_last = path.depth.t0 * left1 + path.depth.t1 * passed1;
+    return texel_sweep_started(sweep);
 }
 
 /// The next texel, beside, above or below; after the last one the same again, for no time.

@@ -1,7 +1,8 @@
 // What a receiver gets from a map of depth-time ranges, with percentage-closer filtering of K x K bilinear look-ups:
 // K = 1 is bilinear filtering. At one time, by samples in time, at rest in closed form, and on its way in closed form;
 // the kernels are those of motion/, this is their loop over texels and lists. Shadow intensity, 0 lit and 1 in shadow.
-// What lies outside of the map is lit.
+// What lies outside of the map is lit. Closed forms are of resolved lists in order of time; a shutter that opens and
+// closes at once asks totals first, where the map has them.
 #ifndef GNOMON_PASSES_RANGE_LOOK_UP_HPP
 #define GNOMON_PASSES_RANGE_LOOK_UP_HPP
 
@@ -9,6 +10,7 @@
 #include "../motion/receiver_path.h"
 #include "../motion/static_receiver.h"
 #include "range_map.hpp"
+#include "range_taps.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -29,98 +31,86 @@ struct box_shutter {
     }
 };
 
-namespace detail {
-
-/// Calls visit(i, j, texel) for the texels from (column, row) on that are in the map, K + 1 along either axis.
-template <class T, class Visit>
-void for_each_texel(const range_map<T>& map, T column, T row, int look_ups, const Visit& visit)
-{
-    const T width = T(map.width), height = T(map.height);
-    for (int j = 0; j <= look_ups; ++j) {
-        const T y = row + T(j);
-        if (!(y >= 0 && y < height)) continue; // a NaN is outside
-        for (int i = 0; i <= look_ups; ++i) {
-            const T x = column + T(i);
-            if (!(x >= 0 && x < width)) continue;
-            visit(i, j, map.texel(map.width, std::size_t(x), std::size_t(y)));
-        }
-    }
-}
-
-/// Calls visit(weight, texel) for the texels around (x, y).
-template <class T, class Visit>
-void for_each_static_texel(const range_map<T>& map, T x, T y, int look_ups, const Visit& visit)
-{
-    const T k = T(look_ups), left = x - T(0.5) * k, top = y - T(0.5) * k;
-    const T column = texel_below(left), row = texel_below(top), u = left - column, v = top - row;
-    for_each_texel(map, column, row, look_ups, [&](int i, int j, std::size_t texel) {
-        visit(texel_weight(u, T(i), k) * texel_weight(v, T(j), k), texel);
-    });
-}
-
-/// Calls visit(range) for what counts for a receiver of this id in a resolved list.
-template <class T, class Visit>
-void for_each_counted(std::span<const depth_time_range<T>> list, T id, const Visit& visit)
-{
-    depth_time_range<T> front = range_empty(T(range_nothing));
-    for (const depth_time_range<T>& r : list) {
-        if (!range_is_second_layer(front, r)) front = r;
-        else if (!(front.id == id)) continue;
-        visit(r);
-    }
-}
-
-/// By its total where that is enough; else by calling add_list(list).
-template <class T, class AddList>
-void add_static_texel(const range_map<T>& map, std::size_t texel, static_receiver<T>& state, const AddList& add_list)
-{
-    if (!map.totals.empty()) {
-        const range_total<T>& total = map.totals[texel];
-        if (receiver_is_in_front(state.depth, total) > 0) return;
-        if (static_receiver_is_behind(state, total) > 0) {
-            state = static_receiver_add_total(state, total);
-            return;
-        }
-    }
-    add_list(map[texel]);
-}
-
-} // namespace detail
-
-/// A receiver at rest at texel position (x, y), of resolved lists; add(state, range) is the shutter. A box asks totals
-/// first, where the map has them.
+/// A receiver at rest at texel position (x, y); add(state, range) is the shutter.
 template <class T, class Add = box_shutter>
 T static_shadow(const range_map<T>& map, T x, T y, static_receiver<T> state, int look_ups = 1, const Add& add = {})
 {
-    const auto add_list = [&](std::span<const depth_time_range<T>> list) {
-        detail::for_each_counted(list, state.id, [&](const depth_time_range<T>& r) { state = add(state, r); });
-    };
     detail::for_each_static_texel(map, x, y, look_ups, [&](T weight, std::size_t texel) {
         state = static_receiver_weigh(state, weight);
-        if constexpr (std::is_same_v<Add, box_shutter>) detail::add_static_texel(map, texel, state, add_list);
-        else add_list(map[texel]);
+        if constexpr (std::is_same_v<Add, box_shutter>) {
+            if (map.totals.empty() || !detail::add_total_box(state, map.totals[texel]))
+                detail::add_list_box(state, map[texel]);
+        } else
+            detail::for_each_counted(map[texel], state.id,
+                                     [&](const depth_time_range<T>& r) { state = add(state, r); });
     });
     return static_receiver_end(state);
 }
 
-/// A receiver on its way from time t0 to t1 of the path, in the exposure from begin to end, of resolved lists.
+/// static_shadow(map, x, y, state, look_ups) of each receiver, whose taps are read many at a time. Without totals it
+/// has the same bits; what totals say is added first.
+template <class T>
+void static_shadows(const range_map<T>& map, std::span<const placed_receiver<T>> receivers, std::span<T> shadows,
+                    int look_ups = 1)
+{
+    GNOMON_EXPECTS(shadows.size() == receivers.size(),
+                   mismatch("static_shadows", "shadows.size()", shadows.size(), "receivers.size()", receivers.size()));
+    check_shape(map, "static_shadows");
+    for (std::size_t i = 0; i < receivers.size(); ++i) shadows[i] = receivers[i].state.shadowed;
+    detail::static_taps<T> taps(map, receivers, shadows);
+    for (std::size_t i = 0; i < receivers.size(); ++i)
+        detail::for_each_static_texel(map, receivers[i].x, receivers[i].y, look_ups,
+                                      [&](T weight, std::size_t texel) { taps.add(i, weight, texel); });
+    taps.drain();
+    for (T& s : shadows) s = saturate_or_zero(s);
+}
+
+/// A receiver on its way from time t0 to t1 of the path, in the exposure from begin to end. Error: moving_receiver_end.
 template <class T, class Add = box_shutter>
 T moving_shadow(const range_map<T>& map, const receiver_path<T>& path, T begin, T end, int look_ups = 1,
                 const Add& add = {})
 {
     const T k = T(look_ups);
+    const receiver_path<T> shifted = receiver_path_shifted(path, T(-0.5) * k, T(-0.5) * k);
+    texel_sweep<T> sweep = texel_sweep_over(shifted, -k, -k, T(map.width), T(map.height)); // beyond is lit
+    if (!(sweep.t_begin < sweep.t_last)) return T(0);
     moving_receiver<T> state = moving_receiver_begin(path, begin, end);
-    texel_sweep<T> sweep = texel_sweep_begin(receiver_path_shifted(path, T(-0.5) * k, T(-0.5) * k));
-    for (;; sweep = texel_sweep_next(sweep)) {
-        detail::for_each_texel(map, sweep.column, sweep.row, look_ups, [&](int i, int j, std::size_t texel) {
-            const auto list = map[texel];
-            if (list.empty()) return;
-            state = moving_receiver_tap(state, sweep, T(i), T(j), k);
-            detail::for_each_counted(list, path.depth.id, [&](const depth_time_range<T>& r) {
-                if (r.t0 < sweep.t_end && sweep.t_begin < r.t1) state = add(state, r);
+    if constexpr (std::is_same_v<Add, box_shutter>) {
+        detail::moving_taps<T> taps(map, state, look_ups);
+        texel_position<T> at = receiver_path_at(shifted, sweep.t_begin);
+        T z = range_depth(path.depth, sweep.t_begin), passed = shutter_box(sweep.t_begin, begin, end);
+        for (;; sweep = texel_sweep_next(sweep)) {
+            if (sweep.t_begin < sweep.t_end) {
+                const texel_position<T> next = receiver_path_at(shifted, sweep.t_end);
+                const T next_z = range_depth(path.depth, sweep.t_end),
+                        next_passed = shutter_box(sweep.t_end, begin, end);
+                const detail::receiver_cell<T> cell{sweep.column,
+                                                    sweep.row,
+                                                    sweep.t_begin,
+                                                    sweep.t_end,
+                                                    saturate_or_zero(at.x - sweep.column),
+                                                    saturate_or_zero(at.y - sweep.row),
+                                                    saturate_or_zero(next.x - sweep.column),
+                                                    saturate_or_zero(next.y - sweep.row),
+                                                    std::min(z, next_z),
+                                                    std::max(z, next_z),
+                                                    next_passed - passed};
+                if (cell.share > 0) taps.add(cell); // the shutter is open
+                at = next, z = next_z, passed = next_passed;
+            }
+            if (!(sweep.t_end < sweep.t_last)) return taps.end();
+        }
+    } else {
+        for (;; sweep = texel_sweep_next(sweep)) {
+            detail::for_each_texel(map, sweep.column, sweep.row, look_ups, [&](int i, int j, std::size_t texel) {
+                if (map[texel].empty()) return;
+                state = moving_receiver_tap(state, sweep, T(i), T(j), k);
+                detail::for_each_counted(map[texel], path.depth.id, [&](const depth_time_range<T>& r) {
+                    if (r.t0 < sweep.t_end && sweep.t_begin < r.t1) state = add(state, r);
+                });
             });
-        });
-        if (!(sweep.t_end < sweep.path.depth.t1)) return moving_receiver_end(state);
+            if (!(sweep.t_end < sweep.t_last)) return moving_receiver_end(state);
+        }
     }
 }
 

@@ -9,7 +9,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <string_view>
 
 namespace gnomon {
 
@@ -55,32 +57,49 @@ template <class T> struct range_map {
     }
 };
 
+/// Says what of a map does not fit.
+template <class T> void check_shape(const range_map<T>& map, std::string_view pass)
+{
+    const std::size_t numbers = map.texels(map.width, map.height) + 1;
+    GNOMON_EXPECTS(map.first.size() == numbers,
+                   mismatch(pass, "map.first.size()", map.first.size(), "texels(map.width, map.height) + 1", numbers));
+    GNOMON_EXPECTS(map.first.back() <= map.ranges.size(),
+                   mismatch(pass, "map.first.back()", map.first.back(), "map.ranges.size()", map.ranges.size()));
+    GNOMON_EXPECTS(map.totals.empty() || map.totals.size() + 1 == numbers,
+                   mismatch(pass, "map.totals.size() + 1", map.totals.size() + 1, "map.first.size()", numbers));
+}
+
+/// The total of a resolved list. What it hides from a receiver behind it is 1 if its spans fill the time from 0 to 1,
+/// and only then.
+template <class T> range_total<T> total_of(std::span<const depth_time_range<T>> list, range_ids ids)
+{
+    range_total<T> total = range_total_begin(T(-1));
+    depth_time_range<T> front = range_empty(T(range_nothing));
+    T filled = 0;
+    bool layers = false;
+    for (const depth_time_range<T>& r : list) {
+        if (range_is_second_layer(front, r)) { // seen by those alone whose own id is in front
+            total.nearest = gnomon_min(total.nearest, gnomon_min(r.z0, r.z1));
+            layers = true;
+            continue;
+        }
+        front = r;
+        total = range_total_add(total, r);
+        if (r.t0 <= filled && filled < r.t1) filled = r.t1;
+    }
+    total.shadowed = filled < 1 ? gnomon_min(total.shadowed, 1 - std::numeric_limits<T>::epsilon()) : T(1);
+    if (ids == range_ids::surfaces && !layers) total.id = T(range_nothing);
+    return total;
+}
+
 /// The totals of a map's resolved lists, one for each texel.
 template <class T> void set_totals(const range_map<T>& map, std::span<range_total<T>> totals, range_ids ids)
 {
-    GNOMON_EXPECTS(map.first.size() == map.texels(map.width, map.height) + 1,
-                   mismatch("range totals", "map.first.size()", map.first.size(), "texels of the map, and one",
-                            map.texels(map.width, map.height) + 1));
-    GNOMON_EXPECTS(map.first.back() <= map.ranges.size(), mismatch("range totals", "map.first.back()", map.first.back(),
-                                                                   "map.ranges.size()", map.ranges.size()));
+    check_shape(map, "range totals");
     GNOMON_EXPECTS(
         totals.size() + 1 == map.first.size(),
         mismatch("range totals", "totals.size() + 1", totals.size() + 1, "map.first.size()", map.first.size()));
-    for (std::size_t i = 0; i < totals.size(); ++i) {
-        range_total<T> total = range_total_begin(T(-1));
-        depth_time_range<T> front = range_empty(T(range_nothing));
-        for (const depth_time_range<T>& r : map[i]) {
-            // Who is behind all fronts needs no second layer, unless they are his own.
-            if (range_is_second_layer(front, r)) {
-                total.nearest = gnomon_min(total.nearest, gnomon_min(r.z0, r.z1));
-                continue;
-            }
-            front = r;
-            total = range_total_add(total, r);
-        }
-        if (ids == range_ids::surfaces) total.id = T(range_nothing);
-        totals[i] = total;
-    }
+    for (std::size_t i = 0; i < totals.size(); ++i) totals[i] = total_of(map[i], ids);
 }
 
 /// From how many ranges each texel has to where they begin, in place: the last number becomes the sum of all counts.

@@ -127,7 +127,8 @@ template <class T> class front_resolver {
         return !(reached < t1);
     }
 
-    /// The same whichever comes first. At one depth throughout, the lower id is in front.
+    /// The same whichever comes first. At one depth throughout, the lower id is in front; where the ends tie, the one
+    /// that is nearer on average.
     succession succession_of(std::uint32_t i, std::uint32_t j) const
     {
         if (j < i) std::swap(i, j);
@@ -137,14 +138,15 @@ template <class T> class front_resolver {
         if (std::max(b.z0, b.z1) < std::min(a.z0, a.z1)) return {j, j, T(0)};
         const T begin = std::max(a.t0, b.t0), end = std::min(a.t1, b.t1);
         const T slope_a = (a.z1 - a.z0) / (a.t1 - a.t0), slope_b = (b.z1 - b.z0) / (b.t1 - b.t0);
-        const auto distance = [&](T t) {
-            const T d = (a.z0 + (t - a.t0) * slope_a) - (b.z0 + (t - b.t0) * slope_b);
-            return std::abs(d) <= resolve_tie<T> ? T(0) : d;
-        };
+        const auto distance = [&](T t) { return (a.z0 + (t - a.t0) * slope_a) - (b.z0 + (t - b.t0) * slope_b); };
         const T early = distance(begin), late = distance(end);
-        if (early == 0 && late == 0) return b.id < a.id ? succession{j, j, T(0)} : succession{i, i, T(0)};
-        if (early <= 0 && late <= 0) return {i, i, T(0)};
-        if (early >= 0 && late >= 0) return {j, j, T(0)};
+        const bool early_tie = std::abs(early) <= resolve_tie<T>, late_tie = std::abs(late) <= resolve_tie<T>;
+        if (early_tie && late_tie) {
+            const bool b_first = early + late == 0 ? b.id < a.id : early + late > 0;
+            return b_first ? succession{j, j, T(0)} : succession{i, i, T(0)};
+        }
+        if ((early < 0 || early_tie) && (late < 0 || late_tie)) return {i, i, T(0)};
+        if ((early > 0 || early_tie) && (late > 0 || late_tie)) return {j, j, T(0)};
         const T change = begin + (end - begin) * (early / (early - late));
         return early < 0 ? succession{i, j, change} : succession{j, i, change};
     }

@@ -75,19 +75,19 @@ template <class Pack> hidden_times<Pack> compare_rows(const loaded_row<Pack>& a,
 {
     const Pack begin = gnomon_max(a.range.t0, b.range.t0), end = gnomon_min(a.range.t1, b.range.t1);
     const Pack none(lane_t<Pack>(0)), tie(resolve_tie<lane_t<Pack>>);
-    const auto distance = [&](const Pack& t) {
-        const Pack d = a.depth(t) - b.depth(t);
-        return gnomon_select(gnomon_abs(d) <= tie, none, d);
-    };
-    const Pack early = distance(begin), late = distance(end);
+    const auto distance = [&](const Pack& t) { return a.depth(t) - b.depth(t); };
+    const auto outside_tie = [&](const Pack& d) { return gnomon_select(gnomon_abs(d) <= tie, none, d); };
+    const Pack exact_early = distance(begin), exact_late = distance(end), sum = exact_early + exact_late;
+    const Pack early = outside_tie(exact_early), late = outside_tie(exact_late);
     const auto level = early == none && late == none;
     const auto b_first_by_id = b.range.id < a.range.id || (b.range.id == a.range.id && b.place < a.place);
-    const auto b_all = (level && b_first_by_id) || (!level && none <= early && none <= late);
+    const auto b_all =
+        (level && (none < sum || (sum == none && b_first_by_id))) || (!level && none <= early && none <= late);
     const auto a_all = !b_all && early <= none && late <= none;
     Pack change = gnomon_select(a_all, end, begin);
     const auto crossing = !(a_all || b_all);
     if (gnomon_any(crossing)) {
-        const Pack meeting = begin + (end - begin) * (early / (early - late));
+        const Pack meeting = begin + (end - begin) * (exact_early / (exact_early - exact_late));
         change = gnomon_select(crossing, gnomon_max(gnomon_min(meeting, end), begin), change);
     }
     // Up to the change a is in front, or b, and from then on the other.
@@ -130,7 +130,8 @@ template <class Pack, class Rows, class Fronts> void resolve_rows(Rows& rows, Fr
         fronts[to].place[i] = fronts[k].place[i], fronts[to].slope[i] = fronts[k].slope[i];
         fronts[to].begin[i] = begin, fronts[to].end[i] = end;
     };
-    // Takes from a row the time in which the other one hides it, where some is set.
+    // Takes from a row the time in which the other one hides it, where some is set. What is hidden itself hides
+    // nothing, lest three lines that meet within rounding hide one another.
     const auto hide = [&](std::size_t k, detail::loaded_row<Pack>& row, const auto& some, const Pack& from,
                           const Pack& to) {
         const auto during = some && from < to;
@@ -154,8 +155,9 @@ template <class Pack, class Rows, class Fronts> void resolve_rows(Rows& rows, Fr
             if (!gnomon_any(both)) continue;
             detail::loaded_row<Pack> a(rows[i], fronts[i]);
             const detail::hidden_times<Pack> h = detail::compare_rows(a, b);
-            hide(i, a, both, h.a_from, h.a_to);
-            hide(compared, b, both, h.b_from, h.b_to);
+            const Pack b_from = gnomon_max(h.b_from, a.begin), b_to = gnomon_min(h.b_to, a.end);
+            hide(i, a, both, gnomon_max(h.a_from, b.begin), gnomon_min(h.a_to, b.end));
+            hide(compared, b, both, b_from, b_to);
             a.store(fronts[i]);
             if (!gnomon_any(b.begin < b.end)) break;
         }

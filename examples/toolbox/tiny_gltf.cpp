@@ -1,0 +1,3 @@
+// tinygltf, compiled once.
+#define TINYGLTF_IMPLEMENTATION
+#include <tiny_gltf.h>

@@ -1,0 +1,318 @@
+// How look-ups read maps of ranges: from one array, or at random places of an array that no cache holds. So taps, the
+// texels that a filter reads, are queued; then totals of many are fetched together, after that where their lists begin,
+// and after that their lists: memory is waited for three times for a queue and not for each tap.
+#ifndef GNOMON_PASSES_RANGE_TAPS_HPP
+#define GNOMON_PASSES_RANGE_TAPS_HPP
+
+#include "../motion/moving_receiver.h"
+#include "../motion/static_receiver.h"
+#include "range_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace gnomon {
+
+/// A receiver at rest and its texel position.
+template <class T> struct placed_receiver {
+    T x, y;
+    static_receiver<T> state;
+};
+
+namespace detail {
+
+/// Asks for what will be read soon.
+inline void prefetch([[maybe_unused]] const void* place)
+{
+#if defined(__GNUC__)
+    __builtin_prefetch(place);
+#endif
+}
+
+/// Calls visit(i, j, texel) for the texels from (column, row) on that are in the map, K + 1 along either axis.
+template <class T, class Visit>
+void for_each_texel(const range_map<T>& map, T column, T row, int look_ups, const Visit& visit)
+{
+    const T width = T(map.width), height = T(map.height);
+    for (int j = 0; j <= look_ups; ++j) {
+        const T y = row + T(j);
+        if (!(y >= 0 && y < height)) continue; // a NaN is outside
+        for (int i = 0; i <= look_ups; ++i) {
+            const T x = column + T(i);
+            if (!(x >= 0 && x < width)) continue;
+            visit(i, j, map.texel(map.width, std::size_t(x), std::size_t(y)));
+        }
+    }
+}
+
+/// Calls visit(weight, texel) for the texels around (x, y).
+template <class T, class Visit>
+void for_each_static_texel(const range_map<T>& map, T x, T y, int look_ups, const Visit& visit)
+{
+    const T k = T(look_ups), left = x - T(0.5) * k, top = y - T(0.5) * k;
+    const T column = texel_below(left), row = texel_below(top), u = left - column, v = top - row;
+    for_each_texel(map, column, row, look_ups, [&](int i, int j, std::size_t texel) {
+        visit(texel_weight(u, T(i), k) * texel_weight(v, T(j), k), texel);
+    });
+}
+
+/// Calls visit(range) for what counts for a receiver of this id in a resolved list.
+template <class T, class Visit>
+void for_each_counted(std::span<const depth_time_range<T>> list, T id, const Visit& visit)
+{
+    depth_time_range<T> front = range_empty(T(range_nothing));
+    for (const depth_time_range<T>& r : list) {
+        if (!range_is_second_layer(front, r)) front = r;
+        else if (!(front.id == id)) continue;
+        visit(r);
+    }
+}
+
+/// What a list hides from a receiver at rest, of a shutter that opens and closes at once. Ranges that are in front at
+/// all times, as most are, need no division if the exposure is whole; the bits are those of the kernel.
+template <class T> void add_list_box(static_receiver<T>& state, std::span<const depth_time_range<T>> list)
+{
+    const bool whole = state.begin == 0 && state.end == 1;
+    for_each_counted(list, state.id, [&](const depth_time_range<T>& r) {
+        const bool begins = r.z0 < state.depth, ends = r.z1 < state.depth;
+        if (!begins && !ends) return;
+        if (!(whole && begins && ends)) {
+            state = static_receiver_add_box(state, r);
+            return;
+        }
+        const T share = saturate_or_zero(r.t1) - saturate_or_zero(r.t0);
+        state.shadowed += state.weight * receiver_loss(r, state.id, T(0), share);
+    });
+}
+
+/// Whether a total decides on a receiver at rest, and adds it if it does.
+template <class T> bool add_total_box(static_receiver<T>& state, const range_total<T>& total)
+{
+    if (receiver_is_in_front(state.depth, total) > 0) return true;
+    if (!(static_receiver_is_behind(state, total) > 0)) return false;
+    state = static_receiver_add_total(state, total);
+    return true;
+}
+
+/// Taps of receivers at rest; what each loses is added up in shadows.
+template <class T> class static_taps {
+  public:
+    static_taps(const range_map<T>& map, std::span<const placed_receiver<T>> receivers, std::span<T> shadows)
+        : map_(map), receivers_(receivers), shadows_(shadows)
+    {}
+
+    void add(std::size_t receiver, T weight, std::size_t texel)
+    {
+        if (count_ == taps_.size()) drain();
+        taps_[count_++] = {receiver, texel, weight};
+        if (map_.totals.empty()) prefetch(&map_.first[texel]);
+        else prefetch(&map_.totals[texel]);
+    }
+
+    /// Adds what all taps so far lose.
+    void drain()
+    {
+        const auto used = [&] { return std::span(taps_).first(count_); };
+        const auto change = [&](const tap& t, const auto& add) {
+            static_receiver<T> state = static_receiver_weigh(receivers_[t.receiver].state, t.weight);
+            state.shadowed = shadows_[t.receiver];
+            const bool changed = add(state);
+            if (changed) shadows_[t.receiver] = state.shadowed;
+            return changed;
+        };
+        if (!map_.totals.empty()) {
+            std::size_t left = 0;
+            for (const tap& t : used()) {
+                const range_total<T>& total = map_.totals[t.texel];
+                const bool decided = change(t, [&](static_receiver<T>& state) { return add_total_box(state, total); });
+                taps_[left] = t;
+                left += !decided;
+            }
+            count_ = left;
+            for (const tap& t : used()) prefetch(&map_.first[t.texel]);
+        }
+        for (const tap& t : used()) prefetch(map_.ranges.data() + map_.first[t.texel]);
+        for (const tap& t : used())
+            change(t, [&](static_receiver<T>& state) { return add_list_box(state, map_[t.texel]), true; });
+        count_ = 0;
+    }
+
+  private:
+    struct tap {
+        std::size_t receiver, texel;
+        T weight;
+    };
+    const range_map<T>& map_;
+    std::span<const placed_receiver<T>> receivers_;
+    std::span<T> shadows_;
+    std::array<tap, 256> taps_;
+    std::size_t count_ = 0;
+};
+
+/// What a moving receiver passes from one border of texel centres to the next: from time t0 to t1, at (u0, v0) and
+/// (u1, v1) in the cell then, between two depths, while the shutter lets in a share of its light.
+template <class T> struct receiver_cell {
+    T column, row, t0, t1, u0, v0, u1, v1, nearest, farthest, share;
+};
+
+/// Taps of a moving receiver, of a shutter that opens and closes at once: the fold of moving_receiver.h, where spans
+/// that touch count as one, and those that hide it throughout a cell need no division.
+template <class T> class moving_taps {
+  public:
+    moving_taps(const range_map<T>& map, const moving_receiver<T>& state, int look_ups)
+        : map_(map), state_(state), look_ups_(look_ups)
+    {}
+
+    void add(const receiver_cell<T>& cell)
+    {
+        if (cell_count_ == cells_.size()) drain();
+        cells_[cell_count_++] = cell;
+        for_each_texel(map_, cell.column, cell.row, look_ups_, [&](int i, int j, std::size_t texel) {
+            if (count_ == room) {
+                drain();
+                cells_[cell_count_++] = cell;
+            }
+            taps_[count_++] = {&cells_[cell_count_ - 1], texel, i, j, false, {}, 0, nullptr};
+            if (map_.totals.empty()) prefetch(&map_.first[texel]);
+            else prefetch(&map_.totals[texel]);
+        });
+    }
+
+    /// After all cells.
+    T end()
+    {
+        drain();
+        const T look_ups = T(look_ups_);
+        state_.shadowed = state_.shadowed / (look_ups * look_ups);
+        return moving_receiver_end(state_);
+    }
+
+  private:
+    struct tap {
+        const receiver_cell<T>* cell;
+        std::size_t texel;
+        int i, j;
+        bool single; // its list has no second layer
+        std::span<const depth_time_range<T>> list;
+        std::size_t at;  // in the list, where it is read from, and then to where it was read
+        const tap* same; // a tap before it of the same texel, in the cell before, or none
+    };
+    static constexpr std::size_t room = 32; // what is asked for and not read yet has to fit in the nearest cache
+
+    /// K times texel_weight.
+    T weight(T u, int i) const { return i == 0 ? 1 - u : i < look_ups_ ? T(1) : u; }
+    void weigh(const tap& t)
+    {
+        const receiver_cell<T>& c = *t.cell;
+        state_.t0 = c.t0, state_.t1 = c.t1;
+        state_.u0 = weight(c.u0, t.i), state_.v0 = weight(c.v0, t.j);
+        state_.u1 = weight(c.u1, t.i), state_.v1 = weight(c.v1, t.j);
+    }
+
+    /// Hidden from one time to another: throughout an exposed cell by the mean of the product of two lines.
+    void hide(const receiver_cell<T>& c, T from, T to)
+    {
+        if (from == c.t0 && to == c.t1 && state_.begin <= from && to <= state_.end) {
+            const T ends = state_.u0 * state_.v0 + state_.u1 * state_.v1;
+            const T mixed = state_.u0 * state_.v1 + state_.u1 * state_.v0;
+            state_.shadowed += c.share * (2 * (2 * ends + mixed) * T(receiver_twelfth));
+        } else {
+            const depth_time_range<T> hidden{from, to, T(0), T(0), T(range_nothing)};
+            state_.shadowed += moving_receiver_part(state_, hidden, state_.begin, state_.end, T(1), T(0));
+        }
+    }
+
+    /// Whether a total decides, and adds it if it does.
+    bool add_total(const tap& t, const range_total<T>& total)
+    {
+        if (receiver_is_in_front(t.cell->farthest, total) > 0) return true;
+        const auto behind = static_receiver_begin(t.cell->nearest, state_.course.id, T(0), T(1));
+        const bool always = total.shadowed >= 1 && t.cell->t0 >= 0 && t.cell->t1 <= 1;
+        if (!(always && static_receiver_is_behind(behind, total) > 0)) return false;
+        weigh(t);
+        hide(*t.cell, t.cell->t0, t.cell->t1);
+        return true;
+    }
+
+    /// Finds the list of tap k of the queue, and asks for where what is there at the cell's time may be.
+    void find_list(std::size_t k)
+    {
+        tap& t = taps_[k];
+        const std::size_t near = t.single ? std::min<std::size_t>(k, 5) : 0; // of one look-up those of the cell before
+        for (std::size_t back = 1; back <= near; ++back)
+            if (const tap& before = taps_[k - back]; before.texel == t.texel) {
+                t.list = before.list, t.same = &before;
+                return;
+            }
+        t.list = map_[t.texel];
+        if (t.list.empty()) return;
+        const T place = T(t.list.size()) * saturate_or_zero(t.cell->t0);
+        t.at = t.single ? std::min(std::size_t(place), t.list.size() - 1) : 0;
+        prefetch(&t.list[t.at]);
+    }
+
+    void add_list(tap& t)
+    {
+        if (t.list.empty()) return;
+        weigh(t);
+        const receiver_cell<T>& c = *t.cell;
+        depth_time_range<T> front = range_empty(T(range_nothing));
+        T from = c.t0, to = c.t0; // of spans that touch
+        std::size_t n = t.same ? t.same->at : t.at;
+        while (n > 0 && c.t0 < t.list[n].t0) --n;
+        for (; n < t.list.size(); ++n) {
+            const depth_time_range<T>& r = t.list[n];
+            if (!(r.t0 < r.t1)) continue;
+            if (!(r.t0 < c.t1)) break; // as are all that follow
+            if (!range_is_second_layer(front, r)) front = r;
+            else if (!(front.id == state_.course.id)) continue;
+            const bool behind = c.farthest <= r.z0 && c.farthest <= r.z1;
+            if (c.t0 < r.t1 && !behind && !(r.id == state_.course.id)) {
+                if (!(r.z0 < c.nearest && r.z1 < c.nearest)) state_ = moving_receiver_filter_box(state_, r);
+                else {
+                    if (r.t0 > to) {
+                        if (from < to) hide(c, from, to);
+                        from = r.t0;
+                    }
+                    to = std::min(r.t1, c.t1);
+                }
+            }
+            if (t.single && c.t1 <= r.t1) break; // the next one begins later
+        }
+        t.at = std::min(n, t.list.size() - 1);
+        if (from < to) hide(c, from, to);
+    }
+
+    void drain()
+    {
+        const auto used = [&] { return std::span(taps_).first(count_); };
+        if (!map_.totals.empty()) {
+            std::size_t left = 0;
+            for (const tap& t : used()) {
+                const range_total<T>& total = map_.totals[t.texel];
+                if (add_total(t, total)) continue;
+                taps_[left] = t;
+                taps_[left++].single = total.id == T(range_nothing);
+                prefetch(&map_.first[t.texel]);
+            }
+            count_ = left;
+        }
+        for (std::size_t k = 0; k < count_; ++k) find_list(k);
+        for (std::size_t k = 0; k < count_; ++k) add_list(taps_[k]);
+        count_ = cell_count_ = 0;
+    }
+
+    const range_map<T>& map_;
+    moving_receiver<T> state_;
+    int look_ups_;
+    std::array<receiver_cell<T>, room / 4> cells_;
+    std::array<tap, room> taps_;
+    std::size_t count_ = 0, cell_count_ = 0;
+};
+
+} // namespace detail
+} // namespace gnomon
+#endif
