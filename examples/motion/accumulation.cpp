@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gnomon/filters/percentage_closer.h>
 #include <gnomon/motion/moving_receiver.h>
+#include <gnomon/passes/range_map.hpp>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -159,11 +160,12 @@ interleaved_maps interleave(const accumulated_maps& maps)
 {
     interleaved_maps result{maps.resolution, int(maps.depths.size()), {}};
     const std::size_t size = std::size_t(maps.resolution), each = result.depths_per_texel();
-    result.depths.resize(size * size * each, cleared);
+    result.depths.resize(range_map<float>::texels(size, size) * each, cleared);
     tbb::parallel_for(std::size_t(0), size, [&](std::size_t row) {
-        for (std::size_t i = row * size; i < (row + 1) * size; ++i)
-            for (std::size_t m = 0; m < maps.depths.size(); ++m)
-                result.depths[i * each + m] = maps.depths[m].pixels[i][0];
+        for (std::size_t column = 0; column < size; ++column) {
+            float* to = &result.depths[range_map<float>::texel(size, column, row) * each];
+            for (const auto& map : maps.depths) *to++ = map.pixels[row * size + column][0];
+        }
     });
     return result;
 }
@@ -175,7 +177,8 @@ float resting_visibility(const interleaved_maps& maps, const light_receiver& r)
     const pack depth(std::min(r.path.depth.z0, cleared));
     for_each_tap(receiver_path_at(r.path, r.path.depth.t0), [&](float column, float row, float weight) {
         if (!(column >= 0 && row >= 0 && column < float(size) && row < float(size))) return;
-        const float* depths = &maps.depths[(std::size_t(row) * size + std::size_t(column)) * each];
+        const float* depths =
+            &maps.depths[range_map<float>::texel(size, std::size_t(column), std::size_t(row)) * each];
         for (std::size_t m = 0; m < each; m += pack::size)
             shadowed += gnomon_select(pack::load_unaligned(depths + m) < depth, pack(weight), pack(0.f));
     });

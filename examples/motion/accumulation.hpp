@@ -54,7 +54,7 @@ std::vector<float> in_order_of_courses(std::span<const accumulated_receivers> re
 // after the other.
 struct interleaved_maps {
     int resolution = 0, count = 0;
-    std::vector<float> depths; // texel by texel, row by row, whole packs of them
+    std::vector<float> depths; // texel by texel, in the order of range_map, whole packs of them
 
     std::size_t depths_per_texel() const;
 };
