@@ -210,7 +210,7 @@ struct vertex_piece : field_and_sample {
     {
         using real = std::common_type_t<Reals...>;
         const std::array<real, inputs> x{operands...};
-        return moving_depth_piece(corners(x), edges(x), real(0.25), real(0.75), real(0), real(0), real(0.002)).z1;
+        return moving_depth_piece(corners(x), edges(x), real(0.25), real(0.75), real(0), real(0), real(0x1p-9)).z1;
     }
 };
 
@@ -220,7 +220,7 @@ struct field_piece : field_and_sample {
     {
         using real = std::common_type_t<Reals...>;
         const std::array<real, inputs> x{operands...};
-        return depth_curve_piece(curve(x), real(0.25), real(0.75), real(0), real(0.002)).z1;
+        return depth_curve_piece(curve(x), real(0.25), real(0.75), real(0), real(0x1p-9)).z1;
     }
 };
 

@@ -46,12 +46,13 @@ struct sighting {
 };
 
 // Ranges whose depth is further from its line than the tolerance, in pieces (Palmer 2011, chapter 5).
-template <class Piece>
-[[gnu::noinline]] void add_pieces(const sighting& at, xsimd::batch_bool<float> bent, const Piece& piece_from)
+[[gnu::noinline]] void add_pieces(const sighting& at, xsimd::batch_bool<float> bent, depth_curve<texel_pack> curve,
+                                  texel_pack opening, texel_pack closing)
 {
     texel_pack passed = gnomon_select(bent, texel_pack(0.f), texel_pack(1.f));
     while (gnomon_any(passed < texel_pack(1.f))) {
-        const depth_piece<texel_pack> piece = piece_from(passed);
+        const depth_piece<texel_pack> piece =
+            depth_curve_piece(curve, opening, closing, passed, texel_pack(at.tolerance));
         at.to.add(passed < texel_pack(1.f) && piece.t0 < piece.t1, {piece.t0, piece.t1, piece.z0, piece.z1},
                   float(at.triangle.setup().number));
         passed = piece.passed;
@@ -69,19 +70,8 @@ GNOMON_INLINE void add_range(const sighting& at, const Sight& sight, const xsimd
         return;
     }
     const depth_line<texel_pack> line = sight.line(opening, closing);
-    const texel_pack tolerance(at.tolerance);
-    const auto bent = exists && tolerance < line.deviation;
-    if (gnomon_any(bent)) {
-        if (at.triangle.setup().before_eye)
-            add_pieces(at, bent, [curve = sight.curve, opening, closing, tolerance](const texel_pack& passed) {
-                return depth_curve_piece(curve, opening, closing, passed, tolerance);
-            });
-        else
-            add_pieces(at, bent, [&at, edges = sight.edges, opening, closing, tolerance](const texel_pack& passed) {
-                return moving_depth_piece(numbers_as<texel_pack>(at.triangle.setup().corners), edges, opening, closing,
-                                          passed, texel_pack(0.f), tolerance);
-            });
-    }
+    const auto bent = exists && texel_pack(at.tolerance) < line.deviation;
+    if (gnomon_any(bent)) add_pieces(at, bent, sight.curve, opening, closing);
     at.to.add(exists && !bent, {opening, closing, line.z0, line.z1}, id);
 }
 
@@ -90,18 +80,26 @@ template <class Sight>
 [[gnu::noinline]] std::uint64_t add_between_planes(const sighting& at, Sight sight, xsimd::batch_bool<float> exists,
                                                    texel_pack opening, texel_pack closing, float facing)
 {
+    // Depths at or beyond a plane are limited to it.
+    const texel_pack one(1.f);
+    const depth_line<texel_pack> line = sight.line(opening, closing);
+    const auto inside = gnomon_max(line.z0, line.z1) + line.deviation < one &&
+                        texel_pack(-1.f) < gnomon_min(line.z0, line.z1) - line.deviation;
+    if (!gnomon_any(exists && !inside)) {
+        add_range(at, sight, exists, opening, closing);
+        return bits_of(exists);
+    }
     const edge_times<texel_pack> beyond = depth_times_beyond(sight.curve, texel_pack(-1.f), texel_pack(facing)),
-                                 before = depth_times_before(sight.curve, texel_pack(1.f), texel_pack(facing));
+                                 before = depth_times_before(sight.curve, one, texel_pack(facing));
     std::uint64_t seen = 0;
     for (const float i : {0.f, 1.f})
         for (const float k : {0.f, 1.f}) {
             linear_times<texel_pack> part = edge_times_part(beyond, texel_pack(i), opening, closing);
             part = edge_times_part(before, texel_pack(k), part.begin, part.end);
             const auto there = exists && part.begin < part.end;
-            const std::uint64_t bits = bits_of(there);
-            if (bits == 0) continue;
+            if (!gnomon_any(there)) continue;
             add_range(at, sight, there, part.begin, part.end);
-            seen |= bits;
+            seen |= bits_of(there);
         }
     return seen;
 }
@@ -112,11 +110,9 @@ GNOMON_INLINE std::uint64_t add_interval(const sighting& at, const Sight& sight,
                                          const texel_pack& opening, const texel_pack& closing, float facing)
 {
     if (!at.triangle.whole()) exists = exists && at.triangle.contains(at.samples);
-    if (__builtin_expect(!at.triangle.setup().between_planes, 0))
-        return add_between_planes(at, sight, exists, opening, closing, facing);
-    const std::uint64_t seen = bits_of(exists);
+    if (!at.triangle.setup().between_planes) return add_between_planes(at, sight, exists, opening, closing, facing);
     add_range(at, sight, exists, opening, closing);
-    return seen;
+    return bits_of(exists);
 }
 
 [[gnu::noinline]] std::uint64_t add_further_intervals(const sighting& at, curved_sight sight,

@@ -225,17 +225,6 @@ tile_triangle::tile_triangle(const moving_setup& s, const moving_tile& where, co
     wide_ = widened(wide_, errors_, 1);
 }
 
-texel_pack curved_sight::depth_of_corners(const moving_setup& s, moving_edges<texel_pack> edges, const texel_pack& t)
-{
-    return moving_triangle_linear_depth(numbers_as<texel_pack>(s.corners), edges, t);
-}
-
-depth_line<texel_pack> curved_sight::line_of_corners(const moving_setup& s, moving_edges<texel_pack> edges,
-                                                     const texel_pack& begin, const texel_pack& end)
-{
-    return moving_depth_line(numbers_as<texel_pack>(s.corners), edges, begin, end, texel_pack(0.f));
-}
-
 void tile_members::assign(const tiled_triangles& scenery, std::size_t tile, bool front_to_back)
 {
     triangles_.clear();

@@ -247,19 +247,11 @@ struct curved_sight {
         return edge_times_together(inside(edges.a, of.linear_edges.x), inside(edges.b, of.linear_edges.y),
                                    inside(edges.c, of.linear_edges.z));
     }
-    GNOMON_INLINE texel_pack depth(const texel_pack& t) const
-    {
-        return of.before_eye ? depth_curve_at(curve, t) : depth_of_corners(of, edges, t);
-    }
+    GNOMON_INLINE texel_pack depth(const texel_pack& t) const { return depth_curve_at(curve, t); }
     GNOMON_INLINE depth_line<texel_pack> line(const texel_pack& begin, const texel_pack& end) const
     {
-        return of.before_eye ? depth_curve_line(curve, begin, end) : line_of_corners(of, edges, begin, end);
+        return depth_curve_line(curve, begin, end);
     }
-
-    // Without a field: for triangles that are not before the eye all of the time.
-    static texel_pack depth_of_corners(const moving_setup& s, moving_edges<texel_pack> edges, const texel_pack& t);
-    static depth_line<texel_pack> line_of_corners(const moving_setup& s, moving_edges<texel_pack> edges,
-                                                  const texel_pack& begin, const texel_pack& end);
 };
 
 // Of one that is linear in time.

@@ -1,5 +1,6 @@
 // Maps that leave ranges out, resolved or without backdrops, with a small budget or a large one and triangles in any
 // order: a receiver that is not behind what was left out gets the answer of all ranges.
+#include "../support/climber.hpp"
 #include "../support/effort.hpp"
 #include "../support/hostile.hpp"
 #include "moving_worlds.hpp"
@@ -10,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "toolbox/moving_lists.hpp"
 
 using namespace gnomon;
 using namespace gnomon::test;
@@ -164,4 +167,48 @@ TEST_CASE("a texel with thousands of layers that cross one another is resolved, 
             if (r.t0 <= t && t < r.t1) found = std::min(found, range_depth(r, t));
         REQUIRE(std::abs(found - nearest) < 1e-5f);
     }
+}
+
+// Seven ranges of a texel in any order, of which some last from 0 to 1, thinned out after any of them.
+TEST_CASE("a climber finds no receiver that thinned lists without backdrops light, or shadow")
+{
+    constexpr std::size_t ranges = 7, numbers = 4;
+    texel_lists texels;
+    stack<depth_time_range<float>> lists;
+    std::array<std::uint32_t, texel_pack::size> sizes{};
+    std::size_t shown = 0;
+    const auto score = [&](const std::vector<double>& place) {
+        const auto at = [&](std::size_t i) { return static_cast<float>(place[i]); };
+        std::vector<depth_time_range<float>> all;
+        texels.clear(true, false);
+        lists.clear();
+        const auto thinned = std::size_t(at(ranges * numbers) * (ranges + 1));
+        for (std::size_t k = 0; k < ranges; ++k) {
+            const std::size_t i = numbers * k;
+            const bool whole = at(i) > 0.6f;
+            const float z0 = 2 * at(i + 2) - 1, z1 = at(i + 1) > 0.5f ? z0 : 2 * at(i + 3) - 1;
+            all.push_back(range_between(whole ? 0 : at(i), z0, whole ? 1 : at(i + 1), z1, float(k)));
+            const auto& r = all.back();
+            texels.add(texel_pack(r.t0) < texel_pack(r.t1),
+                       {texel_pack(r.t0), texel_pack(r.t1), texel_pack(r.z0), texel_pack(r.z1)}, r.id);
+            if (k + 1 == thinned) texels.thin_out();
+        }
+        texels.append_resolved_to(lists, sizes, [](auto list) { return list; });
+        const std::span<const depth_time_range<float>> found = lists.used().first(sizes[0]);
+        // How far the depth in front is from that of all ranges, for receivers that the backdrop is not in front of.
+        const float t = at(ranges * numbers + 1), limit = backdrop_depth(all);
+        float expected = limit, nearest = limit;
+        for (const auto& r : all) {
+            if (std::abs(r.t0 - t) < 1e-5f || std::abs(r.t1 - t) < 1e-5f) return -1.0;
+            if (r.t0 <= t && t <= r.t1) expected = std::min(expected, range_depth(r, t));
+        }
+        for (const auto& r : found)
+            if (r.t0 <= t && t <= r.t1) nearest = std::min(nearest, range_depth(r, t));
+        shown += found.size();
+        return double(std::abs(nearest - expected)) / double(resolve_tie<float>);
+    };
+    const summit top = climb(ranges * numbers + 2, 400'000, 83, score);
+    MESSAGE("ties: ", top.score);
+    CHECK(top.score <= 2); // a tie, and what rounding makes of two cuts of its lines
+    CHECK(shown > 0);
 }

@@ -68,7 +68,7 @@ template <class T> class joining_cone {
 /// Joins the ranges of a resolved list, in place and in order of time. Only those are joined that follow one another
 /// without a gap and that same(a, b) says to be of one surface. A joined range lies behind every part by 0 to the
 /// tolerance, but for 8 roundings of its depths; of several ids it has none (range_mixed), and shadows them all.
-/// A tolerance that is not above 0 joins nothing.
+/// A tolerance that is not above 0 joins nothing. Not for lists with second layers (range_ids::any).
 template <class T, class Same>
 std::span<depth_time_range<T>> join_ranges(std::span<depth_time_range<T>> list, T tolerance, const Same& same)
 {

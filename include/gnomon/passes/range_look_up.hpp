@@ -78,23 +78,17 @@ T moving_shadow(const range_map<T>& map, const receiver_path<T>& path, T begin, 
     if constexpr (std::is_same_v<Add, box_shutter>) {
         detail::moving_taps<T> taps(map, state, look_ups);
         texel_position<T> at = receiver_path_at(shifted, sweep.t_begin);
-        T z = range_depth(path.depth, sweep.t_begin), passed = shutter_box(sweep.t_begin, begin, end);
+        T z = range_depth(path.depth, sweep.t_begin), passed = shutter_box(sweep.t_begin, state.begin, state.end);
         for (;; sweep = texel_sweep_next(sweep)) {
             if (sweep.t_begin < sweep.t_end) {
                 const texel_position<T> next = receiver_path_at(shifted, sweep.t_end);
                 const T next_z = range_depth(path.depth, sweep.t_end),
-                        next_passed = shutter_box(sweep.t_end, begin, end);
-                const detail::receiver_cell<T> cell{sweep.column,
-                                                    sweep.row,
-                                                    sweep.t_begin,
-                                                    sweep.t_end,
-                                                    saturate_or_zero(at.x - sweep.column),
-                                                    saturate_or_zero(at.y - sweep.row),
-                                                    saturate_or_zero(next.x - sweep.column),
-                                                    saturate_or_zero(next.y - sweep.row),
-                                                    std::min(z, next_z),
-                                                    std::max(z, next_z),
-                                                    next_passed - passed};
+                        next_passed = shutter_box(sweep.t_end, state.begin, state.end);
+                const T u0 = saturate_or_zero(at.x - sweep.column), u1 = saturate_or_zero(next.x - sweep.column);
+                const T v0 = saturate_or_zero(at.y - sweep.row), v1 = saturate_or_zero(next.y - sweep.row);
+                const detail::receiver_cell<T> cell{
+                    sweep.column, sweep.row,           sweep.t_begin,       sweep.t_end,         u0, v0, u1,
+                    v1,           std::min(z, next_z), std::max(z, next_z), next_passed - passed};
                 if (cell.share > 0) taps.add(cell); // the shutter is open
                 at = next, z = next_z, passed = next_passed;
             }

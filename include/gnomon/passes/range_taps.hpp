@@ -1,6 +1,6 @@
-// How look-ups read maps of ranges: from one array, or at random places of an array that no cache holds. So taps, the
-// texels that a filter reads, are queued; then totals of many are fetched together, after that where their lists begin,
-// and after that their lists: memory is waited for three times for a queue and not for each tap.
+// How look-ups read maps of ranges, which no cache holds. Taps, the texels that a filter reads, are queued; then the
+// totals of all of them are fetched together, then where the lists begin that totals leave open, then these lists.
+// Memory is waited for once per step of a queue, and not once per tap.
 #ifndef GNOMON_PASSES_RANGE_TAPS_HPP
 #define GNOMON_PASSES_RANGE_TAPS_HPP
 
@@ -92,7 +92,10 @@ template <class T> void add_list_box(static_receiver<T>& state, std::span<const 
 template <class T> bool add_total_box(static_receiver<T>& state, const range_total<T>& total)
 {
     if (receiver_is_in_front(state.depth, total) > 0) return true;
-    if (!(static_receiver_is_behind(state, total) > 0)) return false;
+    static_receiver<T> exposed = state;
+    const bool always = total.shadowed >= 1 && 0 <= state.begin && state.begin < state.end && state.end <= 1;
+    if (always) exposed.begin = 0, exposed.end = 1; // what hides at all times hides in any exposure
+    if (!(static_receiver_is_behind(exposed, total) > 0)) return false;
     state = static_receiver_add_total(state, total);
     return true;
 }
@@ -176,8 +179,8 @@ template <class T> class moving_taps {
                 cells_[cell_count_++] = cell;
             }
             taps_[count_++] = {&cells_[cell_count_ - 1], texel, i, j, false, {}, 0, nullptr};
-            if (map_.totals.empty()) prefetch(&map_.first[texel]);
-            else prefetch(&map_.totals[texel]);
+            prefetch(&map_.first[texel]);
+            if (!map_.totals.empty()) prefetch(&map_.totals[texel]);
         });
     }
 
@@ -200,7 +203,7 @@ template <class T> class moving_taps {
         std::size_t at;  // in the list, where it is read from, and then to where it was read
         const tap* same; // a tap before it of the same texel, in the cell before, or none
     };
-    static constexpr std::size_t room = 32; // what is asked for and not read yet has to fit in the nearest cache
+    static constexpr std::size_t room = 64; // what is asked for and not read yet has to fit in the nearest cache
 
     /// K times texel_weight.
     T weight(T u, int i) const { return i == 0 ? 1 - u : i < look_ups_ ? T(1) : u; }
@@ -296,7 +299,6 @@ template <class T> class moving_taps {
                 if (add_total(t, total)) continue;
                 taps_[left] = t;
                 taps_[left++].single = total.id == T(range_nothing);
-                prefetch(&map_.first[t.texel]);
             }
             count_ = left;
         }
