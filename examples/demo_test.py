@@ -179,7 +179,7 @@ class Demo(unittest.TestCase):
         facts = json.loads((self.out / "gallery" / "motion_analytic" / "facts.json").read_text())
         self.assertGreaterEqual({mesh["scene"] for mesh in facts["meshes"]}, {"400 random cubes", "waving sheet"})
         for mesh in facts["meshes"]:
-            self.assertEqual(len({row["method"] for row in mesh["maps"]}), 3)
+            self.assertEqual(len({row["method"] for row in mesh["maps"]}), 4)
         self.assertEqual(len({row["half_extent"] for row in facts["memory"]["rows"]}), 2)
 
     def test_known_answers(self):

@@ -233,6 +233,11 @@ def surfaces(scenes):
             if plain != row["method"]:
                 yield from ((scene, "triangles", scene.row(plain)), (scene, "surfaces", row))
 
+    def joined(scene):
+        for row in scene.unpictured:
+            if ", joined, " in row["method"]:
+                yield scene, "triangles", row
+
     def cells(scene, whose, row):
         yield scene.title, f'{escape(scene.title)}, {scene.facts["surfaces"]:,} surfaces of {scene.facts["triangles"]:,} triangles'
         yield row["method"], escape(row["method"].replace(", ids of surfaces", ""))
@@ -241,13 +246,14 @@ def surfaces(scenes):
             yield number(1e3 * row[key], 2)
         yield number(row["bytes_per_texel"])
 
-    rows = [pair for scene in scenes for pair in pairs(scene)]
+    rows = [found for scene in scenes for found in (*pairs(scene), *joined(scene))]
     if not rows:
         return ""
     return """<h3>Ids of surfaces</h3>
 <p>A receiver is not shadowed by what has its own id. That may be its triangle, or all triangles that cannot shadow one another
 since they stay in one plane or form one convex part (Palm&eacute;r, 2.3.2). Ranges of one id also merge into one of that id, where
-a list is full, instead of into one that shadows everybody. Acne is shown with the depth bias of all methods and without it.</p>
+a list is full, instead of into one that shadows everybody. Joined are ranges of one mesh that follow one another on nearly one
+line, whatever their ids. Acne is shown with the depth bias of all methods and without it.</p>
 """ + table(("scene", "method", "ids", "RMSE", "leak", "acne", "acne, no bias", "bytes per texel"),
             (cells(*row) for row in rows), words=3)
 

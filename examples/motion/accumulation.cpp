@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <gnomon/filters/percentage_closer.h>
 #include <gnomon/motion/moving_receiver.h>
-#include <gnomon/passes/range_map.hpp>
 #include <tbb/parallel_for.h>
+#include <gnomon/passes/range_map.hpp>
 
 #include <algorithm>
 #include <glm/common.hpp>
@@ -177,8 +177,7 @@ float resting_visibility(const interleaved_maps& maps, const light_receiver& r)
     const pack depth(std::min(r.path.depth.z0, cleared));
     for_each_tap(receiver_path_at(r.path, r.path.depth.t0), [&](float column, float row, float weight) {
         if (!(column >= 0 && row >= 0 && column < float(size) && row < float(size))) return;
-        const float* depths =
-            &maps.depths[range_map<float>::texel(size, std::size_t(column), std::size_t(row)) * each];
+        const float* depths = &maps.depths[range_map<float>::texel(size, std::size_t(column), std::size_t(row)) * each];
         for (std::size_t m = 0; m < each; m += pack::size)
             shadowed += gnomon_select(pack::load_unaligned(depths + m) < depth, pack(weight), pack(0.f));
     });

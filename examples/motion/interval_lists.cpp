@@ -43,7 +43,17 @@ template <int N> struct listed_texels {
             counts.insert(counts.end(), pack::size, 0);
             return;
         }
-        range_list<pack, N> list = range_list_of<pack, N>(range_empty(pack(0.f)));
+        // One range is at most 3 spans and two are at most 6, so that smaller lists hold them as well.
+        if (N > 4 && longest <= 1) add_lists<4>(lists, longest);
+        else if (N > 8 && longest <= 2) add_lists<8>(lists, longest);
+        else add_lists<N>(lists, longest);
+    }
+
+  private:
+    template <int M>
+    void add_lists(const std::array<std::span<const depth_time_range<float>>, pack::size>& lists, std::size_t longest)
+    {
+        range_list<pack, M> list = range_list_of<pack, M>(range_empty(pack(0.f)));
         for (std::size_t k = 0; k < longest; ++k) {
             std::array<lanes, 5> r;
             for (std::size_t i = 0; i < pack::size; ++i) {
@@ -56,7 +66,7 @@ template <int N> struct listed_texels {
         list = range_list_resolve(list);
         for (std::size_t i = 0; i < pack::size; ++i) {
             const std::size_t before = ranges.size();
-            for (int k = 0; k < N; ++k) {
+            for (int k = 0; k < M; ++k) {
                 const auto span = range_in_lane(list.ranges[k], i);
                 if (span.t0 < span.t1) ranges.push_back(span);
             }

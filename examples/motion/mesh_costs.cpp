@@ -40,6 +40,7 @@ struct kind {
 constexpr std::array kinds{
     kind{"exact ranges", {.depth_tolerance = depth_tolerance}},
     kind{"resolved ranges", {.resolved = true, .depth_tolerance = depth_tolerance}},
+    kind{"resolved ranges, joined", {.resolved = true, .depth_tolerance = depth_tolerance, .joining = depth_tolerance}},
     kind{"caster ranges", {.resolved = true, .backdrops = false, .depth_tolerance = depth_tolerance}}};
 
 nlohmann::json costs_of(const moving_stage& stage, const std::string& name, int resolution)

@@ -96,7 +96,11 @@ class motion_comparison {
         add_courses(with_totals(caster_ranges(world, light, resolution)), "analytic", demo::analytic_visibility);
         for (const int capacity : {4, 8, 16})
             add_courses(interval_lists(exact, capacity), "analytic", demo::analytic_visibility);
-        if (listed_.surfaces) add_surfaces(exact, resolved);
+        if (listed_.surfaces) {
+            add_surfaces(exact, resolved);
+            add_unpictured(by_courses(joined_ranges(world, light, resolution), by_triangles_, "analytic",
+                                      demo::analytic_visibility));
+        }
         if (listed_.cover_first) add_cover_first(cover_first_ranges(exact));
     }
 

@@ -14,7 +14,7 @@ namespace gnomon::demo {
 
 struct motion_scene {
     std::string key, title;   // key: the beginning of its files' names
-    bool surfaces = false;    // also by ids of surfaces instead of triangles
+    bool surfaces = false;    // also by ids of surfaces instead of triangles, and joined
     bool cover_first = false; // also by covers before lists
 };
 

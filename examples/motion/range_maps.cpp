@@ -123,6 +123,12 @@ range_shadow_map resolved_ranges(const moving_scene& world, const moving_camera&
                       {.resolved = true, .depth_tolerance = depth_tolerance});
 }
 
+range_shadow_map joined_ranges(const moving_scene& world, const moving_camera& light, int resolution)
+{
+    return rasterized("resolved ranges, joined", world, light, resolution,
+                      {.resolved = true, .depth_tolerance = depth_tolerance, .joining = depth_tolerance});
+}
+
 range_shadow_map caster_ranges(const moving_scene& world, const moving_camera& light, int resolution)
 {
     return rasterized("caster ranges", world, light, resolution,

@@ -53,7 +53,10 @@ range_shadow_map exact_ranges(const toolbox::moving_scene& world, const toolbox:
 range_shadow_map resolved_ranges(const toolbox::moving_scene& world, const toolbox::moving_camera& light,
                                  int resolution);
 
-// The same without backdrops: what shadows something.
+// The same with those of one mesh joined that follow one another on nearly one line.
+range_shadow_map joined_ranges(const toolbox::moving_scene& world, const toolbox::moving_camera& light, int resolution);
+
+// Resolved ranges without backdrops: what shadows something.
 range_shadow_map caster_ranges(const toolbox::moving_scene& world, const toolbox::moving_camera& light, int resolution);
 
 // Resolved ranges, and for each texel what they hide together, for receivers at rest behind all of them.
