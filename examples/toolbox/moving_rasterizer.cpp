@@ -293,7 +293,7 @@ const range_lists& range_rasterizer::operator()(const moving_scene& world, const
         if (lists_.ranges.size() < end) lists_.ranges.resize(std::max(end, 2 * lists_.ranges.size()));
         tbb::parallel_for(std::size_t(0), tiles.size(), [&](std::size_t i) {
             const auto made = tiles[i].lists.used();
-            copy_to_memory(made, &lists_.ranges[begins[i]]);
+            copy_to_memory(made, lists_.ranges.data() + begins[i]);
             const auto first = lists_.first.begin() + std::ptrdiff_t((tile + i) * texels_per_tile);
             std::exclusive_scan(tiles[i].sizes.begin(), tiles[i].sizes.end(), first, std::uint32_t(begins[i]));
         });

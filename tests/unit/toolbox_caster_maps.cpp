@@ -109,7 +109,7 @@ TEST_CASE("resolved maps and caster maps answer as all ranges do, by any budget 
             return rasterize(world, light_above(), world_size, world_size, how);
         };
         const float tolerance = bits.chance(0.5) ? 0 : 1e-3f;
-        const std::size_t budget = std::size_t(1) << bits.below(15);
+        const std::size_t budget = texel_pack::size << bits.below(6);
         const range_lists all = rasterized({.depth_tolerance = tolerance});
         const range_lists resolved = rasterized({.resolved = true, .depth_tolerance = tolerance, .budget = budget});
         const range_lists casters =

@@ -244,7 +244,7 @@ TEST_CASE("lists do not depend on threads, and resolved ones not on the budget")
         const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
         CHECK(same_lists(many, rasterize(world, light, 100, 90)));
     }
-    const range_lists cramped = rasterize(world, light, 100, 90, {.resolved = true, .budget = 500});
+    const range_lists cramped = rasterize(world, light, 100, 90, {.resolved = true, .budget = 30 * texel_pack::size});
     CHECK(cramped.counts.early_resolves > 0);
     CHECK(cramped.counts.pairs == many.counts.pairs);
     // Cut lines are rounded, so depths, and with them crossings, move in the last places.
