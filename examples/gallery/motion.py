@@ -297,7 +297,8 @@ def memory(out, folder, facts):
         return bytes_of["prism ranges"] / bytes_of["prism ranges with coverage"]
 
     def described(row):
-        return f"{saved(row):.1f} times as much ({row['count']} cubes of half-extent {row['half_extent']:g}, speed {row['factor']:g})"
+        speed = motion_charts.ratio(row["factor"])
+        return f"{saved(row):.1f} times as much ({row['count']} cubes of half-extent {row['half_extent']:g}, speed {speed})"
 
     least, *_, most = sorted(found["rows"], key=saved)
     return f"""<h3>Memory and time</h3>
