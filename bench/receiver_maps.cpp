@@ -145,33 +145,24 @@ squares_map& scene()
     return map;
 }
 
-/// Time of the first work, and how many times less that is than that of the second.
-void compare(benchmark::State& state, const work& measured, const work& baseline)
-{
-    const auto times = time_in_turn({measured, baseline});
-    for (auto _ : state) state.SetIterationTime(quantile(times[0], 0.5) * 1e-9);
-    state.counters["least_ns"] = quantile(times[0], 0);
-    state.counters["speedup"] = median_ratio(times[1], times[0]);
-}
-
-template <class Compare> bool add(const char* name, Compare run)
-{
-    benchmark::RegisterBenchmark(name, run)->Iterations(1)->UseManualTime()->Unit(benchmark::kNanosecond);
-    return true;
-}
-
 [[maybe_unused]] const bool registered =
-    add("receivers/a cell of a way/fold",
-        [](auto& s) { compare(s, scene().moving_by_fold(), scene().moving_by_fold()); }) &&
-    add("receivers/a cell of a way/lists",
-        [](auto& s) { compare(s, scene().moving(scene().lists()), scene().moving_by_fold()); }) &&
-    add("receivers/a cell of a way/totals",
-        [](auto& s) { compare(s, scene().moving(scene().with_totals()), scene().moving_by_fold()); }) &&
-    add("receivers/at rest/fold", [](auto& s) { compare(s, scene().resting_by_fold(), scene().resting_by_fold()); }) &&
-    add("receivers/at rest/lists",
-        [](auto& s) { compare(s, scene().resting(scene().lists()), scene().resting_by_fold()); }) &&
-    add("receivers/at rest/totals",
-        [](auto& s) { compare(s, scene().resting(scene().with_totals()), scene().resting_by_fold()); });
+    add_comparison(
+        "receivers/a cell of a way/fold", [] { return scene().moving_by_fold(); },
+        [] { return scene().moving_by_fold(); }) &&
+    add_comparison(
+        "receivers/a cell of a way/lists", [] { return scene().moving(scene().lists()); },
+        [] { return scene().moving_by_fold(); }) &&
+    add_comparison(
+        "receivers/a cell of a way/totals", [] { return scene().moving(scene().with_totals()); },
+        [] { return scene().moving_by_fold(); }) &&
+    add_comparison(
+        "receivers/at rest/fold", [] { return scene().resting_by_fold(); }, [] { return scene().resting_by_fold(); }) &&
+    add_comparison(
+        "receivers/at rest/lists", [] { return scene().resting(scene().lists()); },
+        [] { return scene().resting_by_fold(); }) &&
+    add_comparison(
+        "receivers/at rest/totals", [] { return scene().resting(scene().with_totals()); },
+        [] { return scene().resting_by_fold(); });
 
 } // namespace
 
