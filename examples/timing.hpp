@@ -34,7 +34,7 @@ double seconds_on_one_core(auto&& run)
 // disturbed by others. What takes long runs once.
 double least_of(auto&& measure)
 {
-    constexpr double enough = 0.06, is_long = 0.15;
+    constexpr double enough = 0.03, is_long = 0.15;
     double spent = measure(), least = spent;
     if (spent > is_long) return least;
     do {

@@ -124,6 +124,10 @@ def close_ups(rows, gain, folder, name):
     save(figure, folder, name)
 
 
+def ratio(value):
+    return f"1/{1 / value:g}" if value < 1 else f"{value:g}"
+
+
 def cubes(rows, resolution, folder, name):
     """What maps take, against number, speed and size of cubes."""
     quantities = (("bytes", "MiB", 2**-20), ("build_ms", "ms, one core", 1), ("ns_per_pair", "ns per texel and triangle", 1))
@@ -159,7 +163,7 @@ def cubes(rows, resolution, folder, name):
                                   fontsize=7, bbox={"color": "white", "alpha": 0.7, "pad": 0.5})
             axes.set_xscale("log", base=2)
             axes.set_yscale("log")
-            axes.set_xticks(places, [f"1/{1 / place:g}" if place < 1 else f"{place:g}" for place in places])
+            axes.set_xticks(places, [ratio(place) for place in places])
             axes.minorticks_off()
             axes.set_xlabel(label)
     for axes, (_, unit, _) in zip(panels[:, 0], quantities):

@@ -26,6 +26,13 @@ static_assert(sizeof(pack) == sizeof(whole_pack));
 
 constexpr float cleared = 1; // depth where a map has nothing, which is in front of nothing
 
+void fetch([[maybe_unused]] const float* from)
+{
+#ifdef __GNUC__
+    __builtin_prefetch(from);
+#endif
+}
+
 std::size_t whole_packs(std::size_t count) { return (count + pack::size - 1) / pack::size * pack::size; }
 
 // A row or column of texels that a look-up reads: where it is in the map, and its weight, 0 where it is outside.
@@ -170,22 +177,43 @@ interleaved_maps interleave(const accumulated_maps& maps)
     return result;
 }
 
-float resting_visibility(const interleaved_maps& maps, const light_receiver& r)
+void resting_visibility(const interleaved_maps& maps, std::span<const resting_receiver> receivers,
+                        std::span<float> visibility)
 {
+    // Some are fetched before any of them is asked for, since maps do not fit into a cache.
+    constexpr std::size_t at_once = 32, taps = 4;
+    struct tap {
+        const float* depths;
+        float weight;
+    };
     const std::size_t size = std::size_t(maps.resolution), each = maps.depths_per_texel();
-    pack shadowed(0.f);
-    const pack depth(std::min(r.path.depth.z0, cleared));
-    for_each_tap(receiver_path_at(r.path, r.path.depth.t0), [&](float column, float row, float weight) {
-        if (!(column >= 0 && row >= 0 && column < float(size) && row < float(size))) return;
-        const float* depths = &maps.depths[range_map<float>::texel(size, std::size_t(column), std::size_t(row)) * each];
-        for (std::size_t m = 0; m < each; m += pack::size)
-            shadowed += gnomon_select(pack::load_unaligned(depths + m) < depth, pack(weight), pack(0.f));
-    });
-    std::array<float, pack::size> sums;
-    shadowed.store_unaligned(sums.data());
-    float sum = 0;
-    for (const float x : sums) sum += x;
-    return 1 - saturate_or_zero(sum / float(maps.count));
+    std::array<std::array<tap, taps>, at_once> fetched;
+    std::array<std::size_t, at_once> counts;
+    for (std::size_t first = 0; first < receivers.size(); first += at_once) {
+        const auto some = receivers.subspan(first, std::min(at_once, receivers.size() - first));
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            counts[i] = 0;
+            for_each_tap({some[i].x, some[i].y}, [&](float column, float row, float weight) {
+                if (!(column >= 0 && row >= 0 && column < float(size) && row < float(size))) return;
+                const std::size_t texel = range_map<float>::texel(size, std::size_t(column), std::size_t(row));
+                const float* depths = &maps.depths[texel * each];
+                for (std::size_t m = 0; m < each; m += pack::size) fetch(depths + m);
+                fetched[i][counts[i]++] = {depths, weight};
+            });
+        }
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            pack shadowed(0.f);
+            const pack depth(std::min(some[i].depth, cleared));
+            for (const tap& t : std::span(fetched[i]).first(counts[i]))
+                for (std::size_t m = 0; m < each; m += pack::size)
+                    shadowed += gnomon_select(pack::load_unaligned(t.depths + m) < depth, pack(t.weight), pack(0.f));
+            std::array<float, pack::size> sums;
+            shadowed.store_unaligned(sums.data());
+            float sum = 0;
+            for (const float x : sums) sum += x;
+            visibility[first + i] = 1 - saturate_or_zero(sum / float(maps.count));
+        }
+    }
 }
 
 } // namespace gnomon::demo

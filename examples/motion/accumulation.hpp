@@ -61,7 +61,13 @@ struct interleaved_maps {
 
 interleaved_maps interleave(const accumulated_maps& maps);
 
-// The mean of a receiver's visibility over all maps. The receiver is at rest and faces the light.
-float resting_visibility(const interleaved_maps& maps, const light_receiver& r);
+// A receiver at rest that faces the light.
+struct resting_receiver {
+    float x, y, depth; // texel position and biased depth
+};
+
+// The mean of each receiver's visibility over all maps, by bilinear weights.
+void resting_visibility(const interleaved_maps& maps, std::span<const resting_receiver> receivers,
+                        std::span<float> visibility);
 
 } // namespace gnomon::demo

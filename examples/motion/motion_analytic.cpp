@@ -139,6 +139,7 @@ void gnomon::demo::motion_analytic(const settings& how)
     facts["memory"] = {
         {"resolution", size.map_resolution}, {"longest", longest_way}, {"rows", nlohmann::json::array()}};
     std::vector<toolbox::report_row> rows;
+    facts["parts_at_once"] = parts_at_once(size);
     const std::vector<motion_results> found = all.run(parts_at_once(size));
     for (std::size_t i = 0; i < found.size(); ++i) {
         const nlohmann::ordered_json& fact = found[i].facts;

