@@ -63,7 +63,7 @@ list resolved_alone(const list& ranges)
 }
 
 /// Neighbouring parts of one range as one.
-list joined(list spans)
+list joined(const list& spans)
 {
     list result;
     for (const auto& s : spans)
