@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gnomon/motion/range_list.h>
 #include <tbb/parallel_for.h>
+#include <gnomon/passes/part.hpp>
 #include <gnomon/simd/xsimd.hpp>
 
 #include <algorithm>
@@ -36,7 +37,9 @@ template <int N> struct listed_texels {
         std::array<std::span<const depth_time_range<float>>, pack::size> lists;
         std::size_t longest = 0;
         for (std::size_t i = 0; i < pack::size; ++i) {
-            lists[i] = from[texel + i];
+            parted_[i].assign(from[texel + i].begin(), from[texel + i].end());
+            part_neighbours(std::span(parted_[i]));
+            lists[i] = parted_[i];
             longest = std::max(longest, lists[i].size());
         }
         if (longest == 0) {
@@ -44,12 +47,16 @@ template <int N> struct listed_texels {
             return;
         }
         // One range is at most 3 spans and two are at most 6, so that smaller lists hold them as well.
-        if (N > 4 && longest <= 1) add_lists<4>(lists, longest);
-        else if (N > 8 && longest <= 2) add_lists<8>(lists, longest);
-        else add_lists<N>(lists, longest);
+        if constexpr (N > 4)
+            if (longest <= 1) return add_lists<4>(lists, longest);
+        if constexpr (N > 8)
+            if (longest <= 2) return add_lists<8>(lists, longest);
+        add_lists<N>(lists, longest);
     }
 
   private:
+    std::array<std::vector<depth_time_range<float>>, pack::size> parted_;
+
     template <int M>
     void add_lists(const std::array<std::span<const depth_time_range<float>>, pack::size>& lists, std::size_t longest)
     {
