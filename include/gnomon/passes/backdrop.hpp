@@ -6,6 +6,7 @@
 #define GNOMON_PASSES_BACKDROP_HPP
 
 #include "../motion/range.h"
+#include "../portable/cpp_only.h"
 
 #include <algorithm>
 #include <span>

@@ -4,6 +4,7 @@
 #define GNOMON_PASSES_PART_HPP
 
 #include "../motion/range.h"
+#include "../portable/cpp_only.h"
 
 #include <span>
 
