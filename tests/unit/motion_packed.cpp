@@ -1,5 +1,6 @@
 // Lists in few bits: packed spans, and lists of a fixed capacity, which must not change what they promise.
 #include <gnomon/motion/range_list.h>
+#include <gnomon/passes/part.hpp>
 #include <gnomon/passes/range_look_up.hpp>
 
 #include <doctest/doctest.h>
@@ -54,7 +55,9 @@ TEST_CASE("lists by packs have the bits of one texel alone")
     std::array<int, 3> checked{}; // of one, two and more ranges
     for (std::size_t i = 0; i < texels_of(resolution); i += 3) {
         auto list = range_list_of<float, 16>(range_empty(0.f));
-        for (const range& r : list_of(all, i)) list = range_list_insert(list, r);
+        std::vector<range> parted(list_of(all, i).begin(), list_of(all, i).end());
+        part_neighbours(std::span(parted));
+        for (const range& r : parted) list = range_list_insert(list, r);
         list = range_list_resolve(list);
         std::vector<range> expected;
         for (const range& r : list.ranges)
