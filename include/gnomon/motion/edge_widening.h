@@ -44,8 +44,9 @@ GNOMON_KERNEL Real linear_field_error(GNOMON_T(edge_field) f, Real h_x, Real h_y
     return Real(0.25) * (edge_field_error(f, h_x, h_y) + sample_plane_size(bend, h_x, h_y));
 }
 
-/// The edge moved outwards by a margin, its error: it is inside at all times at which the exact one is. Triangles around a common
-/// vertex then leave no crack beside it, where each edge is rounded by itself, but overlap by as little.
+/// The edge moved outwards by a margin, its error: it is inside at all times at which the exact one is. Triangles
+/// around a common vertex then leave no crack beside it, where each edge is rounded by itself, but overlap by as
+/// little.
 GNOMON_KERNEL GNOMON_T(moving_edge) moving_edge_widened(GNOMON_T(moving_edge) e, Real margin, GNOMON_SETTING facing)
 {
     Real by = facing * margin;
