@@ -37,7 +37,7 @@ struct accumulated_receivers {
     std::vector<std::uint32_t> course;
 };
 
-// One for each map.
+// The receivers of each map.
 std::vector<accumulated_receivers> accumulated_receivers_of(const toolbox::seen_motion& at_times,
                                                             const toolbox::moving_camera& light,
                                                             const accumulated_maps& maps);

@@ -46,7 +46,7 @@ template <int N> struct listed_texels {
             counts.insert(counts.end(), pack::size, 0);
             return;
         }
-        // One range is at most 3 spans and two are at most 6, so that smaller lists hold them as well.
+        // A range is at most 3 spans and two are at most 6, so that smaller lists hold them as well.
         if constexpr (N > 4)
             if (longest <= 1) return add_lists<4>(lists, longest);
         if constexpr (N > 8)

@@ -23,7 +23,7 @@ struct light_receiver {
 // either side.
 inline constexpr double motion_bias_radius = 1.5;
 
-// One for each course, with a bias for so many texels around its point.
+// The receiver of each course, with a bias for so many texels around its point.
 std::vector<light_receiver> light_receivers_of(const toolbox::seen_motion& seen, const toolbox::moving_camera& light,
                                                int resolution, double radius = motion_bias_radius);
 

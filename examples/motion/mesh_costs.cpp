@@ -24,7 +24,7 @@ using namespace toolbox;
 
 namespace {
 
-// One of the models, and a part of its animation in which it moves, in seconds.
+// A model, and a part of its animation in which it moves, in seconds.
 struct animated_file {
     std::string_view name;
     double open, closing;

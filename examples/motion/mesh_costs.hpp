@@ -1,4 +1,4 @@
-// What it takes to build maps of ranges of the meshes that people have: animated models and finely tessellated cloth,
+// The costs of maps of ranges of the meshes that people have: animated models and finely tessellated cloth,
 // beside cubes.
 #pragma once
 

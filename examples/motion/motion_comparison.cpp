@@ -184,7 +184,7 @@ class motion_comparison {
         add(by_courses(map, by_triangles_, how, test));
     }
 
-    // Where triangles that cannot shadow one another share an id.
+    // Rows of maps in which triangles that cannot shadow one another share an id.
     void add_surfaces(const range_shadow_map& exact, const range_shadow_map& resolved)
     {
         const std::vector<std::uint32_t> ids = surface_ids(stage_.world);

@@ -16,8 +16,8 @@
 
 namespace gnomon::demo {
 
-// What all of these maps say of themselves. Time is that of one core for all that a receiver may ask: building and
-// resolving, and totals and packing where there are any.
+// The facts that all of these maps tell of themselves. Time is that of one core for all that a receiver may ask:
+// building and resolving, and totals and packing where there are any.
 struct map_facts {
     std::string method, format;
     int resolution = 0;
@@ -88,7 +88,7 @@ struct packed_shadow_map : map_facts {
 };
 packed_shadow_map packed_ranges(const range_shadow_map& resolved);
 
-// What of a receiver at rest at a place of the map is shadowed, from the packed lists themselves.
+// The share of a receiver at rest at a place of the map that is shadowed, from the packed lists themselves.
 float static_shadow(const packed_shadow_map& map, float x, float y, static_receiver<float> state);
 
 std::size_t texels_of(int resolution);

@@ -38,7 +38,7 @@ template <class Key> auto value_at(std::span<const Key> keys, double ticks)
         "an animation leaves out the {} of node \"{}\", which its matrix does not tell", what, node.mName.C_Str()));
 }
 
-// Whether axes of length one are not square to each other, by more than what files of four digits round.
+// True where axes of length one are not square to each other, by more than what files of four digits round.
 bool is_sheared(const glm::dmat3& axes)
 {
     return !(std::max({std::abs(glm::dot(axes[0], axes[1])), std::abs(glm::dot(axes[1], axes[2])),
@@ -126,7 +126,7 @@ void place(assimp_pose& target, const aiNode& node, const glm::dmat4& parent, co
         if (node.mChildren[i]) place(target, *node.mChildren[i], to_world, moving, ticks);
 }
 
-// Where a file does not say how long a tick is, it is Assimp's custom to take 1/25 s.
+// Ticks a second; 25, by Assimp's custom, where a file does not say.
 double ticks_per_second(const aiAnimation& animation)
 {
     return animation.mTicksPerSecond > 0 ? animation.mTicksPerSecond : 25;

@@ -1,4 +1,4 @@
-// Where the nodes of a file that Assimp has read are, at rest and at a time of one of its animations. Only for the
+// Places of the nodes of a file that Assimp has read, at rest and at a time of one of its animations. Only for the
 // reader of models: Assimp's types stay behind it.
 #pragma once
 

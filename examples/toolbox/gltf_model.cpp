@@ -58,7 +58,7 @@ struct binding {
     std::vector<double> weights;
 };
 
-// One set of four for each corner. Refuses triangles of whose corners no joint carries one.
+// A set of four for each corner. Refuses triangles of whose corners no joint carries one.
 std::vector<binding> bindings_of(const Model& model, const Primitive& from, std::size_t corners,
                                  const std::vector<glm::uvec3>& triangles)
 {

@@ -26,7 +26,7 @@ void take(std::vector<double>& target, const std::vector<double>& given, const c
     target = given;
 }
 
-// What animations change of a node, in the file's own order of components.
+// The properties of a node that animations change, in the file's own order of components.
 struct node_state {
     std::vector<double> translation{0, 0, 0}, rotation{0, 0, 0, 1}, scale{1, 1, 1}, weights;
 };

@@ -1,4 +1,4 @@
-// Where the nodes of a glTF file are, and how much its morph targets weigh, at rest and at a time of an animation.
+// Places of the nodes of a glTF file, and weights of its morph targets, at rest and at a time of an animation.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -9,7 +9,7 @@
 
 namespace gnomon::toolbox {
 
-// One of each for every node of the file.
+// Placement and weights of every node of the file.
 struct gltf_pose {
     std::vector<glm::dmat4> to_world;
     std::vector<std::vector<double>> weights; // one for each morph target of the node's mesh

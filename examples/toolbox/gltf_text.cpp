@@ -38,13 +38,13 @@ bool all(const json& values, bool (*holds)(const json&))
 
 bool all_indices(const json& values) { return all(values, is_index); }
 
-// Whether this is no index but the indices of a sparse accessor.
+// True where this is no index but the indices of a sparse accessor.
 bool is_sparse_part(const std::string& key, const json& value)
 {
     return key == "indices" && value.is_object() && value.contains("bufferView");
 }
 
-// Whether a key is one of several words; each has a space before and behind it.
+// True for a key that is one of several words; each has a space before and behind it.
 bool is_among(const std::string& key, std::string_view words)
 {
     return words.find(" " + key + " ") != std::string_view::npos;
@@ -59,7 +59,7 @@ constexpr std::string_view index_list_keys = " attributes children joints nodes 
 constexpr std::string_view number_list_keys = " matrix rotation scale translation weights ";
 constexpr std::string_view text_keys = " interpolation path type ";
 
-// What the text says of its version, nothing where that is no text.
+// The version that the text says, nothing where that is no text.
 std::string version_of(const json& root)
 {
     if (!root.is_object() || !root.contains("asset") || !root["asset"].is_object()) return {};

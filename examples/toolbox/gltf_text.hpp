@@ -1,15 +1,16 @@
-// What tinygltf does not check in the text of a glTF file: it takes a value of the wrong type for an absent one, cuts
-// indices to 32 bits, and knows no extension that moves corners. Functions throw std::runtime_error with the cause.
+// Checks of the text of a glTF file that tinygltf does not make: it takes a value of the wrong type for an absent one,
+// cuts indices to 32 bits, and knows no extension that moves corners. Functions throw std::runtime_error with the
+// cause.
 #pragma once
 
 #include <string_view>
 
 namespace gnomon::toolbox {
 
-// Whether the file is one of chunks, not of text.
+// True for a file of chunks, not of text.
 bool is_gltf_binary(std::string_view bytes);
 
-// Whether the file says that it is of version 1.
+// True for a file that says that it is of version 1.
 bool is_gltf_1(std::string_view bytes);
 
 // The JSON text of a file. Both chunks of a binary one must end within the file: tinygltf reads up to eight bytes

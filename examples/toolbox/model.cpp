@@ -89,7 +89,7 @@ moving_scene normalised(std::string name, const std::vector<model_part>& parts)
     return model;
 }
 
-// Whether the file is glTF, but for version 1, which is another format and Assimp's.
+// True for a glTF file, but for version 1, which is another format and Assimp's.
 bool is_gltf(const std::filesystem::path& file)
 {
     std::string extension = file.extension().string();

@@ -1,4 +1,4 @@
-// What readers of model files hand over: meshes placed in the world, and the times at which they are wanted.
+// The result of readers of model files: meshes placed in the world, and the times at which they are wanted.
 #pragma once
 
 #include <cstddef>

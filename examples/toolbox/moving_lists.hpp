@@ -34,8 +34,8 @@ template <class T> class stack {
     std::size_t size_ = 0;
 };
 
-// What is known to be hidden while lists are still open: in each of some equal parts of the shutter, the farthest depth
-// of the nearest range that lasts for all of the part.
+// Depths behind which all is hidden, while lists are still open: in each of some equal parts of the shutter, the
+// farthest depth of the nearest range that lasts for all of the part.
 class hidden_depths {
   public:
     void clear()
@@ -56,7 +56,7 @@ class hidden_depths {
         return seen && exists;
     }
 
-    // One that is listed in these lanes.
+    // Adds a range that is listed in these lanes.
     GNOMON_INLINE void add(const xsimd::batch_bool<float>& exists, const range_pack& r)
     {
         if (!gnomon_any(exists && texel_pack(part) <= r.t1 - r.t0)) return;
@@ -83,7 +83,7 @@ class texel_lists {
     using range_lanes = depth_time_range<texel_pack>;
     using lane_mask = xsimd::batch_bool<float>;
 
-    // How many ranges there is room for.
+    // The number of ranges that there is room for.
     std::size_t room() const { return texel_pack::size * count_; }
 
     // Resolved lists keep what is in front. Without backdrops the farthest range that is always there waits outside of
@@ -193,7 +193,7 @@ class texel_lists {
         rows_[k].set(range_select(seen, r, rows_[k].range()));
     }
 
-    // What is in front, to pieces_, in order of time.
+    // Puts what is in front into pieces_, in order of time.
     void resolve()
     {
         resolve_rows<texel_pack>(rows_, fronts_, count_);

@@ -75,7 +75,7 @@ GNOMON_INLINE void add_range(const sighting& at, const Sight& sight, const xsimd
     at.to.add(exists && !bent, {opening, closing, line.z0, line.z1}, id);
 }
 
-// What of an interval is between the near and the far plane, of a triangle that passes one of them.
+// Adds the parts of an interval in which a triangle that passes the near or the far plane is between them.
 template <class Sight>
 [[gnu::noinline]] std::uint64_t add_between_planes(const sighting& at, Sight sight, xsimd::batch_bool<float> exists,
                                                    texel_pack opening, texel_pack closing, float facing)
@@ -104,7 +104,7 @@ template <class Sight>
     return seen;
 }
 
-// One interval of those lanes that have it. Returns which are in the picture, a bit for each.
+// Adds an interval of those lanes that have it. Returns which are in the picture, a bit for each.
 template <class Sight>
 GNOMON_INLINE std::uint64_t add_interval(const sighting& at, const Sight& sight, xsimd::batch_bool<float> exists,
                                          const texel_pack& opening, const texel_pack& closing, float facing)

@@ -126,7 +126,7 @@ GNOMON_INLINE moving_edges<texel_pack> turned(const moving_edges<texel_pack>& e)
     return {{-e.a.e0, -e.a.e1, -e.a.e2}, {-e.b.e0, -e.b.e1, -e.b.e2}, {-e.c.e0, -e.c.e1, -e.c.e2}};
 }
 
-// How much edge functions are widened by, lest rounding opens cracks around a vertex.
+// The margins by which edge functions are widened, lest rounding opens cracks around a vertex.
 struct edge_errors {
     float a = 0, b = 0, c = 0;
 
@@ -144,17 +144,11 @@ struct edge_errors {
     float sum() const { return a + b + c; }
 };
 
-GNOMON_INLINE edge_field<float> widened(const edge_field<float>& f, float error)
-{
-    edge_field<float> wide = f;
-    wide.e0.c += error, wide.e1.c += error, wide.e2.c += error;
-    return wide;
-}
-
 // By its errors where times is 1, to the other side where it is -1.
 GNOMON_INLINE moving_field<float> widened(const moving_field<float>& f, const edge_errors& e, float times)
 {
-    return {widened(f.a, times * e.a), widened(f.b, times * e.b), widened(f.c, times * e.c)};
+    return {edge_field_widened(f.a, e.a, times), edge_field_widened(f.b, e.b, times),
+            edge_field_widened(f.c, e.c, times)};
 }
 
 // Which cells, the samples within reach of their middles, a triangle covers at some time.
@@ -310,10 +304,10 @@ class tile_triangle {
         return {edges, curve(s, edges, facing)};
     }
 
-    // Whether all of the tile is in the picture.
+    // True where all of the tile is in the picture.
     bool whole() const { return whole_; }
 
-    // Whether samples are in the picture.
+    // The samples that are in the picture.
     auto contains(const moving_samples& s) const
     {
         const glm::vec2 beyond = glm::vec2(last_) + 1.f - 0.5f * float(moving_tile_size);

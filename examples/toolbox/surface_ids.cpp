@@ -90,7 +90,8 @@ class moving_surface {
         return result;
     }
 
-    // How far a corner is in front of a triangle, times the length of its normal, and that length; at one of the times.
+    // The distance of a corner in front of a triangle, times the length of its normal, and that length; at one of the
+    // times.
     std::pair<double, double> distance(const glm::uvec3& of, std::uint32_t corner, std::size_t time) const
     {
         const glm::dvec3 a = places_[of.x][time];
@@ -109,7 +110,7 @@ class moving_surface {
         return true;
     }
 
-    // Whether every edge has two triangles, one on either side.
+    // True where every edge has two triangles, one on either side.
     bool is_closed(std::span<const std::uint32_t> part) const
     {
         for (const std::uint32_t t : part)
@@ -120,7 +121,7 @@ class moving_surface {
         return true;
     }
 
-    // Whether all corners are behind all triangles.
+    // True where all corners are behind all triangles.
     bool is_convex(std::span<const std::uint32_t> part) const
     {
         if (part.size() > most_of_a_part) return false;

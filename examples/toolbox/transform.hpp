@@ -37,7 +37,8 @@ inline glm::dmat4 affine(const double* numbers)
     return matrix;
 }
 
-// What carries normals along: the inverse transpose, up to a positive factor; also where there is no inverse.
+// The matrix that carries normals along: the inverse transpose, up to a positive factor; also where there is no
+// inverse.
 inline glm::dmat3 for_normals(const glm::dmat4& matrix)
 {
     const glm::dmat3 m(matrix);

@@ -21,5 +21,8 @@ inline std::int64_t effort(std::int64_t full)
     std::exit(2);
 }
 
+/// True where only a part of the draws of a full run is made, so that rare ones may be missing.
+inline bool draws_few() { return effort(100) < 100; }
+
 } // namespace gnomon::test
 #endif

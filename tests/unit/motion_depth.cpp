@@ -103,7 +103,7 @@ TEST_CASE_TEMPLATE("linear depth is that of the point that the sample sees", T, 
     CHECK(double(sharp) > 0.8 * double(asked));
 }
 
-// Where the mean of z and the centroid's depth agree with the truth: 16 2^-p. The line deviates by its stated error,
+// The mean of z and the centroid's depth agree with the truth within 16 2^-p. The line deviates by its stated error,
 // with depths and deviations up to 1.
 TEST_CASE_TEMPLATE("a plane across the axis goes along it linearly, also in perspective", T, float, double)
 {

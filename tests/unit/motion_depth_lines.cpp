@@ -102,7 +102,7 @@ template <class T> struct curve_depth {
     }
 };
 
-/// How far at most the depth between two times is from the line, over the deviation and its stated error; how far over
+/// The largest distance of the depth between two times from the line, over the deviation and its stated error; over
 /// the deviation alone; and the error.
 struct departure {
     double ratio, plain, error;
@@ -180,7 +180,7 @@ struct piece_counts {
     std::size_t most = 0;
 };
 
-/// What the comment of moving_depth_piece states.
+/// Checks what the comment of moving_depth_piece states.
 template <class T, class Depth> void check_pieces(Depth depth, T begin, T end, T tolerance, piece_counts& counts)
 {
     const auto pieces = pieces_of(depth, begin, end, tolerance);
@@ -278,7 +278,7 @@ TEST_CASE_TEMPLATE("pieces tile an interval bit for bit and hold to the toleranc
     }
     for (const piece_counts& x : {corners, curves}) {
         CHECK(x.pieces < 4 * x.intervals);
-        CHECK(10 * x.short_ones < x.pieces + 1000); // two intervals beside a turn of the facing have 64
+        if (!draws_few()) CHECK(10 * x.short_ones < x.pieces); // two intervals beside a turn have 64
         CHECK(x.most > 8);
         CHECK(4 * x.sharp > x.pieces);
     }

@@ -36,8 +36,9 @@ template <class T> T size_of(const moving_cubic<T>& h)
     return std::max({std::abs(h.h0), std::abs(h.h1), std::abs(h.h2), std::abs(h.h3)});
 }
 
-/// How much of its error the cubic's value is beyond 0 on the wrong side, at a time t: 16 roundings of the largest
-/// coefficient for evaluating it, and what it changes within 2^-24, its slope being 6 times the largest at most.
+/// The part of its error by which the cubic's value is beyond 0 on the wrong side, at a time t: 16 roundings of the
+/// largest coefficient for evaluating it, and what it changes within 2^-24, its slope being 6 times the largest at
+/// most.
 template <class T> exact wrong_by(const moving_cubic<T>& h, exact t)
 {
     const exact error =
@@ -67,6 +68,8 @@ TEST_CASE_TEMPLATE("moving_cubic_inside: where the cubic is not negative, but fo
             h = {T(power[0]), T(3 * power[0] + power[1]), T(3 * power[0] + 2 * power[1] + power[2]),
                  T(power[0] + power[1] + power[2] + power[3])};
         }
+        const T t = T(bits.uniform(0, 1));
+        REQUIRE(std::abs(exact(moving_cubic_at(h, t)) - value_at(h, exact(t))) <= 8 * exact(u<T>) * exact(size_of(h)));
         const edge_times<T> x = moving_cubic_inside(h);
         ++kinds[x.gap_begin < T(coverage_none)];
         for (int k = 0; k < 16; ++k) REQUIRE(wrong_by(h, exact(bits.uniform(0, 1))) <= 1);
@@ -86,7 +89,7 @@ TEST_CASE("moving_cubic_inside: a climber finds no larger error")
     const summit top = climb(5, 200'000, 62, score);
     MESSAGE("of the stated error: ", top.score);
     CHECK(top.score <= 1);
-    CHECK(top.score > 0);
+    CHECK(top.score > (draws_few() ? 0 : 0.01));
 }
 
 TEST_CASE("depth_times: NaN and what is out of range is never there")
@@ -97,7 +100,7 @@ TEST_CASE("depth_times: NaN and what is out of range is never there")
         CHECK(moving_cubic_inside(h).end == 0);
 }
 
-// What the rasterizer does: planes in double, rounded to float.
+// As in the rasterizer: planes in double, rounded to float.
 TEST_CASE("widened edges are inside whenever exact ones are, and hardly longer")
 {
     bit_source bits(63);
@@ -117,11 +120,11 @@ TEST_CASE("widened edges are inside whenever exact ones are, and hardly longer")
             return exact(p.c) + exact(p.x) * exact(s_x) + exact(p.y) * exact(s_y);
         };
         const exact e0 = exact_at(field.a.e0), e1 = exact_at(field.a.e1), e2 = exact_at(field.a.e2);
-        const moving_edge<float> e = edge_field_at(f, s_x, s_y);
         const float error = edge_field_error(f, reach, reach), straight = linear_field_error(f, reach, reach);
-        const edge_times<float> wide = moving_edge_inside(moving_edge_widened(e, error, facing), facing);
-        const float side0 = facing * (e.e0 + facing * straight), side2 = facing * (e.e2 + facing * straight);
-        const linear_times<float> line = linear_edge_inside(side0, side2);
+        const auto widened = [&](float by) { return edge_field_at(edge_field_widened(f, by, facing), s_x, s_y); };
+        const edge_times<float> wide = moving_edge_inside(widened(error), facing);
+        const moving_edge<float> side = widened(straight);
+        const linear_times<float> line = linear_edge_inside(facing * side.e0, facing * side.e2);
         const auto check = [&](exact t) {
             const exact s = 1 - t, value = exact(facing) * (e0 * s * s + 2 * e1 * s * t + e2 * t * t);
             if (value > 0) REQUIRE(is_inside(wide, t));

@@ -1,5 +1,5 @@
-// What lists of ranges promise: full ones are in front of all that was inserted, strictly; and whom leaving out hidden
-// ranges costs a shadow.
+// The promises of lists of ranges: full ones are in front of all that was inserted, strictly; and whom leaving out
+// hidden ranges costs a shadow.
 #include "../support/climber.hpp"
 
 #include <gnomon/motion/coverage_map.h>
@@ -67,7 +67,7 @@ template <class T> std::vector<exact> critical_times(const ranges<T>& all)
     return times;
 }
 
-/// How far a list's front is behind that of what was inserted into it.
+/// The distance of a list's front behind that of what was inserted into it.
 template <class T, int capacity> double behind(const ranges<T>& all)
 {
     range_list<T, capacity> list = range_list_of<T, capacity>({});
@@ -144,8 +144,7 @@ TEST_CASE_TEMPLATE("ids: a shadow is lost where a range of the receiver's id is 
         shadowed += whole > 0;
     }
     CHECK(4 * shadowed > effort(100'000));
-    const std::int64_t expected = effort(100'000) / 100'000; // few draws may have none
-    for (const std::int64_t lost : {lost_in_list, lost_in_front, lost_behind_cover}) CHECK(lost >= expected);
+    for (const std::int64_t lost : {lost_in_list, lost_in_front, lost_behind_cover}) CHECK((lost > 0 || draws_few()));
 }
 
 // A box above a table, both of one object or each with an id of its own.

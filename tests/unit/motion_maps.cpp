@@ -44,7 +44,7 @@ TEST_CASE("resolved ranges have the front of the exact ones, as have prisms wher
             other_front += differs(resolved, 1e-5f);
             other_prism += differs(prisms, 1e-5f);
         });
-        // Where fronts change, rounding decides.
+        // Rounding decides where fronts change.
         CHECK(other_front <= asked / 2000);
         CHECK(other_prism <= asked / 2000);
     }
@@ -108,7 +108,7 @@ TEST_CASE("a cover that is asked first answers as the list does")
             decided += first.texel_covers[range_map<float>::texel(resolution, q.x, q.y)].id >= 0;
             other += cover_first_visibility_at(first, r, q.t) != visibility_at(all.map(), r, q.t);
         });
-        CHECK(decided >= effort(20'000) / 200 - 1);
+        CHECK((decided > 100 || draws_few()));
         CHECK(other == 0);
     }
 }

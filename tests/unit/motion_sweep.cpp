@@ -135,7 +135,7 @@ TEST_CASE_TEMPLATE("sweep over an area: the bits of the whole sweep there, and n
         const auto expected = visited(texel_sweep_begin(p), area), found = visited(sweep_over(p, area), area);
         some += !expected.empty();
         if (found == expected) continue;
-        // Where the path enters by a corner or along a border, rounding says by which texel.
+        // Rounding says by which texel a path enters by a corner or along a border.
         ++other_bits;
         const auto time = [](const std::vector<std::array<T, 4>>& texels) {
             wide sum = 0;

@@ -44,7 +44,7 @@ template <class T> const depth_time_range<T>* at_time(const list<T>& ranges, T t
     return found == ranges.end() ? nullptr : &*found;
 }
 
-/// How far the joined list is from the allowed depths at a time, in tolerances; infinite where coverage differs.
+/// The distance of the joined list from the allowed depths at a time, in tolerances; infinite where coverage differs.
 template <class T> double breach(const list<T>& whole, const list<T>& joined, T tolerance, T t)
 {
     const auto *before = at_time(whole, t), *after = at_time(joined, t);
@@ -117,5 +117,5 @@ TEST_CASE("join_ranges: a climber finds no breach")
     const test::summit top = test::climb(3 * ranges + 2, 300'000, 102, score);
     MESSAGE("of the stated error: ", top.score);
     CHECK(top.score <= 1);
-    CHECK(top.score > -1e30); // something was joined
+    CHECK(top.score > (test::draws_few() ? -1e30 : 0)); // something was joined, and the edge of the band is reached
 }

@@ -53,8 +53,15 @@ TEST_CASE("part_neighbours: every time keeps a range, and depths change where ne
             auto asked = static_cast<float>(bits.uniform(0, 1));
             if (bits.chance(0.5)) asked = std::clamp(ranges[bits.below(ranges.size())].t1 + 1e-5f, 0.f, 1.f);
             const float before = front(ranges, asked), found = front(after, asked);
-            // The depth at which one follows the other, and what both go on in the moment.
-            REQUIRE(std::abs(before - found) <= neighbours_distance<float> + 30 * neighbours_overlap<float>);
+            const bool in_a_moment = std::ranges::any_of(ranges, [&](const auto& r) {
+                return std::ranges::any_of(ranges, [&](const auto& next) {
+                    return next.t0 <= asked && asked <= r.t1 && r.t0 < next.t0 && r.t1 < next.t1 &&
+                           r.t1 - next.t0 <= neighbours_overlap<float>;
+                });
+            });
+            REQUIRE((before == 2) == (found == 2));
+            // Elsewhere lines are cut, by the errors of range_depth: twice 5 roundings of two depths.
+            if (!in_a_moment) REQUIRE(std::abs(before - found) <= 20 * 0x1p-24f);
         }
     }
     CHECK(parted > test::effort(5'000));

@@ -91,7 +91,7 @@ template <class T> struct one_texel {
     }
 };
 
-/// How far what is found is outside of what all ranges say of receivers a slack nearer or farther, over its error.
+/// The distance of what is found from what all ranges say of receivers a slack nearer or farther, over its error.
 ///
 /// A crossing moves by times in which both depths differ by 84 u at most, a cut moves a line by 10 u, and the receiver
 /// is known to be behind it within 26 u (range_crossing, range_depth, range_in_front): the slack, twice for lists

@@ -48,6 +48,16 @@ template <class T> struct random_map {
     }
     range_map<T> map() const { return {width, height, first, ranges}; }
 
+    /// The map with totals, which totals hold.
+    range_map<T> with_totals(std::vector<range_total<T>>& totals) const
+    {
+        totals.resize(first.size() - 1);
+        range_map<T> result = map();
+        set_totals(result, std::span(totals), range_ids::any);
+        result.totals = totals;
+        return result;
+    }
+
     /// Has most lists of one range hide at all times, behind which no list is read.
     void fill(bit_source& bits)
     {
@@ -109,10 +119,8 @@ TEST_CASE_TEMPLATE("moving_shadow: the fold of its kernels, with totals and with
     for (std::int64_t n = 0; n < test::effort(300); ++n) {
         random_map<T> random(bits);
         random.fill(bits);
-        range_map<T> with_totals = random.map();
-        std::vector<range_total<T>> totals(random.first.size() - 1);
-        set_totals(with_totals, std::span(totals), range_ids::any);
-        with_totals.totals = totals;
+        std::vector<range_total<T>> totals;
+        const range_map<T> with_totals = random.with_totals(totals);
         for (int k = 0; k < 20; ++k) {
             receiver_path<T> path = any_path<T>(bits);
             const T behind = T(bits.below(3));
@@ -225,10 +233,8 @@ TEST_CASE_TEMPLATE("totals change nothing but roundings, one by one and many at 
     for (std::int64_t n = 0; n < test::effort(200); ++n) {
         random_map<T> random(bits);
         random.fill(bits);
-        range_map<T> with_totals = random.map();
-        std::vector<range_total<T>> totals(random.first.size() - 1);
-        set_totals(with_totals, std::span(totals), range_ids::any);
-        with_totals.totals = totals;
+        std::vector<range_total<T>> totals;
+        const range_map<T> with_totals = random.with_totals(totals);
         const int look_ups = 1 + int(bits.below(3));
         std::vector<placed_receiver<T>> receivers(bits.below(100));
         for (auto& r : receivers) {

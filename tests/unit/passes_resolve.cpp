@@ -1,6 +1,7 @@
 // Resolved lists against the definition: at any time the front-most range, asked at many times; and lists in one array.
 #include "../support/effort.hpp"
 #include "../support/hostile.hpp"
+#include "near_ties.hpp"
 
 #include <gnomon/passes/backdrop.hpp>
 #include <gnomon/passes/range_map.hpp>
@@ -85,6 +86,16 @@ TEST_CASE_TEMPLATE("resolve_ranges: in order and apart, and at any time the dept
             // and a cut moves a line by its 10 u.
             else REQUIRE(std::abs(expected - found) <= 128 * u);
         }
+    }
+}
+
+TEST_CASE_TEMPLATE("resolve_ranges: of n ranges as near as a tie the front is n - 1 ties behind, and climbed to", T,
+                   float, double)
+{
+    for (const std::size_t n : {2, 3, 6}) {
+        const test::summit top = test::climb_ties<T>(n, n, [](const list<T>& all) { return resolved(all); });
+        CHECK(top.score <= 1.01 * double(n - 1));
+        CHECK(top.score > 0.5); // a tie is used
     }
 }
 

@@ -1,4 +1,4 @@
-// What tests of maps of ranges share: a scene of cubes, its exact ranges, and questions to a map.
+// Shared by tests of maps of ranges: a scene of cubes, its exact ranges, and questions to a map.
 #pragma once
 
 #include "../support/effort.hpp"

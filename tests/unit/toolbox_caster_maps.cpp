@@ -22,7 +22,7 @@ namespace {
 
 constexpr float nobody = 1 << 20;
 
-/// Whether something is in front of a depth at a time; undecided where that hangs on rounding.
+/// Tells whether something is in front of a depth at a time; undecided where that hangs on rounding.
 enum class answer { lit, hidden, undecided };
 
 answer answer_of(std::span<const depth_time_range<float>> list, float t, float z)
@@ -138,8 +138,8 @@ TEST_CASE("resolved maps and caster maps answer as all ranges do, by any budget 
     }
     CHECK(hidden > 10 * scenes);
     CHECK(lit > 10 * scenes);
-    CHECK(10 * early > scenes);
-    CHECK(10 * left_out > scenes);
+    CHECK(3 * early > scenes);
+    CHECK(3 * left_out > scenes);
 }
 
 // The envelope of many lines is short, so work does not grow by the square of their number.
@@ -196,7 +196,8 @@ TEST_CASE("a climber finds no receiver that thinned lists without backdrops ligh
         }
         texels.append_resolved_to(lists, sizes, [](auto list) { return list; });
         const std::span<const depth_time_range<float>> found = lists.used().first(sizes[0]);
-        // How far the depth in front is from that of all ranges, for receivers that the backdrop is not in front of.
+        // The distance of the depth in front from that of all ranges, for receivers that the backdrop is not in front
+        // of.
         const float t = at(ranges * numbers + 1), limit = backdrop_depth(all);
         float expected = limit, nearest = limit;
         for (const auto& r : all) {
@@ -210,6 +211,6 @@ TEST_CASE("a climber finds no receiver that thinned lists without backdrops ligh
     };
     const summit top = climb(ranges * numbers + 2, 400'000, 83, score);
     MESSAGE("ties: ", top.score);
-    CHECK(top.score <= 2); // a tie, and what rounding makes of two cuts of its lines
+    CHECK(top.score <= 1.01 * double(ranges - 1)); // the error that resolve_tie states, beside rounding
     CHECK(shown > 0);
 }

@@ -1,6 +1,6 @@
-// Where and when surfaces begin and end for the rasterizer of motion: fans of triangles around a vertex that sits on a
-// texel's centre, or beside it by a few ulps, leave no crack, and what passes a plane of the view is there for a part
-// of the time.
+// Begins and ends of surfaces, in place and time, for the rasterizer of motion: fans of triangles around a vertex that
+// sits on a texel's centre, or beside it by a few ulps, leave no crack, and what passes a plane of the view is there
+// for a part of the time.
 #include "../support/effort.hpp"
 #include "../support/hostile.hpp"
 #include "moving_worlds.hpp"
@@ -61,7 +61,7 @@ fan any_fan(bit_source& bits, fan_motion how)
     return f;
 }
 
-/// How much of the time from begin to end no range of the list is there.
+/// The part of the time from begin to end in which no range of the list is there.
 double uncovered(std::span<const depth_time_range<float>> list, float begin, float end)
 {
     std::vector<depth_time_range<float>> sorted(list.begin(), list.end());

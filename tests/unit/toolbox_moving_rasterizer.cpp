@@ -150,8 +150,8 @@ TEST_CASE("ranges are where edge functions say, at the right depth")
         }
 }
 
-// How long two neighbours may be there together, on average: both are widened by 2^-19 of their size in a tile, some 20
-// texels, and go one texel or more in the time.
+// The time for which two neighbours may be there together, on average: both are widened by 2^-19 of their size in a
+// tile, some 20 texels, and go one texel or more in the time.
 constexpr double shared_time = 2 * 20 * 0x1p-19;
 
 TEST_CASE("neighbours leave no crack: a texel sees one triangle of the ground until the next is there")

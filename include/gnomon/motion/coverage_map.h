@@ -170,8 +170,7 @@ GNOMON_KERNEL Real range_cover_hides(GNOMON_T(depth_time_range) cover, GNOMON_T(
 /// is not shadowed by it; lit where z is within the bias, or less by 2^-19, of the cover's farther end, which nothing
 /// else is in front of. In between, and without a cover, undecided. The paper asks no depth, and shadows a neighbouring
 /// triangle that the shadow map's resolution puts into the cover's texel, in front of it. Domain: times in [0, 1],
-/// depths in
-/// [-1, 1], bias in [0, 1].
+/// depths in [-1, 1], bias in [0, 1].
 GNOMON_KERNEL GNOMON_T(cover_answer)
     range_cover_answer(GNOMON_T(depth_time_range) cover, Real t, Real z, Real id, GNOMON_SETTING bias)
 {

@@ -23,15 +23,15 @@ GNOMON_STRUCT cubic_root { Real t, found; };
 
 GNOMON_CONSTANT(cubic_third, 0.333333333333333333333);
 
-/// Its value at time t in [0, 1]. Error: 8 2^-p times the largest coefficient.
+/// The value of h at time t in [0, 1]. Error: 8 2^-p times the largest coefficient.
 GNOMON_KERNEL Real moving_cubic_at(GNOMON_T(moving_cubic) h, Real t)
 {
     Real s = Real(1) - t;
     return (h.h0 * s + h.h1 * t) * (s * s) + (h.h2 * s + h.h3 * t) * (t * t);
 }
 
-/// Where its sign changes between two times in order, at which it has the values at_begin and at_end and between which
-/// it goes one way. 24 halvings: within 2^-24 of the interval.
+/// The time at which the sign of h changes between two times in order, at which h has the values at_begin and at_end
+/// and between which it goes one way. 24 halvings: within 2^-24 of the interval.
 GNOMON_KERNEL GNOMON_T(cubic_root)
     moving_cubic_root(GNOMON_T(moving_cubic) h, Real begin, Real end, Real at_begin, Real at_end)
 {
@@ -54,8 +54,8 @@ GNOMON_KERNEL GNOMON_T(cubic_root)
     return r;
 }
 
-/// The times in [0, 1] at which it is >= 0. Error of a time: those of the cubic's value over its slope there, and
-/// 2^-24; where it only touches 0 within its error, as if it did not. NaN: none.
+/// The times in [0, 1] at which h is >= 0. Error of a time: those of the cubic's value over its slope there, and
+/// 2^-24; where h only touches 0 within its error, as if h did not. NaN: none.
 GNOMON_KERNEL GNOMON_T(edge_times) moving_cubic_inside(GNOMON_T(moving_cubic) h)
 {
     Real none = GNOMON_LITERAL(coverage_none);
@@ -77,7 +77,7 @@ GNOMON_KERNEL GNOMON_T(edge_times) moving_cubic_inside(GNOMON_T(moving_cubic) h)
     GNOMON_T(cubic_root) b = moving_cubic_root(h, first, second, at_first, at_second);
     GNOMON_T(cubic_root) c = moving_cubic_root(h, second, Real(1), at_second, h.h3);
 
-    // One root after the other, missing ones last.
+    // The roots in order, missing ones last.
     GNOMON_MASK has_a = Real(0) < a.found;
     GNOMON_MASK has_b = Real(0) < b.found;
     GNOMON_MASK has_c = Real(0) < c.found;
@@ -89,8 +89,8 @@ GNOMON_KERNEL GNOMON_T(edge_times) moving_cubic_inside(GNOMON_T(moving_cubic) h)
     GNOMON_MASK open = Real(0) <= h.h0;
     GNOMON_T(edge_times) x;
     x.begin = gnomon_select(open, Real(0), gnomon_min(root0, Real(1)));
-    // Where it is positive at shutter open a gap goes from the first root to the second, else from the second to the
-    // third; without the latter of them it ends there.
+    // A gap goes from the first root to the second if h is positive at shutter open, else from the second to the
+    // third. Without the latter of them the times end there.
     Real leaves = gnomon_select(open, root0, root1);
     Real returns = gnomon_select(open, root1, root2);
     Real leaves_again = gnomon_select(open, root2, none);
@@ -134,8 +134,8 @@ GNOMON_KERNEL GNOMON_T(edge_times)
     return moving_cubic_inside(depth_over_plane(c, plane, Real(-1) * facing));
 }
 
-/// What of an interval falls into times: before their gap (part 0) or after it (part 1); nothing where the end is not
-/// after the begin. Without a gap all of it is in part 0.
+/// The part of an interval that falls into times: before their gap (part 0) or after it (part 1); nothing where the end
+/// is not after the begin. Without a gap all of it is in part 0.
 GNOMON_KERNEL GNOMON_T(linear_times) edge_times_part(GNOMON_T(edge_times) x, GNOMON_SETTING part, Real begin, Real end)
 {
     GNOMON_MASK second = Real(0.5) < part;

@@ -3,8 +3,8 @@
 // itself: a sample on the vertex or beside it may then be outside of all triangles of a fan. Widened edges overlap by
 // as little, which lists do not mind.
 //
-//     error = edge_field_error(field.a, h_x, h_y);          once for a tile of samples within h_x and h_y of its origin
-//     edge = moving_edge_widened(edge_field_at(field.a, s_x, s_y), error, facing);     for moving_edge_inside
+//     wide = edge_field_widened(field.a, edge_field_error(field.a, h_x, h_y), facing);   once for a tile of samples
+//     edge = edge_field_at(wide, s_x, s_y);                                              for moving_edge_inside
 #ifndef GNOMON_MOTION_EDGE_WIDENING_H
 #define GNOMON_MOTION_EDGE_WIDENING_H
 #include "edge_field.h"
@@ -25,7 +25,7 @@ GNOMON_KERNEL Real edge_field_size(GNOMON_T(edge_field) f, Real h_x, Real h_y)
     return gnomon_max(outer, sample_plane_size(f.e1, h_x, h_y));
 }
 
-/// How much rounding may take from an edge function at the samples within h_x and h_y of the origin, in all: from
+/// The most that rounding may take from an edge function at the samples within h_x and h_y of the origin, in all: from
 /// planes that were exact before they were rounded to float, from their coefficients at the sample, and from the times
 /// of moving_edge_inside, in float. That is 1 + 4 + 16 of 2^-24 of the largest coefficient; returned are 32.
 GNOMON_KERNEL Real edge_field_error(GNOMON_T(edge_field) f, Real h_x, Real h_y)
@@ -47,13 +47,13 @@ GNOMON_KERNEL Real linear_field_error(GNOMON_T(edge_field) f, Real h_x, Real h_y
 /// The edge moved outwards by a margin, its error: it is inside at all times at which the exact one is. Triangles
 /// around a common vertex then leave no crack beside it, where each edge is rounded by itself, but overlap by as
 /// little.
-GNOMON_KERNEL GNOMON_T(moving_edge) moving_edge_widened(GNOMON_T(moving_edge) e, Real margin, GNOMON_SETTING facing)
+GNOMON_KERNEL GNOMON_T(edge_field) edge_field_widened(GNOMON_T(edge_field) f, Real margin, GNOMON_SETTING facing)
 {
     Real by = facing * margin;
-    e.e0 = e.e0 + by;
-    e.e1 = e.e1 + by;
-    e.e2 = e.e2 + by;
-    return e;
+    f.e0.c = f.e0.c + by;
+    f.e1.c = f.e1.c + by;
+    f.e2.c = f.e2.c + by;
+    return f;
 }
 
 GNOMON_NAMESPACE_END

@@ -128,7 +128,7 @@ GNOMON_KERNEL Real moving_triangle_linear_depth(GNOMON_T(moving_triangle) m, GNO
     return moving_depth_at(m, e, t, Real(0));
 }
 
-/// How far N / D departs at most from its chord, where N - chord D = u (1 - u) P(u), |P| <= most, and D is a cubic with
+/// The most that N / D departs from its chord, where N - chord D = u (1 - u) P(u), |P| <= most, and D is a cubic with
 /// Bernstein coefficients d0, d0 + turn0, d3 + turn1, d3, those in the middle times 3. With turn the lesser of the two
 ///     D(u) / (u (1 - u)) >= d0 / u + d3 / (1 - u) + turn - d0 - d3 >= turn + 2 sqrt(d0 d3)
 /// for positive D, and the same with -D. 4, more than all depths, where D may vanish or anything is NaN.

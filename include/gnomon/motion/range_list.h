@@ -10,7 +10,7 @@
 // one too many comes, first whatever several others hide together goes, then the two most similar ranges become one
 // in front of both (range_merge.h): what is in shadow stays in shadow, and what was lit and is not is counted.
 //
-// What is hidden goes whatever its id. So a receiver gets the answer of all ranges, unless a range of its own id is in
+// Hidden ranges go whatever their ids. So a receiver gets the answer of all ranges, unless a range of its own id is in
 // front of it by more than its bias: this one does not shadow it, and what it hides is no longer there to do so. Hence
 // an id is for a surface none of whose points is ever behind another of its points: a triangle, a plane, the lit side
 // of a convex part. With one id for a whole object, its farther sides lose shadows that others cast on them.

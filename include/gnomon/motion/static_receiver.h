@@ -81,7 +81,7 @@ GNOMON_KERNEL GNOMON_T(depth_time_range)
     return range_in_front(r, level, state.begin, state.end);
 }
 
-/// Whether r, the next one of a resolved list, is of the second layer behind front, the last one that was not. Those
+/// True where r, the next one of a resolved list, is of the second layer behind front, the last one that was not. Those
 /// are seen while front lasts and no longer; spans in front that rounding has overlap are not.
 GNOMON_KERNEL GNOMON_MASK range_is_second_layer(GNOMON_T(depth_time_range) front, GNOMON_T(depth_time_range) r)
 {

@@ -20,7 +20,8 @@ template <class Real> class backdrop_filter {
   public:
     using range = depth_time_range<Real>;
 
-    /// What goes into the list now that r has come: r, or what has waited until now, which is empty at first.
+    /// Takes r, and returns the range that goes into the list instead: r, or what has waited until now, which is empty
+    /// at first.
     GNOMON_INLINE range add(const range& r)
     {
         const auto some = r.t0 <= r.t1 && r.z0 == r.z0 && r.z1 == r.z1;
@@ -35,11 +36,11 @@ template <class Real> class backdrop_filter {
     /// The farthest that lasts from 0 to 1; an empty one where there is none.
     const range& waiting() const { return waiting_; }
 
-    /// Whether that is behind all others that have come.
+    /// True where that is behind all others that have come.
     auto is_backdrop() const { return waiting_some() && deepest_ <= nearer_end(waiting_); }
 
-    /// What has waited in vain, since it is not behind all else, and belongs into the list; else an empty one. Ask
-    /// after the last range.
+    /// The range that has waited in vain, since it is not behind all else, and belongs into the list; else an empty
+    /// one. Ask after the last range.
     range rest() const { return range_select(is_backdrop(), range_empty(Real(range_nothing)), waiting_); }
 
   private:

@@ -26,7 +26,7 @@ template <class T> class joining_cone {
         narrow(first.t1, first.z1);
     }
 
-    /// Whether the next range could be joined, and is.
+    /// Joins the next range, if some line stays; false if none does.
     bool add(const depth_time_range<T>& next)
     {
         const joining_cone before = *this;

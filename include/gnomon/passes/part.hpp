@@ -10,7 +10,7 @@
 
 namespace gnomon {
 
-/// How long neighbours overlap at most, and how far apart they are then.
+/// The longest time for which neighbours overlap, and the largest distance between them then.
 template <class T> inline constexpr T neighbours_overlap = T(0x1p-14);
 template <class T> inline constexpr T neighbours_distance = T(0x1p-13);
 

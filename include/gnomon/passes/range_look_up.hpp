@@ -1,8 +1,8 @@
-// What a receiver gets from a map of depth-time ranges, with percentage-closer filtering of K x K bilinear look-ups:
-// K = 1 is bilinear filtering. At one time, by samples in time, at rest in closed form, and on its way in closed form;
-// the kernels are those of motion/, this is their loop over texels and lists. Shadow intensity, 0 lit and 1 in shadow.
-// What lies outside of the map is lit. Closed forms are of resolved lists in order of time; a shutter that opens and
-// closes at once asks totals first, where the map has them.
+// The shadow that a receiver gets from a map of depth-time ranges, with percentage-closer filtering of K x K bilinear
+// look-ups: K = 1 is bilinear filtering. At one time, by samples in time, at rest in closed form, and on its way in
+// closed form; the kernels are those of motion/, this is their loop over texels and lists. Shadow intensity, 0 lit and
+// 1 in shadow. All that lies outside of the map is lit. Closed forms are of resolved lists in order of time; a shutter
+// that opens and closes at once asks totals first, where the map has them.
 #ifndef GNOMON_PASSES_RANGE_LOOK_UP_HPP
 #define GNOMON_PASSES_RANGE_LOOK_UP_HPP
 

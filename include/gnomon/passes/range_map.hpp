@@ -15,7 +15,7 @@
 
 namespace gnomon {
 
-/// What ids tell of the receivers that look maps up, each of which ignores the ranges of its own id.
+/// The promise that ids make about the receivers that look maps up, each of which ignores the ranges of its own id.
 enum class range_ids {
     /// The caller promises that no point of an id's surface is behind another point of it, as seen from the light, at
     /// any time: an id is that of a triangle, a plane or the lit side of a convex part. Who sees his own surface in

@@ -1,4 +1,4 @@
-// How look-ups read maps of ranges, which no cache holds. Taps, the texels that a filter reads, are queued; then the
+// Reading maps of ranges, which no cache holds, in look-ups. Taps, the texels that a filter reads, are queued; then the
 // totals of all of them are fetched together, then where the lists begin that totals leave open, then these lists.
 // Memory is waited for once per step of a queue, and not once per tap.
 #ifndef GNOMON_PASSES_RANGE_TAPS_HPP
@@ -71,8 +71,8 @@ void for_each_counted(std::span<const depth_time_range<T>> list, T id, const Vis
     }
 }
 
-/// What a list hides from a receiver at rest, of a shutter that opens and closes at once. Ranges that are in front at
-/// all times, as most are, need no division if the exposure is whole; the bits are those of the kernel.
+/// Adds what a list hides from a receiver at rest, of a shutter that opens and closes at once. Ranges that are in front
+/// at all times, as most are, need no division if the exposure is whole; the bits are those of the kernel.
 template <class T> void add_list_box(static_receiver<T>& state, std::span<const depth_time_range<T>> list)
 {
     const bool whole = state.begin == 0 && state.end == 1;
@@ -88,7 +88,7 @@ template <class T> void add_list_box(static_receiver<T>& state, std::span<const 
     });
 }
 
-/// Whether a total decides on a receiver at rest, and adds it if it does.
+/// Adds a total to a receiver at rest if it decides on it; false if not.
 template <class T> bool add_total_box(static_receiver<T>& state, const range_total<T>& total)
 {
     if (receiver_is_in_front(state.depth, total) > 0) return true;
@@ -155,7 +155,7 @@ template <class T> class static_taps {
     std::size_t count_ = 0;
 };
 
-/// What a moving receiver passes from one border of texel centres to the next: from time t0 to t1, at (u0, v0) and
+/// The way of a moving receiver from one border of texel centres to the next: from time t0 to t1, at (u0, v0) and
 /// (u1, v1) in the cell then, between two depths, while the shutter lets in a share of its light.
 template <class T> struct receiver_cell {
     T column, row, t0, t1, u0, v0, u1, v1, nearest, farthest, share;
@@ -228,7 +228,7 @@ template <class T> class moving_taps {
         }
     }
 
-    /// Whether a total decides, and adds it if it does.
+    /// Adds a total if it decides; false if not.
     bool add_total(const tap& t, const range_total<T>& total)
     {
         if (receiver_is_in_front(t.cell->farthest, total) > 0) return true;

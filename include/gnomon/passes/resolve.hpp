@@ -1,6 +1,7 @@
 // Lists of any length, resolved: what of some ranges is in front at any time, as spans of time that do not overlap,
 // the lower envelope over the shutter interval (Gribel et al. 2010; Palmer 2011, 2.1). A receiver asks the spans and
-// gets the same answer as of all ranges, and static_receiver.h may add them up.
+// gets the same answer as of all ranges, if its depth is not as near to theirs as resolve_tie says, and
+// static_receiver.h may add them up.
 //
 // A receiver ignores the ranges of its own id, so it may see past a span that is in front. Where that can happen
 // (range_ids), the spans of a second layer follow each span: what is in front among the ranges of other ids than the
@@ -32,12 +33,13 @@ template <class T> struct visible_span {
     std::uint32_t range;
 };
 
-/// Depths as near as that count as one, lest rounding makes spans of no use where surfaces meet.
+/// Depths as near as that count as one, lest rounding makes spans of no use where surfaces meet. Error: where n ranges
+/// come so near one another, the one in front may be n - 1 ties behind the nearest.
 template <class T> inline constexpr T resolve_tie = T(0x1p-18);
 
 namespace detail {
 
-/// How many spans n ranges have at most: their lower envelope is a Davenport-Schinzel sequence of order 3, which is no
+/// The most spans that n ranges have: their lower envelope is a Davenport-Schinzel sequence of order 3, which is no
 /// longer than n (1 + 2 H(n - 1)), H the harmonic numbers (Sharir & Agarwal 1995, 1.2).
 constexpr std::size_t envelope_capacity(std::size_t n) { return n * (3 + 2 * std::size_t(std::bit_width(n))) + 2; }
 
@@ -115,7 +117,7 @@ template <class T> class front_resolver {
         T change;
     };
 
-    /// Whether all spans from t0 to t1, from the first on, are in front of all of it.
+    /// True where all spans from t0 to t1, from the first on, are in front of all of r.
     bool is_behind(const depth_time_range<T>& r, T t0, T t1, std::size_t first) const
     {
         T reached = t0;

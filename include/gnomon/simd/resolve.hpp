@@ -14,7 +14,7 @@
 
 namespace gnomon {
 
-/// One number in each lane.
+/// A number in each lane.
 template <class Pack> using pack_lanes = std::array<lane_t<Pack>, sizeof(Pack) / sizeof(lane_t<Pack>)>;
 
 /// The k-th range of each list; an empty one where a list is shorter.
