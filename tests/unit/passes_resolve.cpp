@@ -92,7 +92,7 @@ TEST_CASE_TEMPLATE("resolve_ranges: in order and apart, and at any time the dept
 TEST_CASE_TEMPLATE("resolve_ranges: of n ranges as near as a tie the front is n - 1 ties behind, and climbed to", T,
                    float, double)
 {
-    for (const std::size_t n : {2, 3, 6}) {
+    for (const std::size_t n : {2u, 3u, 6u}) {
         const test::summit top = test::climb_ties<T>(n, n, [](const list<T>& all) { return resolved(all); });
         CHECK(top.score <= 1.01 * double(n - 1));
         CHECK(top.score > 0.5); // a tie is used

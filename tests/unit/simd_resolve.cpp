@@ -146,7 +146,7 @@ TEST_CASE_TEMPLATE("resolve_rows: at any time the depth that is in front", Pack,
 TEST_CASE("resolve_rows: of n ranges as near as a tie the front is n - 1 ties behind, and climbed to")
 {
     using pack = xsimd::batch<float>;
-    for (const std::size_t n : {2, 3, 6}) {
+    for (const std::size_t n : {2u, 3u, 6u}) {
         const test::summit top = test::climb_ties<float>(
             n, n, [](const list& all) { return resolved_together<pack>(std::vector<list>(pack::size, all))[0]; });
         CHECK(top.score <= 1.01 * double(n - 1));
