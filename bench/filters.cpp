@@ -10,7 +10,7 @@
 #include <gnomon/filters/percentage_closer.h>
 #include <gnomon/filters/variance.h>
 #include <gnomon/moments/hamburger_cholesky.h>
-#include <gnomon/moments/stored4.h>
+#include <gnomon/storage/moments4.h>
 
 namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {
 

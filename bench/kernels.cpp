@@ -5,7 +5,7 @@
 
 #include "kernels.hpp"
 
-#include "../tests/support/kernel_inputs.hpp"
+#include "support/kernel_inputs.hpp"
 
 namespace gnomon::bench {
 

@@ -1,7 +1,7 @@
 // Lists of ranges: one more range, the front at a time, and the resolve.
 #include "measure.hpp"
 
-#include "../tests/support/hostile.hpp"
+#include "support/hostile.hpp"
 
 #include <gnomon/motion/range_list.h>
 

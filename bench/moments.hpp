@@ -3,7 +3,7 @@
 #ifndef GNOMON_BENCH_MOMENTS_HPP
 #define GNOMON_BENCH_MOMENTS_HPP
 
-#include "../tests/support/distributions.hpp"
+#include "support/distributions.hpp"
 
 #include <gnomon/moments/quantization.h>
 

@@ -6,7 +6,7 @@
 
 #include <gnomon/moments/hamburger4.h>
 #include <gnomon/moments/hamburger_cholesky.h>
-#include <gnomon/moments/stored4.h>
+#include <gnomon/storage/moments4.h>
 #include <gnomon/moments/two_point.h>
 
 namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {

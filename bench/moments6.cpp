@@ -6,7 +6,7 @@
 
 #include <gnomon/moments/hamburger6.h>
 #include <gnomon/moments/hamburger_cholesky.h>
-#include <gnomon/moments/stored6.h>
+#include <gnomon/storage/moments6.h>
 
 namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {
 

@@ -6,8 +6,8 @@
 // of them, beside their shadow tests.
 #include "measure.hpp"
 
-#include "../tests/support/moving_triangles.hpp"
-#include "../tests/support/prisms.hpp"
+#include "support/moving_triangles.hpp"
+#include "support/prisms.hpp"
 
 #include <gnomon/motion/coverage_map.h>
 #include <gnomon/motion/edge_field.h>

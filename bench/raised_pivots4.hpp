@@ -4,7 +4,7 @@
 #ifndef GNOMON_BENCH_RAISED_PIVOTS4_HPP
 #define GNOMON_BENCH_RAISED_PIVOTS4_HPP
 
-#include <gnomon/moments/formats.hpp>
+#include <gnomon/storage/moments_formats.hpp>
 
 namespace gnomon::bench {
 

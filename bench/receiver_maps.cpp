@@ -3,7 +3,7 @@
 #define GNOMON_BENCH_ARITHMETIC exact
 #include "measure.hpp"
 
-#include "../tests/support/hostile.hpp"
+#include "support/hostile.hpp"
 
 #include <gnomon/passes/range_look_up.hpp>
 #include <gnomon/passes/resolve.hpp>

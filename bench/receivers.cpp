@@ -2,7 +2,7 @@
 // five samples in time.
 #include "measure.hpp"
 
-#include "../tests/support/hostile.hpp"
+#include "support/hostile.hpp"
 
 #include <gnomon/motion/moving_receiver.h>
 

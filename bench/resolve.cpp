@@ -4,7 +4,7 @@
 #define GNOMON_BENCH_ARITHMETIC exact
 #include "measure.hpp"
 
-#include "../tests/support/hostile.hpp"
+#include "support/hostile.hpp"
 
 #include <gnomon/simd/resolve.hpp>
 

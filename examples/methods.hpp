@@ -13,13 +13,13 @@
 #include <bit>
 #include <concepts>
 #include <cstddef>
-#include <gnomon/filters/formats.hpp>
-#include <gnomon/moments/formats.hpp>
+#include <gnomon/storage/filters_formats.hpp>
+#include <gnomon/storage/moments_formats.hpp>
 #include <span>
 #include <string_view>
 #include <tuple>
 
-#include "../bench/raised_pivots4.hpp"
+#include "bench/raised_pivots4.hpp"
 #include "filtered_map.hpp"
 
 namespace gnomon::demo {

@@ -8,7 +8,7 @@
 
 #include "methods.hpp"
 #include "renderer.hpp"
-#include "shaders/method_id.h"
+#include "vulkan_shadows/shaders/method_id.h"
 
 namespace gnomon::demo {
 

@@ -20,7 +20,7 @@ using namespace toolbox;
 namespace {
 
 using glm::vec4;
-#include "shaders/view.h"
+#include "vulkan_shadows/shaders/view.h"
 
 using usage = vk::ImageUsageFlagBits;
 

@@ -7,11 +7,11 @@
 
 #include "moments/quantization.h"
 
-#include "moments/stored4.h"
-#include "moments/stored6.h"
+#include "storage/moments4.h"
+#include "storage/moments6.h"
 
 #include "moments/certified4.h"
-#include "moments/certified4_within.h"
+#include "storage/moments4_within.h"
 #include "moments/hamburger4.h"
 #include "moments/hamburger6.h"
 

@@ -3,7 +3,7 @@
 #include "kernels.hpp"
 #include "module.hpp"
 
-#include "../support/kernel_call.hpp"
+#include "support/kernel_call.hpp"
 
 #include <gnomon/simd/wide.hpp>
 

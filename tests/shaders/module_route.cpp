@@ -1,7 +1,7 @@
 #include "module.hpp"
 #include "route.hpp"
 
-#include "../support/kernel_call.hpp"
+#include "support/kernel_call.hpp"
 
 #include <dlfcn.h>
 

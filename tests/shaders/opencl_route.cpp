@@ -4,7 +4,7 @@
 #define CL_HPP_TARGET_OPENCL_VERSION 120
 #include "route.hpp"
 
-#include "../support/kernel_call.hpp"
+#include "support/kernel_call.hpp"
 
 #include <toolbox/file.hpp>
 

@@ -6,8 +6,8 @@
 #include "kernels.hpp"
 #include "route.hpp"
 
-#include "../support/effort.hpp"
-#include "../support/kernel_inputs.hpp"
+#include "support/effort.hpp"
+#include "support/kernel_inputs.hpp"
 
 #include <fmt/format.h>
 #include <toolbox/file.hpp>

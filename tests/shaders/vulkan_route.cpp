@@ -2,7 +2,7 @@
 // little. One buffer for inputs and one for results, a workgroup for each block.
 #include "route.hpp"
 
-#include "../support/kernel_call.hpp"
+#include "support/kernel_call.hpp"
 
 #include <toolbox/vulkan.hpp>
 

@@ -6,8 +6,8 @@
 #include "hostile.hpp"
 #include "moving_triangles.hpp"
 
-#include <gnomon/moments/stored4.h>
-#include <gnomon/moments/stored6.h>
+#include <gnomon/storage/moments4.h>
+#include <gnomon/storage/moments6.h>
 #include <gnomon/motion/edge_field.h>
 #include <gnomon/motion/moving_receiver.h>
 #include <gnomon/motion/range_list.h>

@@ -4,15 +4,15 @@
 #include <gnomon/moments/hamburger4.h>
 #include <gnomon/moments/hamburger6.h>
 #include <gnomon/moments/hamburger_cholesky.h>
-#include <gnomon/moments/stored4.h>
-#include <gnomon/moments/stored6.h>
+#include <gnomon/storage/moments4.h>
+#include <gnomon/storage/moments6.h>
 
 #include <bit>
 #include <limits>
 
 #include <doctest/doctest.h>
-#include "../support/distributions.hpp"
-#include "../support/effort.hpp"
+#include "support/distributions.hpp"
+#include "support/effort.hpp"
 
 using namespace gnomon;
 using namespace gnomon::test;

@@ -1,7 +1,7 @@
 // Covered times against edge functions in extended precision.
 #pragma once
 
-#include "../support/hostile.hpp"
+#include "support/hostile.hpp"
 
 #include <gnomon/motion/coverage_times.h>
 

@@ -1,6 +1,6 @@
 // Largest errors of the elementary functions, where a search finds them: uniform samples stop a tenth of an ulp short.
 // The reference is a type with 11 bits more than double, or double for float.
-#include "../support/climber.hpp"
+#include "support/climber.hpp"
 
 #include <gnomon/numerics/exp.h>
 #include <gnomon/numerics/trigonometry.h>

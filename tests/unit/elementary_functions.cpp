@@ -2,7 +2,7 @@
 // over evenly spaced bit patterns of the whole range, double against Boost.Multiprecision at log-uniform arguments;
 // packs against scalars.
 
-#include "../support/effort.hpp"
+#include "support/effort.hpp"
 
 #include <gnomon/numerics/exp.h>
 #include <gnomon/numerics/trigonometry.h>

@@ -2,8 +2,8 @@
 // ten million hostile inputs, and packs give the bits of the scalar.
 #pragma once
 
-#include "../support/effort.hpp"
-#include "../support/kernel_inputs.hpp"
+#include "support/effort.hpp"
+#include "support/kernel_inputs.hpp"
 #include "kernels.hpp"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,6 @@
 // Largest errors of the filters beside moment shadow maps, where a search finds them: two depths of any distance and
 // weights, receivers at any distance from the mean and the depths, all settings in use.
-#include "../support/climber.hpp"
+#include "support/climber.hpp"
 
 #include <gnomon/filters/convolution.h>
 #include <gnomon/filters/exponential.h>

@@ -1,6 +1,6 @@
 // The filters' storage formats: every code survives the round trip, sizes are as stated, a surface lights itself and
 // shadows what lies behind it after the roundings that the minimum variance allows for.
-#include <gnomon/filters/formats.hpp>
+#include <gnomon/storage/filters_formats.hpp>
 #include <gnomon/passes/blur.hpp>
 
 #include <doctest/doctest.h>

@@ -1,8 +1,8 @@
 // The filters beside moment shadow maps: their bounds are bounds, their errors are those that the comments state. That
 // nothing leaves [0, 1] is tested with every kernel (every_kernel.hpp).
 
-#include "../support/distributions.hpp"
-#include "../support/effort.hpp"
+#include "support/distributions.hpp"
+#include "support/effort.hpp"
 
 #include <gnomon/filters/convolution.h>
 #include <gnomon/filters/exponential.h>

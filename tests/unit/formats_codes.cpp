@@ -1,9 +1,9 @@
 // Storage formats as types: every code survives decoding and encoding in every channel, a texel is as large as stated,
 // and channels stand where the formats say.
-#include "../support/effort.hpp"
-#include "../support/hostile.hpp"
+#include "support/effort.hpp"
+#include "support/hostile.hpp"
 
-#include <gnomon/moments/formats.hpp>
+#include <gnomon/storage/moments_formats.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // What the bounds promise, by properties. Depths and weights are multiples of powers of two, few enough bits that six
 // moments are exact in double: bounds then hold without excuse, for degenerate distributions and with receivers on a
 // depth too.
-#include "../support/effort.hpp"
+#include "support/effort.hpp"
 
 #include <gnomon/moments/hamburger4.h>
 #include <gnomon/moments/hamburger6.h>

@@ -1,16 +1,16 @@
 // The error rows of hamburger4.h and hamburger6.h: both bounds against the moment problem solved in 120 digits, over
 // all families of distributions, with receivers on, near and between their depths. Storage formats are held against the
 // kernel in double, which the first rows vouch for. honest_six.cpp climbs for the maxima of six moments.
-#include "../support/distributions.hpp"
-#include "../support/effort.hpp"
-#include "../support/oracle.hpp"
-#include "../support/statistics.hpp"
+#include "support/distributions.hpp"
+#include "support/effort.hpp"
+#include "support/oracle.hpp"
+#include "support/statistics.hpp"
 
 #include <gnomon/moments/hamburger4.h>
 #include <gnomon/moments/hamburger6.h>
-#include <gnomon/moments/stored4.h>
-#include <gnomon/moments/stored6.h>
-#include <gnomon/moments/formats.hpp>
+#include <gnomon/storage/moments4.h>
+#include <gnomon/storage/moments6.h>
+#include <gnomon/storage/moments_formats.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,10 +1,10 @@
 // The contract on bad input, and the promise of the same bits: any numbers at all go through every route of the moment
 // kernels, for every kind of Real. Results are in range, no NaN comes out, a NaN that goes in is answered by lit; and
 // packs, and a Real without fused multiply-add, give the bits of the scalar.
-#include "../support/effort.hpp"
-#include "../support/hostile.hpp"
-#include "../support/reals.hpp"
-#include "../support/routes.hpp"
+#include "support/effort.hpp"
+#include "support/hostile.hpp"
+#include "support/reals.hpp"
+#include "support/routes.hpp"
 
 #include <doctest/doctest.h>
 

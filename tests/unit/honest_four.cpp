@@ -1,14 +1,14 @@
 // Four moments never darken: whatever a distribution on [-1, 1] and wherever the receiver,
 //     intensity <= Z(z < z_f) + the stated weight of the format and of the way to the intensity
 // after one rounding in storage, and after two filter passes that round there again. Searched by a hill climber, as are
-// the largest errors that hamburger4.h and stored4.h state.
-#include "../../bench/raised_pivots4.hpp"
-#include "../support/climber.hpp"
-#include "../support/contacts.hpp"
-#include "../support/moments_of.hpp"
-#include "../support/statistics.hpp"
+// the largest errors that hamburger4.h and storage/moments4.h state.
+#include "bench/raised_pivots4.hpp"
+#include "support/climber.hpp"
+#include "support/contacts.hpp"
+#include "support/moments_of.hpp"
+#include "support/statistics.hpp"
 
-#include <gnomon/moments/formats.hpp>
+#include <gnomon/storage/moments_formats.hpp>
 
 #include <doctest/doctest.h>
 
@@ -133,7 +133,7 @@ template <class Format, class Intensity> void check_certified(const std::string&
     const auto error = [&](const moments& c, float z_f) {
         return std::abs(double(intensity(c, z_f)) - intensity(in_double(c), double(z_f)));
     };
-    climb_error<Format>("moments/stored4.h", "float, " + name, error);
+    climb_error<Format>("storage/moments4.h", "float, " + name, error);
     error_sample sample;
     distribution_source source(20170101);
     for (int f = 0; f < family_count; ++f)
@@ -141,7 +141,7 @@ template <class Format, class Intensity> void check_certified(const std::string&
             const distribution d = source.draw(family(f));
             sample.add(error(stored<Format>(d), float(source.receiver(d))));
         }
-    const error_row row = stated_error("moments/stored4.h", "float, " + name);
+    const error_row row = stated_error("storage/moments4.h", "float, " + name);
     CHECK(sample.quantile(0.99) <= row.p99);
     CHECK(sample.quantile(0.999) <= row.p999);
 }

@@ -2,13 +2,13 @@
 //     intensity <= Z(z < z_f) + the format's weight
 // after one rounding in storage, and after two filter passes that round there again. Searched by a hill climber, as are
 // the largest errors that hamburger6.h states.
-#include "../../bench/raised_pivots6.hpp"
-#include "../support/climber.hpp"
-#include "../support/contacts.hpp"
-#include "../support/moments_of.hpp"
-#include "../support/statistics.hpp"
+#include "bench/raised_pivots6.hpp"
+#include "support/climber.hpp"
+#include "support/contacts.hpp"
+#include "support/moments_of.hpp"
+#include "support/statistics.hpp"
 
-#include <gnomon/moments/formats.hpp>
+#include <gnomon/storage/moments_formats.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,13 +1,13 @@
 // Certificates that know more of the depths than their moments: honest as they are, and worth what the second table of
 // docs/decisions/2-bias.md says, the mean of Z(z < z_f) - result over the receivers of leak_four.cpp, 4 x 16 UNORM.
-#include "../support/climber.hpp"
-#include "../support/contacts.hpp"
-#include "../support/documented.hpp"
-#include "../support/moments_of.hpp"
-#include "../support/oracle.hpp"
+#include "support/climber.hpp"
+#include "support/contacts.hpp"
+#include "support/documented.hpp"
+#include "support/moments_of.hpp"
+#include "support/oracle.hpp"
 
-#include <gnomon/moments/certified4_within.h>
-#include <gnomon/moments/formats.hpp>
+#include <gnomon/storage/moments4_within.h>
+#include <gnomon/storage/moments_formats.hpp>
 
 #include <doctest/doctest.h>
 

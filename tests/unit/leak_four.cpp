@@ -5,14 +5,14 @@
 //     receivers of the family   anywhere, on a depth or near one (distributions.hpp)
 //     on a depth                the commonest lit receiver
 //     anywhere                  in [-1, 1]
-#include "../../bench/raised_pivots4.hpp"
-#include "../support/distributions.hpp"
-#include "../support/documented.hpp"
-#include "../support/effort.hpp"
-#include "../support/honest_limit.hpp"
-#include "../support/oracle.hpp"
+#include "bench/raised_pivots4.hpp"
+#include "support/distributions.hpp"
+#include "support/documented.hpp"
+#include "support/effort.hpp"
+#include "support/honest_limit.hpp"
+#include "support/oracle.hpp"
 
-#include <gnomon/moments/formats.hpp>
+#include <gnomon/storage/moments_formats.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,12 +1,12 @@
 // What the default bias of six moments costs and what it is worth, over all families, with receivers anywhere:
 //     leak    mean max(0, ideal bound - result), where the ideal bound is sharp for the distribution itself;
 //     jitter  mean |result - the same kernel in double on exact moments|, what rounding in storage and kernel moves.
-#include "../support/distributions.hpp"
-#include "../support/effort.hpp"
-#include "../support/oracle.hpp"
-#include "../support/statistics.hpp"
+#include "support/distributions.hpp"
+#include "support/effort.hpp"
+#include "support/oracle.hpp"
+#include "support/statistics.hpp"
 
-#include <gnomon/moments/formats.hpp>
+#include <gnomon/storage/moments_formats.hpp>
 
 #include <doctest/doctest.h>
 

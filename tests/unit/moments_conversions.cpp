@@ -1,7 +1,7 @@
 // Depth conventions, moments of one depth, linear combinations of moments, and the quantization transforms with their
 // inverses.
-#include "../support/effort.hpp"
-#include "../support/hostile.hpp"
+#include "support/effort.hpp"
+#include "support/hostile.hpp"
 
 #include <gnomon/moments/moments.h>
 #include <gnomon/moments/quantization.h>

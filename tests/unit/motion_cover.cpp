@@ -1,9 +1,9 @@
 // Covers of texels: by fragments and by ranges, against who is in front at many times; ranges that may be left out,
 // against the shadow test on the whole list.
-#include "../support/climber.hpp"
-#include "../support/effort.hpp"
-#include "../support/moving_triangles.hpp"
-#include "../support/prisms.hpp"
+#include "support/climber.hpp"
+#include "support/effort.hpp"
+#include "support/moving_triangles.hpp"
+#include "support/prisms.hpp"
 #include "coverage_check.hpp"
 
 #include <doctest/doctest.h>

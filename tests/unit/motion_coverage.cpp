@@ -1,6 +1,6 @@
 // Covered times: of any three edge functions against extended precision, and of neighbours, which leave no time between
 // them.
-#include "../support/effort.hpp"
+#include "support/effort.hpp"
 #include "coverage_check.hpp"
 
 #include <gnomon/motion/moving_triangle.h>

@@ -2,7 +2,7 @@
 // hold to a tolerance. Depths are of the numbers that the kernels get, in extended precision.
 #include "moving_reference.hpp"
 
-#include "../support/climber.hpp"
+#include "support/climber.hpp"
 
 #include <gnomon/motion/edge_field.h>
 

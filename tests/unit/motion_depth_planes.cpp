@@ -1,8 +1,8 @@
 // When depth is on one side of a plane: cubics against their values at many times, and as they climb; and edges that
 // are widened by their error against exact ones.
-#include "../support/climber.hpp"
-#include "../support/effort.hpp"
-#include "../support/moving_triangles.hpp"
+#include "support/climber.hpp"
+#include "support/effort.hpp"
+#include "support/moving_triangles.hpp"
 #include "coverage_check.hpp"
 
 #include <gnomon/motion/depth_planes.h>

@@ -1,7 +1,7 @@
 // Edge functions over a tile: those of moving_triangle.h within the stated error, and blocks that contain what their
 // samples see.
-#include "../support/effort.hpp"
-#include "../support/moving_triangles.hpp"
+#include "support/effort.hpp"
+#include "support/moving_triangles.hpp"
 #include "coverage_check.hpp"
 
 #include <gnomon/motion/edge_field.h>

@@ -1,6 +1,6 @@
 // Surfaces that turn: the times at which they face the light, by the edge that facing_edge makes, against the product
 // of both vectors at dense times in extended precision.
-#include "../support/effort.hpp"
+#include "support/effort.hpp"
 #include "receiver_cases.hpp"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // Lists of depth-time ranges: what ranges do to one another, a list's resolve against the front-most of thousands of
 // times, the order of insertion, and full lists, in which nothing may leave the shadow and every cost is on the bill.
-#include "../support/effort.hpp"
-#include "../support/hostile.hpp"
+#include "support/effort.hpp"
+#include "support/hostile.hpp"
 
 #include <gnomon/motion/range_list.h>
 

@@ -1,6 +1,6 @@
 // The promises of lists of ranges: full ones are in front of all that was inserted, strictly; and whom leaving out
 // hidden ranges costs a shadow.
-#include "../support/climber.hpp"
+#include "support/climber.hpp"
 
 #include <gnomon/motion/coverage_map.h>
 #include <gnomon/motion/range_list.h>

@@ -1,6 +1,6 @@
 // Receivers that move over a map of resolved lists: the closed form against 4096 times, against extended precision in
 // one texel, against a receiver at rest; planes that must not shadow themselves; percentage-closer filtering.
-#include "../support/effort.hpp"
+#include "support/effort.hpp"
 #include "receiver_paths.hpp"
 
 #include <doctest/doctest.h>

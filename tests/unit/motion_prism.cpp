@@ -1,8 +1,8 @@
 // Prisms piece by piece: crossings and closed surfaces on a lattice, where arithmetic is exact, fragments against
 // extended precision, pairs by the rules, hostile input.
-#include "../support/effort.hpp"
-#include "../support/moving_triangles.hpp"
-#include "../support/prisms.hpp"
+#include "support/effort.hpp"
+#include "support/moving_triangles.hpp"
+#include "support/prisms.hpp"
 #include "coverage_check.hpp"
 
 #include <doctest/doctest.h>

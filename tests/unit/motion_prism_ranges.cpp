@@ -1,7 +1,7 @@
 // Ranges of prisms against exact coverage: equal for translations, and how wrong for each kind of motion, as a table.
-#include "../support/effort.hpp"
-#include "../support/moving_triangles.hpp"
-#include "../support/prisms.hpp"
+#include "support/effort.hpp"
+#include "support/moving_triangles.hpp"
+#include "support/prisms.hpp"
 #include "coverage_check.hpp"
 
 #include <doctest/doctest.h>

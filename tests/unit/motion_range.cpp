@@ -1,7 +1,7 @@
 // Depth-time ranges against extended precision: their depths, clips and crossings within the stated errors, and what
 // they shadow against the definition, asked at many times.
-#include "../support/effort.hpp"
-#include "../support/hostile.hpp"
+#include "support/effort.hpp"
+#include "support/hostile.hpp"
 
 #include <gnomon/motion/range.h>
 

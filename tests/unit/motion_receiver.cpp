@@ -1,6 +1,6 @@
 // A receiver at rest under resolved lists of depth-time ranges: the closed form against a hundred thousand times, and
 // what a list must not mind.
-#include "../support/effort.hpp"
+#include "support/effort.hpp"
 #include "receiver_cases.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 // Shutters: shares of light from 0 to 1, their densities as said, given weights against a sum over many times.
-#include "../support/effort.hpp"
+#include "support/effort.hpp"
 #include "receiver_cases.hpp"
 
 #include <doctest/doctest.h>

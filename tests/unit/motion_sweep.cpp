@@ -1,6 +1,6 @@
 // The way of a receiver over the map: its texels and their times against the path in extended precision, sub-intervals
 // that follow one another bit for bit whatever the path is, samples in time and how many.
-#include "../support/effort.hpp"
+#include "support/effort.hpp"
 #include "receiver_paths.hpp"
 
 #include <doctest/doctest.h>

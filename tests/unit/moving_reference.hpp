@@ -1,8 +1,8 @@
 // Moving triangles in extended precision, and scenes to compare them in.
 #pragma once
 
-#include "../support/effort.hpp"
-#include "../support/moving_triangles.hpp"
+#include "support/effort.hpp"
+#include "support/moving_triangles.hpp"
 #include "coverage_check.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Ranges that come as near one another as resolve_tie, for climbers: the stated error of a resolve is n - 1 ties.
 #pragma once
 
-#include "../support/climber.hpp"
+#include "support/climber.hpp"
 
 #include <gnomon/passes/resolve.hpp>
 

@@ -1,7 +1,7 @@
 // Largest errors of short differences of products, where a search finds them. Built with numerics_exact.cpp, so also
 // with contraction and without fused multiply-add.
-#include "../support/climber.hpp"
-#include "../support/reals.hpp"
+#include "support/climber.hpp"
+#include "support/reals.hpp"
 
 #include <gnomon/numerics/two_product.h>
 

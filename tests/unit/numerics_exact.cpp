@@ -1,9 +1,9 @@
 // Error-free transformations and short differences of products, against exact integers: a float is a 24-bit and a
 // double a 53-bit integer times a power of two. Built three times: as the library is used, with contraction allowed,
 // which must change no promise, and without fused multiply-add, where the split route has to give the same bits.
-#include "../support/effort.hpp"
-#include "../support/hostile.hpp"
-#include "../support/reals.hpp"
+#include "support/effort.hpp"
+#include "support/hostile.hpp"
+#include "support/reals.hpp"
 
 #include <gnomon/numerics/two_product.h>
 

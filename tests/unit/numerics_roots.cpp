@@ -1,8 +1,8 @@
 // Roots of quadratics and of cubics with three real roots, against Newton's method in 50 digits on the same, rounded
 // coefficients.
-#include "../support/climber.hpp"
-#include "../support/effort.hpp"
-#include "../support/hostile.hpp"
+#include "support/climber.hpp"
+#include "support/effort.hpp"
+#include "support/hostile.hpp"
 
 #include <gnomon/numerics/cubic.h>
 #include <gnomon/numerics/quadratic.h>

@@ -1,7 +1,7 @@
 // Joined lists against the resolved ones that they come from: the same times, behind them by no more than a tolerance.
-#include "../support/climber.hpp"
-#include "../support/effort.hpp"
-#include "../support/hostile.hpp"
+#include "support/climber.hpp"
+#include "support/effort.hpp"
+#include "support/hostile.hpp"
 
 #include <gnomon/passes/join.hpp>
 

@@ -1,9 +1,9 @@
 // Blur, mips and look-ups against sums in double over every texel, for storage formats of all kinds; and the answers to
 // bad shapes.
-#include "../support/effort.hpp"
+#include "support/effort.hpp"
 
-#include <gnomon/filters/formats.hpp>
-#include <gnomon/moments/formats.hpp>
+#include <gnomon/storage/filters_formats.hpp>
+#include <gnomon/storage/moments_formats.hpp>
 #include <gnomon/passes/blur.hpp>
 #include <gnomon/passes/look_up.hpp>
 #include <gnomon/passes/mips.hpp>

@@ -1,6 +1,6 @@
 // Neighbours that overlap for a moment, parted: nothing is uncovered, and nothing else changes.
-#include "../support/effort.hpp"
-#include "../support/hostile.hpp"
+#include "support/effort.hpp"
+#include "support/hostile.hpp"
 
 #include <gnomon/passes/part.hpp>
 

@@ -1,6 +1,6 @@
 // Receivers of every id and depth: resolved lists, their totals and lists resolved in two steps give them the answer of
 // all ranges, the time in which any range of another id is in front of them.
-#include "../support/climber.hpp"
+#include "support/climber.hpp"
 #include "receiver_cases.hpp"
 
 #include <gnomon/passes/range_look_up.hpp>

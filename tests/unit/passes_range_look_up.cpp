@@ -1,7 +1,7 @@
 // Look-ups in maps of ranges: closed forms against many times, wide filters against the mean of narrow ones, and what
 // is outside of the map.
-#include "../support/effort.hpp"
-#include "../support/hostile.hpp"
+#include "support/effort.hpp"
+#include "support/hostile.hpp"
 
 #include <gnomon/passes/range_look_up.hpp>
 #include <gnomon/passes/resolve.hpp>

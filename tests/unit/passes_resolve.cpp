@@ -1,6 +1,6 @@
 // Resolved lists against the definition: at any time the front-most range, asked at many times; and lists in one array.
-#include "../support/effort.hpp"
-#include "../support/hostile.hpp"
+#include "support/effort.hpp"
+#include "support/hostile.hpp"
 #include "near_ties.hpp"
 
 #include <gnomon/passes/backdrop.hpp>

@@ -1,10 +1,10 @@
 // No acne: whatever a storage format rounds, a receiver on or in front of a single surface stays lit, up to the most
 // that the format is stated to darken. Constant and tilted planes, single texels and regions filtered by two passes
 // that round in the storage format again.
-#include "../support/effort.hpp"
-#include "../support/hostile.hpp"
+#include "support/effort.hpp"
+#include "support/hostile.hpp"
 
-#include <gnomon/moments/formats.hpp>
+#include <gnomon/storage/moments_formats.hpp>
 
 #include <doctest/doctest.h>
 

@@ -1,8 +1,8 @@
 // Shared by tests of maps of ranges: a scene of cubes, its exact ranges, and questions to a map.
 #pragma once
 
-#include "../support/effort.hpp"
-#include "../support/hostile.hpp"
+#include "support/effort.hpp"
+#include "support/hostile.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -2,7 +2,7 @@
 // takes from a receiver in extended precision, with the error that the comments in motion/ allow.
 #pragma once
 
-#include "../support/hostile.hpp"
+#include "support/hostile.hpp"
 
 #include <gnomon/motion/moving_receiver.h>
 

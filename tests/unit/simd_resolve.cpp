@@ -1,6 +1,6 @@
 // Lists resolved by packs against lists resolved one by one, and what waits as a backdrop in every lane.
-#include "../support/effort.hpp"
-#include "../support/hostile.hpp"
+#include "support/effort.hpp"
+#include "support/hostile.hpp"
 #include "near_ties.hpp"
 
 #include <gnomon/passes/backdrop.hpp>

@@ -1,8 +1,8 @@
 // Maps that leave ranges out, resolved or without backdrops, with a small budget or a large one and triangles in any
 // order: a receiver that is not behind what was left out gets the answer of all ranges.
-#include "../support/climber.hpp"
-#include "../support/effort.hpp"
-#include "../support/hostile.hpp"
+#include "support/climber.hpp"
+#include "support/effort.hpp"
+#include "support/hostile.hpp"
 #include "moving_worlds.hpp"
 
 #include <doctest/doctest.h>

@@ -1,8 +1,8 @@
 // Begins and ends of surfaces, in place and time, for the rasterizer of motion: fans of triangles around a vertex that
 // sits on a texel's centre, or beside it by a few ulps, leave no crack, and what passes a plane of the view is there
 // for a part of the time.
-#include "../support/effort.hpp"
-#include "../support/hostile.hpp"
+#include "support/effort.hpp"
+#include "support/hostile.hpp"
 #include "moving_worlds.hpp"
 
 #include <doctest/doctest.h>

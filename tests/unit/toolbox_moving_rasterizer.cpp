@@ -1,6 +1,6 @@
 // The rasterizer of motion against edge functions in double precision, asked one texel, one triangle and one time at a
 // time; and what must not change its lists: threads, budgets, tiles.
-#include "../support/hostile.hpp"
+#include "support/hostile.hpp"
 
 #include <doctest/doctest.h>
 #include <gnomon/motion/moving_triangle.h>

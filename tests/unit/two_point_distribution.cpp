@@ -1,8 +1,8 @@
 // Algorithm 2: two depths from three moments, against the two depths that the moments came from, and against the
 // moments.
-#include "../support/climber.hpp"
-#include "../support/distributions.hpp"
-#include "../support/effort.hpp"
+#include "support/climber.hpp"
+#include "support/distributions.hpp"
+#include "support/effort.hpp"
 
 #include <gnomon/moments/two_point.h>
 

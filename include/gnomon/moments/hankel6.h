@@ -87,7 +87,7 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_factor(Real mean, GNOMON_T(covariances6)
 /// The moments of the mixture (1 - alpha) Z + alpha Z*, where Z* is symmetric with even moments bias2, bias4, bias6
 /// (paper, 2.5, 5.4.3). Its covariances are, over 1 - alpha, those of Z, alpha / (1 - alpha) times those of Z*, and
 /// alpha times the products of the differences of the means.
-/// Domain: alpha in [0, 1), and from n delta / (n delta + r) on for moments that are off by n roundings (stored6.h);
+/// Domain: alpha in [0, 1), and from n delta / (n delta + r) on for moments that are off by n roundings (storage/moments6.h);
 /// below, pivots may meet their floor, and bounds say nothing.
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_biased(GNOMON_T(moments6) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4,
                                                GNOMON_SETTING bias6, GNOMON_SETTING alpha)

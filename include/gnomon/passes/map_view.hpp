@@ -1,5 +1,5 @@
 // Rectangles of texels in the caller's memory, and what passes over them have in common: shape checks, and texels as
-// arrays of floats. A pass is generic in a storage format (moments/formats.hpp, filters/formats.hpp): texels are
+// arrays of floats. A pass is generic in a storage format (storage/moments_formats.hpp, storage/filters_formats.hpp): texels are
 // decoded, combined linearly in float and encoded, so that every pass rounds to the format, as it would on a GPU.
 #ifndef GNOMON_PASSES_MAP_VIEW_HPP
 #define GNOMON_PASSES_MAP_VIEW_HPP

@@ -1,5 +1,5 @@
 // Storage formats of moment shadow maps as types, for maps in main memory: what a texel is, how moments become one and
-// come back, and the transform and reconstruction that belong to it (stored4.h, stored6.h), so that a map, its filter
+// come back, and the transform and reconstruction that belong to it (storage/moments4.h, storage/moments6.h), so that a map, its filter
 // and its reconstruction cannot be mismatched.
 //
 //     using format = gnomon::moments4_unorm16;
@@ -11,15 +11,15 @@
 // format; darkening and filtered_darkening are the most that either exceeds the truth by. factor and filtered_factor
 // give the matrix with a constant bias, of the vector bias and the weight bias_weight or filtered_bias_weight, for both
 // bounds.
-#ifndef GNOMON_MOMENTS_FORMATS_HPP
-#define GNOMON_MOMENTS_FORMATS_HPP
+#ifndef GNOMON_STORAGE_MOMENTS_FORMATS_HPP
+#define GNOMON_STORAGE_MOMENTS_FORMATS_HPP
 
 #include "../numerics/half.hpp"
 #include "../numerics/unorm.hpp"
-#include "hamburger4.h"
-#include "hamburger6.h"
-#include "stored4.h"
-#include "stored6.h"
+#include "../moments/hamburger4.h"
+#include "../moments/hamburger6.h"
+#include "moments4.h"
+#include "moments6.h"
 
 #include <array>
 #include <cstddef>

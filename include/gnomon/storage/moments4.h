@@ -20,12 +20,12 @@
 //     error, float, certified4_half_filtered: p99 1e-5, p99.9 6e-5, max 5e-4
 //     error, float, certified4_unorm16: p99 6e-4, p99.9 7e-3, max 3e-1
 //     error, float, certified4_unorm16_filtered: p99 3e-4, p99.9 3e-3, max 3e-2
-#ifndef GNOMON_MOMENTS_STORED4_H
-#define GNOMON_MOMENTS_STORED4_H
-#include "bias.h"
-#include "certified4.h"
-#include "hankel4.h"
-#include "quantization.h"
+#ifndef GNOMON_STORAGE_MOMENTS4_H
+#define GNOMON_STORAGE_MOMENTS4_H
+#include "../moments/bias.h"
+#include "../moments/certified4.h"
+#include "../moments/hankel4.h"
+#include "../moments/quantization.h"
 GNOMON_NAMESPACE_BEGIN
 
 GNOMON_CONSTANT(stored4_unorm16_weight, 3.6e-5);

@@ -1,19 +1,19 @@
-// Storage formats of the filters beside moment shadow maps as types, with the interface of moments/formats.hpp: what a
+// Storage formats of the filters beside moment shadow maps as types, with the interface of storage/moments_formats.hpp: what a
 // texel is, how filtered values become one and come back, and the settings that belong to it.
 //
 //     using format = gnomon::exponential_variance_half;
 //     format::texel t = format::encode(format::moments_of_depth(z));           // while rendering the map
 //     float shadow = format::intensity(format::decode(t), z_f);                // filtered in between; floats or packs
-#ifndef GNOMON_FILTERS_FORMATS_HPP
-#define GNOMON_FILTERS_FORMATS_HPP
+#ifndef GNOMON_STORAGE_FILTERS_FORMATS_HPP
+#define GNOMON_STORAGE_FILTERS_FORMATS_HPP
 
 #include "../numerics/half.hpp"
 #include "../numerics/unorm.hpp"
-#include "convolution.h"
-#include "exponential.h"
-#include "exponential_variance.h"
-#include "layered_variance.h"
-#include "variance.h"
+#include "../filters/convolution.h"
+#include "../filters/exponential.h"
+#include "../filters/exponential_variance.h"
+#include "../filters/layered_variance.h"
+#include "../filters/variance.h"
 
 #include <array>
 #include <cstddef>

@@ -9,9 +9,9 @@
 //     x > z_f:  p = (z - z_f) (z - x)^2 (z - greatest) / ((least - z_f) (least - x)^2 (least - greatest))
 //     x < z_f:  p = 1 - (z - least) (z - x)^2 (k0 + k1 z),  k0 and k1 by p(z_f) = p(greatest) = 0
 // Any x will do, so float arithmetic does. The greater of the two certified means is taken: both are honest.
-#ifndef GNOMON_MOMENTS_CERTIFIED4_WITHIN_H
-#define GNOMON_MOMENTS_CERTIFIED4_WITHIN_H
-#include "stored4.h"
+#ifndef GNOMON_STORAGE_MOMENTS4_WITHIN_H
+#define GNOMON_STORAGE_MOMENTS4_WITHIN_H
+#include "moments4.h"
 GNOMON_NAMESPACE_BEGIN
 
 GNOMON_CONSTANT(certified4_gap, 9.5367431640625e-7); // 2^-20, the least that the receiver is before greatest

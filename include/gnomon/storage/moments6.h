@@ -19,11 +19,11 @@
 // storage does, and so do the powers of a depth: counted at their worst they are 22 roundings and 4e-5, which do not
 // come together. The kernel's own arithmetic in float is within the weights. tests/unit/honest_six.cpp climbs for what
 // exceeds a weight, and finds that 5e-6 does not do for filtered floats.
-#ifndef GNOMON_MOMENTS_STORED6_H
-#define GNOMON_MOMENTS_STORED6_H
-#include "bias.h"
-#include "hankel6.h"
-#include "quantization.h"
+#ifndef GNOMON_STORAGE_MOMENTS6_H
+#define GNOMON_STORAGE_MOMENTS6_H
+#include "../moments/bias.h"
+#include "../moments/hankel6.h"
+#include "../moments/quantization.h"
 GNOMON_NAMESPACE_BEGIN
 
 GNOMON_CONSTANT(stored6_unorm10_weight, 4e-3);
