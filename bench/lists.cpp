@@ -3,7 +3,7 @@
 
 #include "support/hostile.hpp"
 
-#include <gnomon/motion/range_list.h>
+#include <gnomon/motion/range/range_list.h>
 
 namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {
 

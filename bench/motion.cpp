@@ -9,9 +9,9 @@
 #include "support/moving_triangles.hpp"
 #include "support/prisms.hpp"
 
-#include <gnomon/motion/coverage_map.h>
-#include <gnomon/motion/edge_field.h>
-#include <gnomon/motion/moving_triangle.h>
+#include <gnomon/motion/range/range_cover.h>
+#include <gnomon/motion/triangle/triangle_setup.h>
+#include <gnomon/motion/triangle/moving_triangle.h>
 #include <gnomon/motion/prism.h>
 #include <gnomon/numerics/quadratic.h>
 

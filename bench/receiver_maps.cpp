@@ -5,8 +5,8 @@
 
 #include "support/hostile.hpp"
 
-#include <gnomon/passes/range_look_up.hpp>
-#include <gnomon/passes/resolve.hpp>
+#include <gnomon/passes/range/look_up.hpp>
+#include <gnomon/passes/range/resolve.hpp>
 
 namespace gnomon::bench {
 

@@ -4,7 +4,7 @@
 
 #include "support/hostile.hpp"
 
-#include <gnomon/motion/moving_receiver.h>
+#include <gnomon/motion/receiver/moving_receiver.h>
 
 namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {
 

@@ -32,7 +32,7 @@ TECHNIQUES = {
     "two_point": (["moments/two_point.h"], ""),
     "hamburger_cholesky": (["moments/bias.h", "moments/hamburger_cholesky.h"], ""),
 }
-FOLDERS = ["filters", "soft", "scattering", "motion"]
+FOLDERS = ["filters", "soft", "scattering", "motion", "comparators"]
 
 HEADING = """\
 // Gnomon {version}, {name}: shadow filtering in {language}, this file alone.

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 #include <gnomon/filters/percentage_closer.h>
-#include <gnomon/motion/moving_receiver.h>
+#include <gnomon/motion/receiver/moving_receiver.h>
 #include <tbb/parallel_for.h>
-#include <gnomon/passes/range_map.hpp>
+#include <gnomon/passes/range/map.hpp>
 
 #include <algorithm>
 #include <glm/common.hpp>

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
-#include <gnomon/motion/range_list.h>
+#include <gnomon/motion/range/range_list.h>
 #include <tbb/parallel_for.h>
-#include <gnomon/passes/part.hpp>
+#include <gnomon/passes/range/part.hpp>
 #include <gnomon/simd/xsimd.hpp>
 
 #include <algorithm>

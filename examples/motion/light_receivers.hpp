@@ -2,8 +2,8 @@
 // and when it faces the light.
 #pragma once
 
-#include <gnomon/motion/facing.h>
-#include <gnomon/motion/moving_receiver.h>
+#include <gnomon/motion/receiver/facing.h>
+#include <gnomon/motion/receiver/moving_receiver.h>
 
 #include <cstdint>
 #include <span>

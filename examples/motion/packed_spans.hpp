@@ -8,7 +8,7 @@
 // what it changes by in 2^-16 of the shutter, at most; of spans shorter than 4 times 2^-16 in 6 times that.
 #pragma once
 
-#include <gnomon/motion/range.h>
+#include <gnomon/motion/range/range.h>
 
 #include <cstddef>
 #include <cstdint>

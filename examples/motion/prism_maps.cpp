@@ -1,4 +1,4 @@
-#include <gnomon/motion/coverage_map.h>
+#include <gnomon/motion/range/range_cover.h>
 
 #include <algorithm>
 #include <array>
@@ -72,7 +72,7 @@ template <class Visit> void for_each_fragment(const prism_rasterizer& prisms, co
             f.time.store_unaligned(time.data()), f.depth.store_unaligned(depth.data());
             for (std::uint32_t i = 0; i < pack::size; ++i)
                 if (covered[i] > 0)
-                    visit(prisms.texel(place + i), moment_fragment<float>{time[i], depth[i], float(number)});
+                    visit(prisms.texel(place + i), timed_fragment<float>{time[i], depth[i], float(number)});
         }
     });
 }
@@ -102,7 +102,7 @@ range_shadow_map covered_prism_ranges(const moving_scene& world, const moving_ca
     range_shadow_map result{{"prism ranges with coverage", "20 B ranges", resolution}};
     const std::size_t texels = texels_of(resolution);
     loose_ranges found;
-    std::vector<moment_fragment<float>> nearest;
+    std::vector<timed_fragment<float>> nearest;
     std::vector<fragment_cover<float>> states;
     std::size_t fragments = 0;
     result.build_ms =

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <gnomon/motion/prism.h>
-#include <gnomon/passes/range_map.hpp>
+#include <gnomon/passes/range/map.hpp>
 #include <gnomon/simd/xsimd.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "range_maps.hpp"
 
 #include <fmt/format.h>
-#include <gnomon/motion/coverage_map.h>
+#include <gnomon/motion/range/range_cover.h>
 
 #include <algorithm>
 #include <cmath>

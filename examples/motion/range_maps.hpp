@@ -3,7 +3,7 @@
 // or those of surfaces.
 #pragma once
 
-#include <gnomon/passes/range_map.hpp>
+#include <gnomon/passes/range/map.hpp>
 
 #include <cstddef>
 #include <cstdint>

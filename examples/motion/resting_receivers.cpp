@@ -1,7 +1,7 @@
 #include "resting_receivers.hpp"
 
 #include <fmt/format.h>
-#include <gnomon/passes/range_look_up.hpp>
+#include <gnomon/passes/range/look_up.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "shadow_tests.hpp"
 
-#include <gnomon/motion/coverage_map.h>
-#include <gnomon/passes/range_look_up.hpp>
+#include <gnomon/motion/range/range_cover.h>
+#include <gnomon/passes/range/look_up.hpp>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // which ranges come by packs, until they are laid out.
 #pragma once
 
-#include <gnomon/passes/backdrop.hpp>
+#include <gnomon/passes/range/backdrop.hpp>
 #include <gnomon/simd/resolve.hpp>
 
 #include <algorithm>

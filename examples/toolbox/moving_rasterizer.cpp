@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <gnomon/passes/join.hpp>
+#include <gnomon/passes/range/join.hpp>
 #include <limits>
 #include <numeric>
 #include <stdexcept>

@@ -1,14 +1,14 @@
 // A rasterizer for motion on the CPU: what each texel of a shadow map sees of a moving scene while the shutter is open,
-// as lists of depth-time ranges, exact by edge functions in time (motion/moving_triangle.h). Parallel over tiles; its
+// as lists of depth-time ranges, exact by edge functions in time (motion/triangle/moving_triangle.h). Parallel over tiles; its
 // results do not depend on the number of threads.
 //
 // Work grows with what is covered, not with bounding boxes of what moves: triangles are tested against tiles, against
-// blocks of 4 x 4 texels and then against texels, by one kernel in space and time (motion/edge_field.h), a pack at a
+// blocks of 4 x 4 texels and then against texels, by one kernel in space and time (motion/triangle/triangle_setup.h), a pack at a
 // time. A tile goes through its blocks and keeps their ranges by packs, counted for each texel; where they would take
 // more memory than they may have they are resolved early. Then each goes to its place in the map, once, from a cache.
 #pragma once
 
-#include <gnomon/passes/range_map.hpp>
+#include <gnomon/passes/range/map.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -4,7 +4,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <gnomon/passes/range_map.hpp>
+#include <gnomon/passes/range/map.hpp>
 
 #include <bit>
 #include <cmath>

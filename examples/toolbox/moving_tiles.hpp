@@ -3,9 +3,9 @@
 // through the blocks of texels that it touches at some time.
 #pragma once
 
-#include <gnomon/motion/depth_planes.h>
-#include <gnomon/motion/edge_widening.h>
-#include <gnomon/passes/range_map.hpp>
+#include <gnomon/motion/triangle/depth_planes.h>
+#include <gnomon/motion/triangle/edge_widening.h>
+#include <gnomon/passes/range/map.hpp>
 #include <gnomon/simd/xsimd.hpp>
 
 #include <algorithm>

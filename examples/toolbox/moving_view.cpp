@@ -1,6 +1,6 @@
 #include "moving_view.hpp"
 
-#include <gnomon/motion/range.h>
+#include <gnomon/motion/range/range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>

@@ -15,7 +15,8 @@ SOURCES = {".h", ".hpp", ".cpp"}
 
 # An include goes down this list or stays on its line, never up. gnomon.h stands with the passes: whoever includes
 # everything still needs no library.
-LAYERS = [["portable.h", "portable"], ["numerics"], ["moments", "filters", "motion"], ["storage", "soft", "scattering"],
+LAYERS = [["portable.h", "portable"], ["numerics"], ["moments", "filters", "motion/triangle"], ["motion/range"],
+          ["motion/receiver"], ["motion/layers"], ["storage", "soft", "scattering"], ["comparators"], ["advisor"],
           ["passes", "gnomon.h"], ["simd", "adapters"]]
 LAYER = {name: level for level, names in enumerate(LAYERS) for name in names}
 
@@ -106,7 +107,8 @@ def lint_includes(path, text):
 
 
 def layer_of(path):
-    return LAYER.get(path.parts[0], len(LAYERS))
+    """The level of the room that holds path: of its first two folders where these are a room, else of the first."""
+    return LAYER.get("/".join(path.parts[:2]), LAYER.get(path.parts[0], len(LAYERS)))
 
 
 def is_kernel(path):

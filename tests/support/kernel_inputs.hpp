@@ -214,7 +214,7 @@ inline constexpr input_family<T> input_families[] = {
          for (std::size_t n = bits.below(6); n > 0; --n) state = prism_pair_add(state, any_prism_fragment<T>(bits));
          put(state);
      }},
-    {"moment_fragment", 3, [](auto put, const situation&, bit_source& bits) { put(any_moment_fragment<T>(bits)); }},
+    {"timed_fragment", 3, [](auto put, const situation&, bit_source& bits) { put(any_moment_fragment<T>(bits)); }},
     {"fragment_cover", 7,
      [](auto put, const situation&, bit_source& bits) {
          fragment_cover<T> state = fragment_cover_begin(any_moment_fragment<T>(bits));

@@ -4,7 +4,7 @@
 
 #include "hostile.hpp"
 
-#include <gnomon/motion/moving_triangle.h>
+#include <gnomon/motion/triangle/moving_triangle.h>
 
 #include <array>
 #include <cmath>

@@ -3,7 +3,8 @@
 
 #include "hostile.hpp"
 
-#include <gnomon/motion/coverage_map.h>
+#include <gnomon/comparators/three_pass_cover.h>
+#include <gnomon/motion/range/range_cover.h>
 #include <gnomon/motion/prism.h>
 
 #include <algorithm>
@@ -42,7 +43,7 @@ template <class T> prism_fragment<T> any_prism_fragment(bit_source& bits)
             T(bits.uniform(-1, 1))};
 }
 
-template <class T> moment_fragment<T> any_moment_fragment(bit_source& bits)
+template <class T> timed_fragment<T> any_moment_fragment(bit_source& bits)
 {
     const prism_fragment<T> f = any_prism_fragment<T>(bits);
     return {f.time, f.depth, T(bits.below(4))};

@@ -8,9 +8,9 @@
 
 #include <gnomon/storage/moments4.h>
 #include <gnomon/storage/moments6.h>
-#include <gnomon/motion/edge_field.h>
-#include <gnomon/motion/moving_receiver.h>
-#include <gnomon/motion/range_list.h>
+#include <gnomon/motion/triangle/triangle_setup.h>
+#include <gnomon/motion/receiver/moving_receiver.h>
+#include <gnomon/motion/range/range_list.h>
 
 #include <array>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "support/hostile.hpp"
 
-#include <gnomon/motion/coverage_times.h>
+#include <gnomon/motion/triangle/coverage_intervals.h>
 
 #include <doctest/doctest.h>
 

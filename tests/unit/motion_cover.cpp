@@ -20,7 +20,7 @@ using namespace gnomon::test;
 namespace {
 
 template <class T> using list = std::vector<depth_time_range<T>>;
-template <class T> using fragments = std::vector<moment_fragment<T>>;
+template <class T> using fragments = std::vector<timed_fragment<T>>;
 
 /// Surfaces of one or two ranges each, which do not overlap in time; every other time of few depths, many of them
 /// equal.
@@ -62,7 +62,7 @@ template <class T> depth_time_range<T> cover_of(const list<T>& ranges)
 
 template <class T> depth_time_range<T> cover_of(const fragments<T>& all)
 {
-    moment_fragment<T> nearest = nearest_fragment_begin(T(1));
+    timed_fragment<T> nearest = nearest_fragment_begin(T(1));
     for (const auto& f : all) nearest = nearest_fragment_add(nearest, f);
     fragment_cover<T> state = fragment_cover_begin(nearest);
     for (const auto& f : all) state = fragment_cover_add(state, f);
@@ -320,7 +320,7 @@ TEST_CASE_TEMPLATE("a range that rounding puts in front of the cover is not left
 TEST_CASE("the passes of the paper, one by one")
 {
     const auto cover = [](const fragments<double>& all) { return cover_of(all); };
-    const moment_fragment<double> open{0, -0.5, 3}, close{1, -0.25, 3};
+    const timed_fragment<double> open{0, -0.5, 3}, close{1, -0.25, 3};
     CHECK(equal(cover({open, close}), {0, 1, -0.5, -0.25, 3}));
     CHECK(equal(cover({close, open}), {0, 1, -0.5, -0.25, 3}));
     CHECK(cover({}).id == -1);
@@ -362,7 +362,7 @@ TEST_CASE_TEMPLATE("anything in: a cover within the limits or none, and NaN hide
         REQUIRE(range_cover_hides(clean, bad) == 1);
         fragments<T> all = ends_of(ranges);
         const auto clean_fragments = cover_of(all);
-        moment_fragment<T> worse = all[0];
+        timed_fragment<T> worse = all[0];
         (bits.chance(0.3) ? worse.z : bits.chance(0.5) ? worse.t : worse.id) = nan;
         all.insert(all.begin() + std::ptrdiff_t(bits.below(all.size() + 1)), worse);
         REQUIRE(equal(cover_of(all), clean_fragments));

@@ -3,7 +3,7 @@
 #include "support/effort.hpp"
 #include "coverage_check.hpp"
 
-#include <gnomon/motion/moving_triangle.h>
+#include <gnomon/motion/triangle/moving_triangle.h>
 
 #include <doctest/doctest.h>
 

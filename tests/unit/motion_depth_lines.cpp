@@ -4,7 +4,7 @@
 
 #include "support/climber.hpp"
 
-#include <gnomon/motion/edge_field.h>
+#include <gnomon/motion/triangle/triangle_setup.h>
 
 #include <doctest/doctest.h>
 

@@ -5,8 +5,8 @@
 #include "support/moving_triangles.hpp"
 #include "coverage_check.hpp"
 
-#include <gnomon/motion/depth_planes.h>
-#include <gnomon/motion/edge_widening.h>
+#include <gnomon/motion/triangle/depth_planes.h>
+#include <gnomon/motion/triangle/edge_widening.h>
 
 #include <doctest/doctest.h>
 

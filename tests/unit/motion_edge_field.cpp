@@ -4,7 +4,7 @@
 #include "support/moving_triangles.hpp"
 #include "coverage_check.hpp"
 
-#include <gnomon/motion/edge_field.h>
+#include <gnomon/motion/triangle/triangle_setup.h>
 
 #include <doctest/doctest.h>
 

@@ -4,7 +4,7 @@
 #include "receiver_cases.hpp"
 
 #include <doctest/doctest.h>
-#include <gnomon/motion/facing.h>
+#include <gnomon/motion/receiver/facing.h>
 
 using namespace gnomon;
 using namespace gnomon::test;

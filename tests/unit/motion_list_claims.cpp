@@ -2,8 +2,8 @@
 // hidden ranges costs a shadow.
 #include "support/climber.hpp"
 
-#include <gnomon/motion/coverage_map.h>
-#include <gnomon/motion/range_list.h>
+#include <gnomon/motion/range/range_cover.h>
+#include <gnomon/motion/range/range_list.h>
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // Lists in few bits: packed spans, and lists of a fixed capacity, which must not change what they promise.
-#include <gnomon/motion/range_list.h>
-#include <gnomon/passes/part.hpp>
-#include <gnomon/passes/range_look_up.hpp>
+#include <gnomon/motion/range/range_list.h>
+#include <gnomon/passes/range/part.hpp>
+#include <gnomon/passes/range/look_up.hpp>
 
 #include <doctest/doctest.h>
 

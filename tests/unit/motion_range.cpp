@@ -3,7 +3,7 @@
 #include "support/effort.hpp"
 #include "support/hostile.hpp"
 
-#include <gnomon/motion/range.h>
+#include <gnomon/motion/range/range.h>
 
 #include <doctest/doctest.h>
 

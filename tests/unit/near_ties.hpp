@@ -3,7 +3,7 @@
 
 #include "support/climber.hpp"
 
-#include <gnomon/passes/resolve.hpp>
+#include <gnomon/passes/range/resolve.hpp>
 
 #include <algorithm>
 #include <cmath>

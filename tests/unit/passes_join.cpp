@@ -3,7 +3,7 @@
 #include "support/effort.hpp"
 #include "support/hostile.hpp"
 
-#include <gnomon/passes/join.hpp>
+#include <gnomon/passes/range/join.hpp>
 
 #include <doctest/doctest.h>
 

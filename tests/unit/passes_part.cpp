@@ -2,7 +2,7 @@
 #include "support/effort.hpp"
 #include "support/hostile.hpp"
 
-#include <gnomon/passes/part.hpp>
+#include <gnomon/passes/range/part.hpp>
 
 #include <doctest/doctest.h>
 

@@ -3,8 +3,8 @@
 #include "support/climber.hpp"
 #include "receiver_cases.hpp"
 
-#include <gnomon/passes/range_look_up.hpp>
-#include <gnomon/passes/resolve.hpp>
+#include <gnomon/passes/range/look_up.hpp>
+#include <gnomon/passes/range/resolve.hpp>
 
 #include <doctest/doctest.h>
 

@@ -3,8 +3,8 @@
 #include "support/effort.hpp"
 #include "support/hostile.hpp"
 
-#include <gnomon/passes/range_look_up.hpp>
-#include <gnomon/passes/resolve.hpp>
+#include <gnomon/passes/range/look_up.hpp>
+#include <gnomon/passes/range/resolve.hpp>
 
 #include <doctest/doctest.h>
 

@@ -3,9 +3,9 @@
 #include "support/hostile.hpp"
 #include "near_ties.hpp"
 
-#include <gnomon/passes/backdrop.hpp>
-#include <gnomon/passes/range_map.hpp>
-#include <gnomon/passes/resolve.hpp>
+#include <gnomon/passes/range/backdrop.hpp>
+#include <gnomon/passes/range/map.hpp>
+#include <gnomon/passes/range/resolve.hpp>
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 #include "support/hostile.hpp"
 #include "near_ties.hpp"
 
-#include <gnomon/passes/backdrop.hpp>
+#include <gnomon/passes/range/backdrop.hpp>
 #include <gnomon/simd/resolve.hpp>
 #include <gnomon/simd/xsimd.hpp>
 

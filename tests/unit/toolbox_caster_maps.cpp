@@ -6,7 +6,7 @@
 #include "moving_worlds.hpp"
 
 #include <doctest/doctest.h>
-#include <gnomon/passes/range_look_up.hpp>
+#include <gnomon/passes/range/look_up.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "support/hostile.hpp"
 
 #include <doctest/doctest.h>
-#include <gnomon/motion/moving_triangle.h>
+#include <gnomon/motion/triangle/moving_triangle.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>

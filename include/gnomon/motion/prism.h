@@ -29,8 +29,8 @@
 //     prism_ranges ranges = prism_pair_end(pair);
 #ifndef GNOMON_MOTION_PRISM_H
 #define GNOMON_MOTION_PRISM_H
-#include "moving_triangle.h"
-#include "range.h"
+#include "triangle/moving_triangle.h"
+#include "range/range.h"
 GNOMON_NAMESPACE_BEGIN
 
 /// On the screen, with depth and time, and 1 / w, which is 1 in orthographic views.

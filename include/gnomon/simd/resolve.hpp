@@ -1,11 +1,11 @@
-// The lists of several texels resolved at once, a lane for each: what passes/resolve.hpp does for one, for ids of
+// The lists of several texels resolved at once, a lane for each: what passes/range/resolve.hpp does for one, for ids of
 // surfaces. A list is a column of rows. Every range is compared with every other one of its texel: in the time that
 // both have, one hides the other, or does up to the crossing of their lines. What is hidden is taken from a range's
 // begin or end, which takes no branches. Where its middle is hidden, what is left behind that goes into a further row.
 #ifndef GNOMON_SIMD_RESOLVE_HPP
 #define GNOMON_SIMD_RESOLVE_HPP
 
-#include "../passes/resolve.hpp"
+#include "../passes/range/resolve.hpp"
 
 #include <algorithm>
 #include <array>

@@ -6,11 +6,11 @@
 #ifndef GNOMON_PASSES_RANGE_LOOK_UP_HPP
 #define GNOMON_PASSES_RANGE_LOOK_UP_HPP
 
-#include "../motion/moving_receiver.h"
-#include "../motion/receiver_path.h"
-#include "../motion/static_receiver.h"
-#include "range_map.hpp"
-#include "range_taps.hpp"
+#include "../../motion/receiver/moving_receiver.h"
+#include "../../motion/receiver/receiver_path.h"
+#include "../../motion/receiver/static_receiver.h"
+#include "map.hpp"
+#include "taps.hpp"
 
 #include <algorithm>
 #include <cstddef>

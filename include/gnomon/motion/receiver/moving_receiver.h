@@ -17,8 +17,8 @@
 //         state = moving_receiver_filter_box(state, range);  or _tent, _given; for every range of texel (column + i,
 //                                                            row + j)
 // It is the mean of K x K receivers by bilinear filtering, each on the path shifted by whole texels.
-#ifndef GNOMON_MOTION_MOVING_RECEIVER_H
-#define GNOMON_MOTION_MOVING_RECEIVER_H
+#ifndef GNOMON_MOTION_RECEIVER_MOVING_RECEIVER_H
+#define GNOMON_MOTION_RECEIVER_MOVING_RECEIVER_H
 #include "static_receiver.h"
 #include "texel_sweep.h"
 GNOMON_NAMESPACE_BEGIN

@@ -1,10 +1,10 @@
-// Neighbours parted: triangles whose edges are widened (motion/edge_widening.h) overlap for a moment where one follows
+// Neighbours parted: triangles whose edges are widened (motion/triangle/edge_widening.h) overlap for a moment where one follows
 // the other. Lists of few ranges would spend room on that moment, and merge for want of room.
-#ifndef GNOMON_PASSES_PART_HPP
-#define GNOMON_PASSES_PART_HPP
+#ifndef GNOMON_PASSES_RANGE_PART_HPP
+#define GNOMON_PASSES_RANGE_PART_HPP
 
-#include "../motion/range.h"
-#include "../portable/cpp_only.h"
+#include "../../motion/range/range.h"
+#include "../../portable/cpp_only.h"
 
 #include <span>
 

@@ -4,8 +4,8 @@
 #ifndef GNOMON_PASSES_RANGE_MAP_HPP
 #define GNOMON_PASSES_RANGE_MAP_HPP
 
-#include "../motion/static_receiver.h"
-#include "expects.hpp"
+#include "../../motion/range/range_summary.h"
+#include "../expects.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -4,9 +4,9 @@
 #ifndef GNOMON_PASSES_RANGE_TAPS_HPP
 #define GNOMON_PASSES_RANGE_TAPS_HPP
 
-#include "../motion/moving_receiver.h"
-#include "../motion/static_receiver.h"
-#include "range_map.hpp"
+#include "../../motion/receiver/moving_receiver.h"
+#include "../../motion/receiver/static_receiver.h"
+#include "map.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,11 +2,11 @@
 // is. It shadows nothing that its texel sees, and where nothing is in front of it no list remains. Keep it where
 // receivers come from outside of the map's scene: they may be behind it, as may be a receiver beside the backdrop's
 // border that only part of the texel sees.
-#ifndef GNOMON_PASSES_BACKDROP_HPP
-#define GNOMON_PASSES_BACKDROP_HPP
+#ifndef GNOMON_PASSES_RANGE_BACKDROP_HPP
+#define GNOMON_PASSES_RANGE_BACKDROP_HPP
 
-#include "../motion/range.h"
-#include "../portable/cpp_only.h"
+#include "../../motion/range/range.h"
+#include "../../portable/cpp_only.h"
 
 #include <algorithm>
 #include <span>

@@ -16,9 +16,10 @@
 //
 // texel_sweep_over leaves out what of the path is not over the map, or behind the light: in homogeneous coordinates the
 // borders of the map are edges that the path crosses at one time each, also where w changes its sign.
-#ifndef GNOMON_MOTION_TEXEL_SWEEP_H
-#define GNOMON_MOTION_TEXEL_SWEEP_H
-#include "coverage_times.h"
+#ifndef GNOMON_MOTION_RECEIVER_TEXEL_SWEEP_H
+#define GNOMON_MOTION_RECEIVER_TEXEL_SWEEP_H
+#include "../../numerics/texel_filter.h"
+#include "../triangle/coverage_intervals.h"
 #include "receiver_path.h"
 GNOMON_NAMESPACE_BEGIN
 
@@ -29,18 +30,8 @@ GNOMON_STRUCT texel_sweep
     Real column, row, t_begin, t_end, last_column, last_row, t_last, across_column, across_row;
 };
 
-GNOMON_CONSTANT(texel_limit, 65536.0);                    // no map is larger: what is beyond is one texel
 GNOMON_CONSTANT(texel_path_limit, 1152921504606846976.0); // 2^60: positions that are numbers
 GNOMON_CONSTANT(texel_border_none, 2.0);                  // after the way has ended
-
-/// The texel that a position is in, the largest whole number up to it, limited to +-65536; 65536 for NaN.
-GNOMON_KERNEL Real texel_below(Real x)
-{
-    Real limit = GNOMON_LITERAL(texel_limit);
-    Real inside = gnomon_max(gnomon_min(x, limit), Real(-1) * limit);
-    Real whole = nearest_integer(inside);
-    return whole - gnomon_select(inside < whole, Real(1), Real(0));
-}
 
 /// The share of the way, in [0, 1], at which one coordinate leaves a texel towards the last one; 2 in the last one.
 /// Error: 4 2^-p (|x0| + |c| w0 + |x1| + |c| w1) over the distance from x0 - c w0 to x1 - c w1, and 2 2^-p.

@@ -11,10 +11,10 @@
 //     the largest range_intensity(range, t, range_depth(path.depth, t), path.depth.id, bias) of all ranges, then
 //         state = sampled_receiver_add(state, largest);     or the mean of several texels by their weights
 //     intensity = sampled_receiver_end(state);
-#ifndef GNOMON_MOTION_RECEIVER_PATH_H
-#define GNOMON_MOTION_RECEIVER_PATH_H
-#include "../numerics/round.h"
-#include "range.h"
+#ifndef GNOMON_MOTION_RECEIVER_RECEIVER_PATH_H
+#define GNOMON_MOTION_RECEIVER_RECEIVER_PATH_H
+#include "../../numerics/round.h"
+#include "../range/range.h"
 GNOMON_NAMESPACE_BEGIN
 
 /// Times, depths and id as a range; x / w and y / w at time t0 and at time t1 in texels, centres at +0.5.

@@ -17,11 +17,9 @@
 //
 // The capacity is GNOMON_RANGE_CAPACITY, if that is defined before inclusion, else 8; in C++ it is a template parameter
 // with this default.
-#ifndef GNOMON_MOTION_RANGE_LIST_H
-#define GNOMON_MOTION_RANGE_LIST_H
+#ifndef GNOMON_MOTION_RANGE_RANGE_LIST_H
+#define GNOMON_MOTION_RANGE_RANGE_LIST_H
 #include "range_merge.h"
-
-#include "static_receiver.h"
 GNOMON_NAMESPACE_BEGIN
 
 #ifndef GNOMON_RANGE_CAPACITY
@@ -257,22 +255,6 @@ GNOMON_LIST_KERNEL Real range_list_intensity(GNOMON_LIST_T(range_list) list, Rea
     for (int i = 0; i < GNOMON_CAPACITY; ++i)
         intensity = gnomon_max(intensity, range_intensity(list.ranges[i], t, z, id, bias));
     return intensity;
-}
-
-/// All ranges of a resolved list, for a shutter that opens and closes at once.
-GNOMON_LIST_KERNEL GNOMON_T(static_receiver)
-    static_receiver_add_list_box(GNOMON_T(static_receiver) state, GNOMON_LIST_T(range_list) resolved)
-{
-    for (int i = 0; i < GNOMON_CAPACITY; ++i) state = static_receiver_add_box(state, resolved.ranges[i]);
-    return state;
-}
-
-/// All ranges of a resolved list, for a shutter that opens and closes evenly.
-GNOMON_LIST_KERNEL GNOMON_T(static_receiver)
-    static_receiver_add_list_tent(GNOMON_T(static_receiver) state, GNOMON_LIST_T(range_list) resolved)
-{
-    for (int i = 0; i < GNOMON_CAPACITY; ++i) state = static_receiver_add_tent(state, resolved.ranges[i]);
-    return state;
 }
 
 GNOMON_NAMESPACE_END

@@ -8,9 +8,9 @@
 // Where e >= 0 is one interval, or, when e is positive at both ends, everything but one gap. Three edges leave one
 // interval less three gaps, hence four intervals. No signs are sampled in between: of two triangles that share an edge
 // one has e, the other -e, both have the same roots bit for bit, and one covers exactly when the other does not.
-#ifndef GNOMON_MOTION_COVERAGE_TIMES_H
-#define GNOMON_MOTION_COVERAGE_TIMES_H
-#include "../numerics/select.h"
+#ifndef GNOMON_MOTION_TRIANGLE_COVERAGE_INTERVALS_H
+#define GNOMON_MOTION_TRIANGLE_COVERAGE_INTERVALS_H
+#include "../../numerics/select.h"
 GNOMON_NAMESPACE_BEGIN
 
 /// e(t) = e0 (1 - t)^2 + 2 e1 t (1 - t) + e2 t^2.

@@ -2,11 +2,11 @@
 // all on nearly one line of depth. Ranges that follow one another become one wherever a line stays behind all of them
 // by no more than a tolerance, as far as it does (the opening of a cone, Williams 1981): what was lit stays lit, and
 // shadow is lost in that depth alone.
-#ifndef GNOMON_PASSES_JOIN_HPP
-#define GNOMON_PASSES_JOIN_HPP
+#ifndef GNOMON_PASSES_RANGE_JOIN_HPP
+#define GNOMON_PASSES_RANGE_JOIN_HPP
 
-#include "../motion/range.h"
-#include "../portable/cpp_only.h"
+#include "../../motion/range/range.h"
+#include "../../portable/cpp_only.h"
 
 #include <algorithm>
 #include <limits>

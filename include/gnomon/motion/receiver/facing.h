@@ -7,9 +7,9 @@
 // Between a point and a light that both go straight, d is linear; the normal of a triangle is a quadratic, for which
 // its line stands here as in the thesis. The sign of f is the same for vectors of any length, if both ends of one are
 // scaled alike, so neither needs to be normalised.
-#ifndef GNOMON_MOTION_FACING_H
-#define GNOMON_MOTION_FACING_H
-#include "coverage_times.h"
+#ifndef GNOMON_MOTION_RECEIVER_FACING_H
+#define GNOMON_MOTION_RECEIVER_FACING_H
+#include "../triangle/coverage_intervals.h"
 GNOMON_NAMESPACE_BEGIN
 
 /// A vector at shutter open and at shutter close.

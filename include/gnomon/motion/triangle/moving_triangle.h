@@ -13,9 +13,9 @@
 // far the depth departs from a line is bounded, not sampled. With depth N / D and the line h through it at both ends of
 // an interval, u from 0 to 1 there, N - h D vanishes at both and is u (1 - u) P(u); D / (u (1 - u)) is no less than
 // some c. So |N / D - h| is at most |P| / c, and equal to it for a parabola.
-#ifndef GNOMON_MOTION_MOVING_TRIANGLE_H
-#define GNOMON_MOTION_MOVING_TRIANGLE_H
-#include "coverage_times.h"
+#ifndef GNOMON_MOTION_TRIANGLE_MOVING_TRIANGLE_H
+#define GNOMON_MOTION_TRIANGLE_MOVING_TRIANGLE_H
+#include "coverage_intervals.h"
 GNOMON_NAMESPACE_BEGIN
 
 /// In clip space, at shutter open (x0, ...) and at shutter close (x1, ...).

@@ -11,10 +11,10 @@
 // Ranges come one at a time. A span keeps the number of its range, not cut depths, and two ranges always cross at one
 // time, computed from the ranges as they came. So depths are interpolated once, at the end, and the order in which
 // ranges come matters only where three lines meet within rounding.
-#ifndef GNOMON_PASSES_RESOLVE_HPP
-#define GNOMON_PASSES_RESOLVE_HPP
+#ifndef GNOMON_PASSES_RANGE_RESOLVE_HPP
+#define GNOMON_PASSES_RANGE_RESOLVE_HPP
 
-#include "range_map.hpp"
+#include "map.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -12,30 +12,26 @@
 // row + j), i and j from 0 to K:
 //     state = static_receiver_weigh(state, texel_weight(u, i, K) * texel_weight(v, j, K));
 //
-// A list may have a second layer (passes/resolve.hpp), for receivers whose own range is in front:
+// A list may have a second layer (passes/range/resolve.hpp), for receivers whose own range is in front:
 //     front = range_empty(range_nothing);
 //     for every range of the texel, in order: if range_is_second_layer(front, range), leave it out unless front.id ==
 //     id; else front = range
 //
-// Most receivers are behind all ranges of a texel, above all where its backdrop is left out (passes/resolve.hpp), or in
-// front of all. They need no list, only its total, four numbers a texel:
+// Most receivers are behind all ranges of a texel, above all where its backdrop is left out (passes/range/resolve.hpp),
+// or in front of all. They need no list, only its total, four numbers a texel:
 //     total = range_total_begin(-1);   total = range_total_add(total, range);        for every range of the texel
 //     if (receiver_is_in_front(z_f, total) > 0) nothing is added
 //     if (static_receiver_is_behind(state, total) > 0) state = static_receiver_add_total(state, total);
-#ifndef GNOMON_MOTION_STATIC_RECEIVER_H
-#define GNOMON_MOTION_STATIC_RECEIVER_H
-#include "range.h"
+#ifndef GNOMON_MOTION_RECEIVER_STATIC_RECEIVER_H
+#define GNOMON_MOTION_RECEIVER_STATIC_RECEIVER_H
+#include "../../numerics/texel_filter.h"
+#include "../range/range_summary.h"
 #include "shutter.h"
 GNOMON_NAMESPACE_BEGIN
 
 /// Depth and id of the receiver, when the shutter opens and closes, what the next ranges weigh, and the share of its
 /// light that is gone so far.
 GNOMON_STRUCT static_receiver { Real depth, id, begin, end, weight, shadowed; };
-
-/// The nearest and the farthest depth of some ranges, and what they hide together from a receiver behind them, of a
-/// shutter that is open from 0 to 1. Whose they are: range_mixed of several, range_nothing where no receiver is behind
-/// ranges of its own id.
-GNOMON_STRUCT range_total { Real nearest, farthest, shadowed, id; };
 
 /// No range yet. Any z_f; whatever needs a depth bias takes it off z_f first. From begin to end as of
 /// shutter_exposure_of: in any order, and what is there at a moment where they are the same.
@@ -50,15 +46,6 @@ GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_begin(Real z_f, Real id,
     r.weight = Real(1);
     r.shadowed = Real(0);
     return r;
-}
-
-/// What texel i of K + 1 weighs, along one axis, in the mean of K bilinear look-ups side by side: u is the first one's
-/// distance from the centre of texel 0. In [0, 1]; over the K + 1 texels they sum to 1, within K + 2 roundings.
-GNOMON_KERNEL Real texel_weight(Real u, GNOMON_SETTING i, GNOMON_SETTING look_ups)
-{
-    Real share = saturate_or_zero(u);
-    share = gnomon_select(i < Real(1), Real(1) - share, gnomon_select(i < look_ups, Real(1), share));
-    return saturate_or_zero(share / look_ups);
 }
 
 /// The weight of the ranges to come, in [0, 1]; those of all texels sum to 1.
@@ -79,13 +66,6 @@ GNOMON_KERNEL GNOMON_T(depth_time_range)
     level.z1 = state.depth;
     level.id = state.id;
     return range_in_front(r, level, state.begin, state.end);
-}
-
-/// True where r, the next one of a resolved list, is of the second layer behind front, the last one that was not. Those
-/// are seen while front lasts and no longer; spans in front that rounding has overlap are not.
-GNOMON_KERNEL GNOMON_MASK range_is_second_layer(GNOMON_T(depth_time_range) front, GNOMON_T(depth_time_range) r)
-{
-    return front.t0 <= r.t0 && r.t0 < front.t1 && r.t1 <= front.t1;
 }
 
 /// The light lost between two shares of what the shutter lets in, where the range that hides it has another id; 0 for
@@ -127,33 +107,6 @@ GNOMON_KERNEL GNOMON_T(static_receiver)
     Real share1 = shutter_given(hidden.t1, state.begin, state.end, w);
     state.shadowed = state.shadowed + state.weight * receiver_loss(hidden, state.id, share0, share1);
     return state;
-}
-
-/// No range yet. The near plane, -1, is a depth that receivers are behind.
-GNOMON_KERNEL GNOMON_T(range_total) range_total_begin(Real near_plane)
-{
-    GNOMON_T(range_total) total;
-    total.nearest = GNOMON_LITERAL(range_far);
-    total.farthest = near_plane;
-    total.shadowed = Real(0);
-    total.id = GNOMON_LITERAL(range_nothing);
-    return total;
-}
-
-/// One range, none of whose time the others have. Empty ones and those with a NaN are left out, as nobody sees them.
-GNOMON_KERNEL GNOMON_T(range_total) range_total_add(GNOMON_T(range_total) total, GNOMON_T(depth_time_range) r)
-{
-    GNOMON_MASK some = r.t0 < r.t1 && r.z0 == r.z0 && r.z1 == r.z1;
-    GNOMON_MASK first = total.id == GNOMON_LITERAL(range_nothing);
-    Real nearest = gnomon_min(total.nearest, gnomon_min(r.z0, r.z1));
-    Real farthest = gnomon_max(total.farthest, gnomon_max(r.z0, r.z1));
-    Real share = saturate_or_zero(r.t1) - saturate_or_zero(r.t0);
-    Real id = gnomon_select(first || total.id == r.id, r.id, GNOMON_LITERAL(range_mixed));
-    total.nearest = gnomon_select(some, nearest, total.nearest);
-    total.farthest = gnomon_select(some, farthest, total.farthest);
-    total.shadowed = gnomon_select(some, total.shadowed + share, total.shadowed);
-    total.id = gnomon_select(some, id, total.id);
-    return total;
 }
 
 /// 1 where no range is in front of depth z_f, as of a receiver, or of both ends of its course: nothing is lost.

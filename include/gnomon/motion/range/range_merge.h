@@ -5,8 +5,8 @@
 // of the plane of time and depth that falls into shadow though no range was in front of it. It is, up to a factor, what
 // goes wrong for a receiver of which nothing is known. To it add the times for which a surface comes to be shadowed by
 // its own range, because what belongs to two surfaces belongs to neither.
-#ifndef GNOMON_MOTION_RANGE_MERGE_H
-#define GNOMON_MOTION_RANGE_MERGE_H
+#ifndef GNOMON_MOTION_RANGE_RANGE_MERGE_H
+#define GNOMON_MOTION_RANGE_RANGE_MERGE_H
 #include "range.h"
 GNOMON_NAMESPACE_BEGIN
 

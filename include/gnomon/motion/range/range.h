@@ -4,9 +4,9 @@
 // et al. 2010 and Palmer 2011 are these five numbers; the id tells whose surface it is, since none shadows itself.
 //
 // A range whose times are not in order, or one of them NaN, is empty: it shadows nothing.
-#ifndef GNOMON_MOTION_RANGE_H
-#define GNOMON_MOTION_RANGE_H
-#include "../numerics/select.h"
+#ifndef GNOMON_MOTION_RANGE_RANGE_H
+#define GNOMON_MOTION_RANGE_RANGE_H
+#include "../../numerics/select.h"
 GNOMON_NAMESPACE_BEGIN
 
 /// Times in [0, 1], signed depths, and a whole number that floats hold, such as a triangle's index below 2^24.

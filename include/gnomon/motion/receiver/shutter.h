@@ -6,9 +6,9 @@
 //
 // An exposure that ends before it begins is the one between its two times, and one of no length shows what is there at
 // that moment (shutter_exposure_of, which receivers begin with).
-#ifndef GNOMON_MOTION_SHUTTER_H
-#define GNOMON_MOTION_SHUTTER_H
-#include "../numerics/select.h"
+#ifndef GNOMON_MOTION_RECEIVER_SHUTTER_H
+#define GNOMON_MOTION_RECEIVER_SHUTTER_H
+#include "../../numerics/select.h"
 GNOMON_NAMESPACE_BEGIN
 
 /// What each eighth of the exposure lets in, one after the other; together 1 (shutter_weights_of).

@@ -5,9 +5,9 @@
 //
 //     wide = edge_field_widened(field.a, edge_field_error(field.a, h_x, h_y), facing);   once for a tile of samples
 //     edge = edge_field_at(wide, s_x, s_y);                                              for moving_edge_inside
-#ifndef GNOMON_MOTION_EDGE_WIDENING_H
-#define GNOMON_MOTION_EDGE_WIDENING_H
-#include "edge_field.h"
+#ifndef GNOMON_MOTION_TRIANGLE_EDGE_WIDENING_H
+#define GNOMON_MOTION_TRIANGLE_EDGE_WIDENING_H
+#include "triangle_setup.h"
 GNOMON_NAMESPACE_BEGIN
 
 GNOMON_CONSTANT(edge_field_margin, 0.0000019073486328125); // 2^-19, 32 2^-p in float

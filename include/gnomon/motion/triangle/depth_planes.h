@@ -10,9 +10,9 @@
 //
 //     near = depth_times_beyond(curve, -1, facing);   far = depth_times_before(curve, 1, facing);
 //     of every covered interval: edge_times_part(near, 0, begin, end), and 1; of each of them the same with far
-#ifndef GNOMON_MOTION_DEPTH_PLANES_H
-#define GNOMON_MOTION_DEPTH_PLANES_H
-#include "edge_field.h"
+#ifndef GNOMON_MOTION_TRIANGLE_DEPTH_PLANES_H
+#define GNOMON_MOTION_TRIANGLE_DEPTH_PLANES_H
+#include "triangle_setup.h"
 GNOMON_NAMESPACE_BEGIN
 
 /// h0 s^3 + h1 s^2 t + h2 s t^2 + h3 t^3, s = 1 - t.

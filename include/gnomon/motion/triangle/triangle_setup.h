@@ -34,8 +34,8 @@
 //     line = depth_curve_line(curve, begin, end);   if (line.deviation <= tolerance), else
 //     for (passed = 0; passed < 1; passed = piece.passed)
 //         piece = depth_curve_piece(curve, begin, end, passed, tolerance);
-#ifndef GNOMON_MOTION_EDGE_FIELD_H
-#define GNOMON_MOTION_EDGE_FIELD_H
+#ifndef GNOMON_MOTION_TRIANGLE_TRIANGLE_SETUP_H
+#define GNOMON_MOTION_TRIANGLE_TRIANGLE_SETUP_H
 #include "moving_triangle.h"
 GNOMON_NAMESPACE_BEGIN
 
