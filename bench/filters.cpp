@@ -9,7 +9,7 @@
 #include <gnomon/filters/layered_variance.h>
 #include <gnomon/filters/percentage_closer.h>
 #include <gnomon/filters/variance.h>
-#include <gnomon/moments/hamburger_cholesky.h>
+#include <gnomon/comparators/hamburger_cholesky.h>
 #include <gnomon/storage/moments4.h>
 
 namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {

@@ -5,7 +5,7 @@
 #include "raised_pivots4.hpp"
 
 #include <gnomon/moments/hamburger4.h>
-#include <gnomon/moments/hamburger_cholesky.h>
+#include <gnomon/comparators/hamburger_cholesky.h>
 #include <gnomon/storage/moments4.h>
 #include <gnomon/moments/two_point.h>
 

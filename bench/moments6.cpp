@@ -5,7 +5,7 @@
 #include "raised_pivots6.hpp"
 
 #include <gnomon/moments/hamburger6.h>
-#include <gnomon/moments/hamburger_cholesky.h>
+#include <gnomon/comparators/hamburger_cholesky.h>
 #include <gnomon/storage/moments6.h>
 
 namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {

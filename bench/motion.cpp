@@ -12,7 +12,7 @@
 #include <gnomon/motion/range/range_cover.h>
 #include <gnomon/motion/triangle/triangle_setup.h>
 #include <gnomon/motion/triangle/moving_triangle.h>
-#include <gnomon/motion/prism.h>
+#include <gnomon/comparators/prism.h>
 #include <gnomon/numerics/quadratic.h>
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 #pragma once
 
 #include <gnomon/moments/hamburger4.h>
-#include <gnomon/moments/hamburger_cholesky.h>
+#include <gnomon/comparators/hamburger_cholesky.h>
 #include <array>
 #include <bit>
 #include <concepts>

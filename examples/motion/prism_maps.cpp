@@ -1,3 +1,4 @@
+#include <gnomon/comparators/three_pass_cover.h>
 #include <gnomon/motion/range/range_cover.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
-// The prisms of a moving scene (Hong & Oh; motion/prism.h) drawn into a shadow map, row by row, by packs of texels.
+// The prisms of a moving scene (Hong & Oh; comparators/prism.h) drawn into a shadow map, row by row, by packs of texels.
 // What to compare the exact rasterizer of motion with: on one thread, and once for each pass that a method needs.
 #pragma once
 
-#include <gnomon/motion/prism.h>
+#include <gnomon/comparators/prism.h>
 #include <gnomon/passes/range/map.hpp>
 #include <gnomon/simd/xsimd.hpp>
 

@@ -5,7 +5,7 @@
 
 #include <gnomon/comparators/three_pass_cover.h>
 #include <gnomon/motion/range/range_cover.h>
-#include <gnomon/motion/prism.h>
+#include <gnomon/comparators/prism.h>
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include <gnomon/moments/bias.h>
 #include <gnomon/moments/hamburger4.h>
 #include <gnomon/moments/hamburger6.h>
-#include <gnomon/moments/hamburger_cholesky.h>
+#include <gnomon/comparators/hamburger_cholesky.h>
 #include <gnomon/storage/moments4.h>
 #include <gnomon/storage/moments6.h>
 

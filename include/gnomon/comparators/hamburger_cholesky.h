@@ -8,11 +8,11 @@
 //        below z_f and 0 at the others (5.4.2)
 // Only the result is made total: moments on the boundary of the valid ones, a single depth say, give 0 = lit, whatever
 // is right.
-#ifndef GNOMON_MOMENTS_HAMBURGER_CHOLESKY_H
-#define GNOMON_MOMENTS_HAMBURGER_CHOLESKY_H
+#ifndef GNOMON_COMPARATORS_HAMBURGER_CHOLESKY_H
+#define GNOMON_COMPARATORS_HAMBURGER_CHOLESKY_H
 #include "../numerics/select.h"
 #include "../numerics/trigonometry.h"
-#include "moments.h"
+#include "../moments/moments.h"
 GNOMON_NAMESPACE_BEGIN
 
 GNOMON_CONSTANT(hamburger_cholesky_third, 0.33333333333333333);

@@ -27,10 +27,10 @@
 //     for (k = 0; k < 14; ++k)
 //         pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_of(p, k), s_x, s_y, divided));
 //     prism_ranges ranges = prism_pair_end(pair);
-#ifndef GNOMON_MOTION_PRISM_H
-#define GNOMON_MOTION_PRISM_H
-#include "triangle/moving_triangle.h"
-#include "range/range.h"
+#ifndef GNOMON_COMPARATORS_PRISM_H
+#define GNOMON_COMPARATORS_PRISM_H
+#include "../motion/triangle/moving_triangle.h"
+#include "../motion/range/range.h"
 GNOMON_NAMESPACE_BEGIN
 
 /// On the screen, with depth and time, and 1 / w, which is 1 in orthographic views.
