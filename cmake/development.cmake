@@ -29,7 +29,7 @@ find_package(xsimd REQUIRED)
 set_target_properties(xsimd PROPERTIES IMPORTED_GLOBAL TRUE INTERFACE_LINK_LIBRARIES "") # Debian's names xtl, unneeded and absent
 
 # A doctest program and its ctest entry; the labels are those of docs/testing.md:
-#   gnomon_test(NAME hamburger4 LABELS unit SOURCES a.cpp b.cpp [LIBRARIES gnomon_toolbox])
+#   gnomon_test(NAME hamburger4 LABELS unit SOURCES a.cpp b.cpp [LIBRARIES gnomon_renderer])
 # Label unit: quick, and built and run by the sanitizers, by clang and without exceptions too.
 function(gnomon_test)
     cmake_parse_arguments(PARSE_ARGV 0 test "" "NAME" "LABELS;SOURCES;LIBRARIES")
@@ -58,11 +58,11 @@ function(gnomon_bench)
     add_dependencies(gnomon_benches bench_${bench_NAME})
 endfunction()
 
-# A program on the rendering toolbox:
+# A program on the renderer:
 #   gnomon_example(NAME gnomon_demo SOURCES main.cpp [LIBRARIES CLI11::CLI11])
 function(gnomon_example)
     cmake_parse_arguments(PARSE_ARGV 0 example "" "NAME" "SOURCES;LIBRARIES")
     add_executable(${example_NAME} ${example_SOURCES})
     set_target_properties(${example_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/examples)
-    target_link_libraries(${example_NAME} PRIVATE gnomon_toolbox gnomon_strict ${example_LIBRARIES})
+    target_link_libraries(${example_NAME} PRIVATE gnomon_renderer gnomon_strict ${example_LIBRARIES})
 endfunction()

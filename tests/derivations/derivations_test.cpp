@@ -1,14 +1,14 @@
 // The derivation, against what is known otherwise: Chebyshev polynomials, the paper's numbers, definitions, brute
 // force.
 #include "constants.hpp"
+
 #include <gnomon/moments/bias.h>
 #include <gnomon/moments/quantization.h>
 #include <gnomon/storage/moments4.h>
 #include <gnomon/storage/moments6.h>
 
-#include <doctest/doctest.h>
-
 #include <Eigen/Eigenvalues>
+#include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
 // Derives the constants of moments/quantization.h and moments/bias.h and says how good they are.
 //   derive_constants [--json FILE]
-#include <fmt/core.h>
+#include "constants.hpp"
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
-#include <fstream>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "constants.hpp"
+#include <filesystem>
+#include <fstream>
 
 namespace {
 

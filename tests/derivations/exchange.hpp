@@ -4,9 +4,9 @@
 #pragma once
 
 #include <Eigen/Dense>
-
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/eigen.hpp>
+
 #include <stdexcept>
 
 namespace gnomon::derivation {

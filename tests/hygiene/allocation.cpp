@@ -1,14 +1,14 @@
 // No kernel allocates, for any Real: operator new is replaced by one that counts.
+#include "all_headers.hpp"
+#include "kernels.hpp"
+#include "pack.hpp"
+
 #include <doctest/doctest.h>
 
 #include <cstdlib>
 #include <cstring>
 #include <new>
 #include <tuple>
-
-#include "all_headers.hpp"
-#include "kernels.hpp"
-#include "pack.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
-#include <doctest/doctest.h>
-
 #include "all_headers.hpp"
+
+#include <doctest/doctest.h>
 
 double saturated_elsewhere(double x);
 

@@ -4,6 +4,7 @@
 #define GNOMON_TESTS_HYGIENE_PACK_HPP
 
 #include <gnomon/simd/xsimd.hpp>
+
 #include <xsimd/xsimd.hpp>
 
 template <class T, std::size_t lanes> using pack = xsimd::make_sized_batch_t<T, lanes>;

@@ -1,17 +1,18 @@
 // Prints where the reader of glTF places every corner, before the model is normalised, as JSON:
 //   gltf_parts FILE [ANIMATION OPEN CLOSING]
 // Ends in one line and exit code 2 where the model cannot be loaded.
+#include "renderer/import/gltf_model.hpp"
+#include "renderer/import/model.hpp"
+
 #include <fmt/format.h>
-#include <toolbox/gltf_model.hpp>
-#include <toolbox/model.hpp>
+#include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <nlohmann/json.hpp>
 #include <optional>
 
-using namespace gnomon::toolbox;
+using namespace gnomon::renderer;
 
 namespace {
 

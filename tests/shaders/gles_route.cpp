@@ -1,6 +1,5 @@
 // Compute shaders on OpenGL ES, without a window: Mesa's platform without surfaces, and its driver on the CPU.
 #include "route.hpp"
-
 #include "support/kernel_call.hpp"
 
 #include <EGL/egl.h>

@@ -2,7 +2,6 @@
 // another's instantiations.
 #include "kernels.hpp"
 #include "module.hpp"
-
 #include "support/kernel_call.hpp"
 
 #include <gnomon/simd/wide.hpp>

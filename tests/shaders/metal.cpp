@@ -1,10 +1,8 @@
 // The Metal text of every kernel, read by clang with the stand-in for metal_stdlib, as a module: it proves the text and
 // its translation, not Apple's compiler.
-#include "module.hpp"
-
-#include "metal/kernels.metal"
-
 #include "kernels.hpp"
+#include "metal/kernels.metal"
+#include "module.hpp"
 
 namespace {
 

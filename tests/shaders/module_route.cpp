@@ -1,6 +1,5 @@
 #include "module.hpp"
 #include "route.hpp"
-
 #include "support/kernel_call.hpp"
 
 #include <dlfcn.h>

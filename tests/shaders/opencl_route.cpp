@@ -2,11 +2,9 @@
 #define CL_HPP_ENABLE_EXCEPTIONS
 #define CL_HPP_MINIMUM_OPENCL_VERSION 120
 #define CL_HPP_TARGET_OPENCL_VERSION 120
+#include "renderer/output/file.hpp"
 #include "route.hpp"
-
 #include "support/kernel_call.hpp"
-
-#include <toolbox/file.hpp>
 
 #include <CL/opencl.hpp>
 
@@ -35,7 +33,7 @@ class opencl_program final : public route {
         : device_(first_device(platform)),
           context_(device_),
           queue_(context_, device_),
-          program_(context_, toolbox::read_file(file))
+          program_(context_, renderer::read_file(file))
     {
         // Correct rounding of roots and divisions is an option of the language that a device may lack.
         if ((device_.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) == 0)

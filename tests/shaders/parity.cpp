@@ -4,15 +4,13 @@
 //
 // NaN equals NaN: which of its patterns an operation gives is no language's promise. +0 and -0 differ.
 #include "kernels.hpp"
+#include "renderer/output/file.hpp"
 #include "route.hpp"
-
 #include "support/effort.hpp"
 #include "support/kernel_inputs.hpp"
 
-#include <fmt/format.h>
-#include <toolbox/file.hpp>
-
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #if defined(__SSE__)
@@ -282,7 +280,7 @@ try {
         hosts.reset(k, in);
         for (const candidate& c : candidates) report.push_back(compare(k, c, in, hosts));
     }
-    if (!out.empty()) toolbox::write_file(out, report.dump(1) + "\n");
+    if (!out.empty()) renderer::write_file(out, report.dump(1) + "\n");
     if (!summarize(report, candidates)) return 1;
     if (candidates.size() == wanted.size()) return 0;
     const char* ci = std::getenv("CI");

@@ -1,10 +1,8 @@
 // Compute shaders on Vulkan, with the validation layer: a driver that gives the right bits for an invalid call proves
 // little. One buffer for inputs and one for results, a workgroup for each block.
+#include "renderer/vulkan/device.hpp"
 #include "route.hpp"
-
 #include "support/kernel_call.hpp"
-
-#include <toolbox/vulkan.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -14,7 +12,7 @@ namespace gnomon::parity {
 
 namespace {
 
-namespace vulkan = toolbox::vulkan;
+namespace vulkan = renderer::vulkan;
 
 std::vector<std::uint32_t> read_words(const std::filesystem::path& file)
 {

@@ -3,9 +3,9 @@
 
 #include "hostile.hpp"
 
+#include <gnomon/comparators/prism.h>
 #include <gnomon/comparators/three_pass_cover.h>
 #include <gnomon/motion/range/range_cover.h>
-#include <gnomon/comparators/prism.h>
 
 #include <algorithm>
 

@@ -4,9 +4,9 @@
 #include <gnomon/moments/bounds.h>
 #include <gnomon/moments/hamburger4.h>
 #include <gnomon/moments/hamburger6.h>
+#include <gnomon/moments/two_point.h>
 #include <gnomon/storage/moments4.h>
 #include <gnomon/storage/moments6.h>
-#include <gnomon/moments/two_point.h>
 
 #include <array>
 #include <cstddef>

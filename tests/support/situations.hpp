@@ -6,11 +6,11 @@
 #include "hostile.hpp"
 #include "moving_triangles.hpp"
 
+#include <gnomon/motion/range/range_list.h>
+#include <gnomon/motion/receiver/moving_receiver.h>
+#include <gnomon/motion/triangle/triangle_setup.h>
 #include <gnomon/storage/moments4.h>
 #include <gnomon/storage/moments6.h>
-#include <gnomon/motion/triangle/triangle_setup.h>
-#include <gnomon/motion/receiver/moving_receiver.h>
-#include <gnomon/motion/range/range_list.h>
 
 #include <array>
 #include <cmath>

@@ -11,6 +11,7 @@
 #include "../portable/cpp_only.h"
 
 #include <Eigen/Core>
+
 #include <cstring>
 
 namespace gnomon {

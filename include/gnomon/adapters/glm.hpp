@@ -9,8 +9,9 @@
 #include "../portable.h"
 #include "../portable/cpp_only.h"
 
-#include <cstring>
 #include <glm/glm.hpp>
+
+#include <cstring>
 
 namespace gnomon {
 

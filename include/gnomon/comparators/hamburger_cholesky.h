@@ -10,9 +10,9 @@
 // is right.
 #ifndef GNOMON_COMPARATORS_HAMBURGER_CHOLESKY_H
 #define GNOMON_COMPARATORS_HAMBURGER_CHOLESKY_H
+#include "../moments/moments.h"
 #include "../numerics/select.h"
 #include "../numerics/trigonometry.h"
-#include "../moments/moments.h"
 GNOMON_NAMESPACE_BEGIN
 
 GNOMON_CONSTANT(hamburger_cholesky_third, 0.33333333333333333);

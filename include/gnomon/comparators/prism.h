@@ -20,7 +20,7 @@
 // exact where sides are plane and time is linear on them, hence for translations, in perspective, too: these have no
 // bow ties, unless a side is seen edge on and has no area. Elsewhere it is an approximation: of triangles that turn or
 // deform, 10 to 13 in 100 are there at wrong times for more than 5% of the shutter
-// (tests/unit/motion_prism_ranges.cpp). So this is what to compare moving_triangle.h with, which is exact and the
+// (tests/comparators/prism_ranges.cpp). So this is what to compare moving_triangle.h with, which is exact and the
 // default. One triangle and texel at a time:
 //     prism p = prism_of(m, divided);
 //     prism_pair pair = prism_pair_begin(id);
@@ -29,8 +29,8 @@
 //     prism_ranges ranges = prism_pair_end(pair);
 #ifndef GNOMON_COMPARATORS_PRISM_H
 #define GNOMON_COMPARATORS_PRISM_H
-#include "../motion/triangle/moving_triangle.h"
 #include "../motion/range/range.h"
+#include "../motion/triangle/moving_triangle.h"
 GNOMON_NAMESPACE_BEGIN
 
 /// On the screen, with depth and time, and 1 / w, which is 1 in orthographic views.
@@ -104,8 +104,8 @@ GNOMON_KERNEL Real prism_depth_weight(GNOMON_T(prism_vertex) v, GNOMON_SETTING d
 }
 
 /// So far along the screen from a to b, at the time of a.
-GNOMON_KERNEL GNOMON_T(prism_vertex)
-    prism_vertex_between(GNOMON_T(prism_vertex) a, GNOMON_T(prism_vertex) b, Real passed, GNOMON_SETTING divided)
+GNOMON_KERNEL GNOMON_T(prism_vertex) prism_vertex_between(GNOMON_T(prism_vertex) a, GNOMON_T(prism_vertex) b,
+                                                          Real passed, GNOMON_SETTING divided)
 {
     Real left = Real(1) - passed;
     Real weight_a = left * prism_depth_weight(a, divided);
@@ -120,8 +120,8 @@ GNOMON_KERNEL GNOMON_T(prism_vertex)
 }
 
 /// What the edge from a to b sweeps; exchanging a and b leaves a centre without a crossing the same bit for bit.
-GNOMON_KERNEL GNOMON_T(prism_side)
-    prism_side_of(GNOMON_T(moving_vertex) a, GNOMON_T(moving_vertex) b, GNOMON_SETTING divided)
+GNOMON_KERNEL GNOMON_T(prism_side) prism_side_of(GNOMON_T(moving_vertex) a, GNOMON_T(moving_vertex) b,
+                                                 GNOMON_SETTING divided)
 {
     GNOMON_T(prism_vertex) a0 = prism_vertex_open(a, divided);
     GNOMON_T(prism_vertex) b0 = prism_vertex_open(b, divided);
@@ -173,8 +173,8 @@ GNOMON_KERNEL GNOMON_T(prism) prism_of(GNOMON_T(moving_triangle) m, GNOMON_SETTI
 }
 
 /// The first where k is 0, or less, the second where it is 1, else the third.
-GNOMON_KERNEL GNOMON_T(prism_vertex)
-    prism_choice(Real k, GNOMON_T(prism_vertex) first, GNOMON_T(prism_vertex) second, GNOMON_T(prism_vertex) third)
+GNOMON_KERNEL GNOMON_T(prism_vertex) prism_choice(Real k, GNOMON_T(prism_vertex) first, GNOMON_T(prism_vertex) second,
+                                                  GNOMON_T(prism_vertex) third)
 {
     GNOMON_MASK is_first = k < Real(0.5);
     GNOMON_MASK is_second = k < Real(1.5);
@@ -242,8 +242,8 @@ GNOMON_KERNEL Real prism_edge_side(GNOMON_T(prism_vertex) p, GNOMON_T(prism_vert
 /// time, and of depth in units of the largest |z|: (48 X Y max_k v_k / |sum_k e_k v_k| + 10) 2^-p, X and Y the
 /// distances along each axis from the sample to the vertex that is farthest, v_k = 1 / w_k, but 1 for depth that is
 /// divided.
-GNOMON_KERNEL GNOMON_T(prism_fragment)
-    prism_fragment_at(GNOMON_T(prism_triangle) v, Real s_x, Real s_y, GNOMON_SETTING divided)
+GNOMON_KERNEL GNOMON_T(prism_fragment) prism_fragment_at(GNOMON_T(prism_triangle) v, Real s_x, Real s_y,
+                                                         GNOMON_SETTING divided)
 {
     Real a = prism_edge(v.b, v.c, s_x, s_y);
     Real b = prism_edge(v.c, v.a, s_x, s_y);
@@ -268,8 +268,8 @@ GNOMON_KERNEL GNOMON_T(prism_fragment)
 }
 
 /// The second where chosen is 0, else the first.
-GNOMON_KERNEL GNOMON_T(prism_fragment)
-    prism_fragment_choice(Real chosen, GNOMON_T(prism_fragment) a, GNOMON_T(prism_fragment) b)
+GNOMON_KERNEL GNOMON_T(prism_fragment) prism_fragment_choice(Real chosen, GNOMON_T(prism_fragment) a,
+                                                             GNOMON_T(prism_fragment) b)
 {
     GNOMON_MASK second = chosen == Real(0);
     GNOMON_T(prism_fragment) r;
@@ -337,8 +337,8 @@ GNOMON_KERNEL GNOMON_T(prism_pair) prism_pair_add(GNOMON_T(prism_pair) state, GN
 }
 
 /// The range between two fragments, in any order.
-GNOMON_KERNEL GNOMON_T(depth_time_range)
-    prism_range_between(GNOMON_T(prism_fragment) a, GNOMON_T(prism_fragment) b, Real id)
+GNOMON_KERNEL GNOMON_T(depth_time_range) prism_range_between(GNOMON_T(prism_fragment) a, GNOMON_T(prism_fragment) b,
+                                                             Real id)
 {
     return range_between(a.time, a.depth, b.time, b.depth, id);
 }

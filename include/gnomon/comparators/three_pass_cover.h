@@ -41,8 +41,8 @@ GNOMON_KERNEL GNOMON_T(timed_fragment) nearest_fragment_begin(Real cleared)
 
 /// The nearer of the two, of the same depth that with the lesser id, then the earlier. NaN, or an id below 0: no
 /// change.
-GNOMON_KERNEL GNOMON_T(timed_fragment)
-    nearest_fragment_add(GNOMON_T(timed_fragment) nearest, GNOMON_T(timed_fragment) f)
+GNOMON_KERNEL GNOMON_T(timed_fragment) nearest_fragment_add(GNOMON_T(timed_fragment) nearest,
+                                                            GNOMON_T(timed_fragment) f)
 {
     GNOMON_MASK before = f.id < nearest.id || (f.id == nearest.id && f.t < nearest.t);
     GNOMON_MASK known = Real(0) <= f.id && Real(0) <= f.t && f.t <= Real(1);

@@ -79,8 +79,8 @@ GNOMON_KERNEL GNOMON_T(convolution_sum) convolution_begin(Real z_f, GNOMON_T(con
 }
 
 /// The next term of the filtered map.
-GNOMON_KERNEL GNOMON_T(convolution_sum)
-    convolution_add(GNOMON_T(convolution_sum) state, Real cosine, Real sine, GNOMON_SETTING weight)
+GNOMON_KERNEL GNOMON_T(convolution_sum) convolution_add(GNOMON_T(convolution_sum) state, Real cosine, Real sine,
+                                                        GNOMON_SETTING weight)
 {
     state.intensity = state.intensity + weight * (state.receiver.sine * cosine - state.receiver.cosine * sine);
     state.receiver = convolution_next(state.receiver);

@@ -16,8 +16,8 @@ GNOMON_STRUCT exponential_variance_moments { Real positive, positive_square, neg
 GNOMON_STRUCT exponential_variance_settings { Real positive_exponent, negative_exponent, minimum_variance; };
 
 /// The texel of a depth z in [-1, 1]. Relative error of each value: (2 c + 4) 2^-p.
-GNOMON_KERNEL GNOMON_T(exponential_variance_moments)
-    exponential_variance_encode(Real z, GNOMON_T(exponential_variance_settings) settings)
+GNOMON_KERNEL GNOMON_T(exponential_variance_moments) exponential_variance_encode(
+    Real z, GNOMON_T(exponential_variance_settings) settings)
 {
     GNOMON_T(exponential_variance_moments) r;
     r.positive = polynomial_exp(settings.positive_exponent * z);

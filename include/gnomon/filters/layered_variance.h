@@ -38,9 +38,9 @@ GNOMON_KERNEL GNOMON_T(layered_variance) layered_variance_begin(Real z_f)
 }
 
 /// One layer with its filtered moments. One with a NaN bounds nothing.
-GNOMON_KERNEL GNOMON_T(layered_variance)
-    layered_variance_add(GNOMON_T(layered_variance) state, GNOMON_T(variance_moments) filtered,
-                         GNOMON_T(layered_variance_settings) settings)
+GNOMON_KERNEL GNOMON_T(layered_variance) layered_variance_add(GNOMON_T(layered_variance) state,
+                                                              GNOMON_T(variance_moments) filtered,
+                                                              GNOMON_T(layered_variance_settings) settings)
 {
     Real receiver = layered_variance_depth(state.receiver, settings);
     state.intensity = gnomon_max(state.intensity, cantelli_lower(filtered, receiver, settings.minimum_variance));

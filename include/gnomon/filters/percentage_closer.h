@@ -22,8 +22,8 @@ GNOMON_KERNEL GNOMON_T(percentage_closer) percentage_closer_begin(Real z_f)
 }
 
 /// One texel with its filter weight. A NaN depth, of the texel or of the receiver, casts no shadow.
-GNOMON_KERNEL GNOMON_T(percentage_closer)
-    percentage_closer_add(GNOMON_T(percentage_closer) state, Real z, GNOMON_SETTING weight)
+GNOMON_KERNEL GNOMON_T(percentage_closer) percentage_closer_add(GNOMON_T(percentage_closer) state, Real z,
+                                                                GNOMON_SETTING weight)
 {
     state.shadowed = state.shadowed + gnomon_select(z < state.receiver, weight, Real(0));
     return state;

@@ -44,8 +44,8 @@ GNOMON_CONSTANT(bias6_paper_b4, 0.489);
 GNOMON_CONSTANT(bias6_paper_b6, 0.47869382);
 
 /// (1 - alpha) b + alpha b*, by interpolation.
-GNOMON_KERNEL GNOMON_T(moments4)
-    moments4_biased(GNOMON_T(moments4) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4, GNOMON_SETTING alpha)
+GNOMON_KERNEL GNOMON_T(moments4) moments4_biased(GNOMON_T(moments4) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4,
+                                                 GNOMON_SETTING alpha)
 {
     Real keep = Real(1) - alpha;
     b.b1 = keep * b.b1;

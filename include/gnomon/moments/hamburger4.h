@@ -81,10 +81,10 @@ GNOMON_KERNEL GNOMON_T(hamburger4_fractions) hamburger4_weigh(GNOMON_T(hankel4) 
 
 /// Lower bound on the shadow intensity at z_f: what a surface should show, since it never darkens a lit one
 /// (paper, 2.2.1). z_f in [-1, 1], clamped. A NaN anywhere gives 0, lit. Against the moment problem solved in 120
-/// digits (tests/unit/hamburger_oracle.cpp),
+/// digits (tests/moments/hamburger_oracle.cpp),
 ///     error, double, no bias, three depths and more: p99 1e-13, p99.9 2e-12
 ///     error, float, hankel4_biased at 3e-7: p99 3e-5, p99.9 1e-4, max 5e-4
-/// and against the same in double, maxima by climbing (tests/unit/honest_four.cpp),
+/// and against the same in double, maxima by climbing (tests/moments/honest_four.cpp),
 ///     error, float, hankel4_from_float: p99 3e-5, p99.9 1e-4, max 5e-4
 ///     error, float, hankel4_from_float_filtered: p99 2e-5, p99.9 5e-5, max 1e-4
 ///     error, float, hankel4_from_half: p99 4e-6, p99.9 2e-5, max 3e-4

@@ -56,8 +56,8 @@ GNOMON_KERNEL GNOMON_T(derivatives6) hamburger6_derivatives(GNOMON_T(hankel6) h,
 
 /// P_1, P_2, P_3 farther by a distance: by Taylor, exact for polynomials. A node close to z_f keeps its distance, which
 /// its depth would have rounded away: in float that decides whether a lit surface is darkened.
-GNOMON_KERNEL GNOMON_T(polynomials6)
-    hamburger6_moved(GNOMON_T(polynomials6) p, GNOMON_T(derivatives6) d, Real distance_)
+GNOMON_KERNEL GNOMON_T(polynomials6) hamburger6_moved(GNOMON_T(polynomials6) p, GNOMON_T(derivatives6) d,
+                                                      Real distance_)
 {
     p.p1 = p.p1 + distance_;
     p.p2 = p.p2 + distance_ * (d.slope2 + distance_);
@@ -90,7 +90,7 @@ GNOMON_KERNEL Real hamburger6_distance(Real t)
 }
 
 /// Both bounds and the weight of the receiver. z_f in [-1, 1], clamped. A NaN anywhere gives 0, lit. Against the moment
-/// problem solved in 120 digits (tests/unit/hamburger_oracle.cpp),
+/// problem solved in 120 digits (tests/moments/hamburger_oracle.cpp),
 ///     error, double, no bias, four depths and more: p99 1e-14, p99.9 4e-14
 ///     error, float, hankel6_biased at 5e-6: p99 2e-5, p99.9 5e-5, max 2e-4
 /// and against the same in double,

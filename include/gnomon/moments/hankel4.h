@@ -61,8 +61,8 @@ GNOMON_KERNEL GNOMON_T(covariances4) covariances4_of(GNOMON_T(moments4) b)
 
 /// The moments of the mixture (1 - alpha) Z + alpha Z*, where Z* is symmetric with second and fourth moments bias2 and
 /// bias4 (paper, 2.5).
-GNOMON_KERNEL GNOMON_T(hankel4)
-    hankel4_biased(GNOMON_T(moments4) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4, GNOMON_SETTING alpha)
+GNOMON_KERNEL GNOMON_T(hankel4) hankel4_biased(GNOMON_T(moments4) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4,
+                                               GNOMON_SETTING alpha)
 {
     GNOMON_T(moments4) e;
     e.b1 = Real(-1) * alpha * b.b1;

@@ -62,8 +62,8 @@ GNOMON_KERNEL GNOMON_T(covariances6) covariances6_of(GNOMON_T(moments6) b)
 /// a b - c d as a double word, for factors whose low words may be as large as the high ones.
 /// Domain: a b >= |c d| for the high words.
 /// Error: in float 2^-45 of both products of the high words, 2^-21 of what the low words add to each.
-GNOMON_KERNEL GNOMON_T(double_word)
-    hankel6_minor(GNOMON_T(double_word) a, GNOMON_T(double_word) b, GNOMON_T(double_word) c, GNOMON_T(double_word) d)
+GNOMON_KERNEL GNOMON_T(double_word) hankel6_minor(GNOMON_T(double_word) a, GNOMON_T(double_word) b,
+                                                  GNOMON_T(double_word) c, GNOMON_T(double_word) d)
 {
     GNOMON_T(double_word) p = two_product(a.high, b.high);
     GNOMON_T(double_word) q = two_product(c.high, d.high);

@@ -7,13 +7,13 @@
 #ifndef GNOMON_STORAGE_FILTERS_FORMATS_HPP
 #define GNOMON_STORAGE_FILTERS_FORMATS_HPP
 
-#include "../numerics/half.hpp"
-#include "../numerics/unorm.hpp"
 #include "../filters/convolution.h"
 #include "../filters/exponential.h"
 #include "../filters/exponential_variance.h"
 #include "../filters/layered_variance.h"
 #include "../filters/variance.h"
+#include "../numerics/half.hpp"
+#include "../numerics/unorm.hpp"
 
 #include <array>
 #include <cstddef>

@@ -12,7 +12,7 @@
 // results in the format again. Intensities exceed Z(z < z_f), whatever the distribution Z, by at most
 //   certified4_*        stored4_arithmetic_weight: what float arithmetic makes of an exact bound
 //   hankel4_from_*      the weight of the constant bias, roundings * delta / r (bias.h), and that of arithmetic
-// which tests/unit/honest_four.cpp climbs for. Certificates leak less than a constant bias in every format. Float
+// which tests/moments/honest_four.cpp climbs for. Certificates leak less than a constant bias in every format. Float
 // arithmetic moves where they have their nodes, which costs or gains a little leaking; against the same in double,
 //     error, float, certified4_float: p99 3e-5, p99.9 1e-4, max 5e-4
 //     error, float, certified4_float_filtered: p99 1e-5, p99.9 5e-5, max 2e-4

@@ -17,7 +17,7 @@
 //
 // Filtered: rounded when rendered and by each of two passes of nine taps, their sums in float. Sums of floats round as
 // storage does, and so do the powers of a depth: counted at their worst they are 22 roundings and 4e-5, which do not
-// come together. The kernel's own arithmetic in float is within the weights. tests/unit/honest_six.cpp climbs for what
+// come together. The kernel's own arithmetic in float is within the weights. tests/moments/honest_six.cpp climbs for what
 // exceeds a weight, and finds that 5e-6 does not do for filtered floats.
 #ifndef GNOMON_STORAGE_MOMENTS6_H
 #define GNOMON_STORAGE_MOMENTS6_H

@@ -14,10 +14,10 @@
 #ifndef GNOMON_STORAGE_MOMENTS_FORMATS_HPP
 #define GNOMON_STORAGE_MOMENTS_FORMATS_HPP
 
-#include "../numerics/half.hpp"
-#include "../numerics/unorm.hpp"
 #include "../moments/hamburger4.h"
 #include "../moments/hamburger6.h"
+#include "../numerics/half.hpp"
+#include "../numerics/unorm.hpp"
 #include "moments4.h"
 #include "moments6.h"
 

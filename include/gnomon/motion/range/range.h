@@ -72,8 +72,8 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_clip(GNOMON_T(depth_time_range) r
 }
 
 /// a where the mask is set, b elsewhere.
-GNOMON_KERNEL GNOMON_T(depth_time_range)
-    range_select(GNOMON_MASK mask, GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+GNOMON_KERNEL GNOMON_T(depth_time_range) range_select(GNOMON_MASK mask, GNOMON_T(depth_time_range) a,
+                                                      GNOMON_T(depth_time_range) b)
 {
     GNOMON_T(depth_time_range) r;
     r.t0 = gnomon_select(mask, a.t0, b.t0);
@@ -169,8 +169,8 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_trim(GNOMON_T(depth_time_range) r
 /// What of it is in front of a receiver between two times; empty where nothing is. The course of the receiver's
 /// depth is a range, too, level where it is at rest. A NaN depth is in front of nothing.
 /// Error: the times at which the two are within 26 z 2^-p of one another, z the largest depth; and 8 2^-p.
-GNOMON_KERNEL GNOMON_T(depth_time_range)
-    range_in_front(GNOMON_T(depth_time_range) r, GNOMON_T(depth_time_range) course, Real begin, Real end)
+GNOMON_KERNEL GNOMON_T(depth_time_range) range_in_front(GNOMON_T(depth_time_range) r, GNOMON_T(depth_time_range) course,
+                                                        Real begin, Real end)
 {
     Real early = gnomon_max(begin, r.t0);
     Real late = gnomon_min(end, r.t1);

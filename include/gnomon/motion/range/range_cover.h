@@ -91,8 +91,8 @@ GNOMON_KERNEL Real range_cover_hides(GNOMON_T(depth_time_range) cover, GNOMON_T(
 /// else is in front of. In between, and without a cover, undecided. The paper asks no depth, and shadows a neighbouring
 /// triangle that the shadow map's resolution puts into the cover's texel, in front of it. Domain: times in [0, 1],
 /// depths in [-1, 1], bias in [0, 1].
-GNOMON_KERNEL GNOMON_T(cover_answer)
-    range_cover_answer(GNOMON_T(depth_time_range) cover, Real t, Real z, Real id, GNOMON_SETTING bias)
+GNOMON_KERNEL GNOMON_T(cover_answer) range_cover_answer(GNOMON_T(depth_time_range) cover, Real t, Real z, Real id,
+                                                        GNOMON_SETTING bias)
 {
     GNOMON_T(cover_answer) r;
     r.intensity = range_intensity(cover, t, z, id, bias);

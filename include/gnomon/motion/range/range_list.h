@@ -64,8 +64,8 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_pay(GNOMON_LIST_T(range_
 }
 
 /// One more range, at its place among the others, into a list with an empty one, which range_list_insert sees to.
-GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list)
-    range_list_place(GNOMON_LIST_T(range_list) list, GNOMON_T(depth_time_range) r)
+GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_place(GNOMON_LIST_T(range_list) list,
+                                                              GNOMON_T(depth_time_range) r)
 {
     for (int i = 0; i + 1 < GNOMON_CAPACITY; ++i) { // the first empty one goes to the end
         GNOMON_T(depth_time_range) s = list.ranges[i];
@@ -89,8 +89,8 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list)
 /// overflow the ranges of the list depend on no order, bit for bit but for the sign of a zero. With one they do, but at
 /// no time is the front farther than that of all ranges inserted: strictly, by their lines without rounding, however
 /// steep and brief they are, as long as times are in [0, 1], depths in [-1, 1] and the capacity is not above 16.
-GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list)
-    range_list_insert(GNOMON_LIST_T(range_list) list, GNOMON_T(depth_time_range) r)
+GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_insert(GNOMON_LIST_T(range_list) list,
+                                                               GNOMON_T(depth_time_range) r)
 {
     r = range_or_nothing(range_clip(r, Real(0), Real(1)));
     list = range_list_pay(list, range_pair_none(r)); // counts that are NaN become 0
@@ -201,8 +201,8 @@ GNOMON_LIST_KERNEL GNOMON_T(depth_time_range) range_list_front(GNOMON_LIST_T(ran
 
 /// One more range, after all of the others, which are apart and in order of time. Where there is no room two neighbours
 /// become one.
-GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list)
-    range_list_append(GNOMON_LIST_T(range_list) list, GNOMON_T(depth_time_range) r)
+GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_append(GNOMON_LIST_T(range_list) list,
+                                                               GNOMON_T(depth_time_range) r)
 {
     // The last and r are neighbours, too. Places count from the end; two of which one is empty come first.
     GNOMON_T(range_pair) best = range_pair_none(r);

@@ -52,8 +52,8 @@ GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_begin(GNOMON_T(receiver_
 }
 
 /// The ranges to come are of the sweep's texel.
-GNOMON_KERNEL GNOMON_T(moving_receiver)
-    moving_receiver_texel(GNOMON_T(moving_receiver) state, GNOMON_T(texel_sweep) sweep)
+GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_texel(GNOMON_T(moving_receiver) state,
+                                                              GNOMON_T(texel_sweep) sweep)
 {
     state.t0 = sweep.t_begin;
     state.t1 = sweep.t_end;
@@ -63,9 +63,9 @@ GNOMON_KERNEL GNOMON_T(moving_receiver)
 /// The ranges to come are of texel (column + i, row + j) of the (K + 1) x (K + 1) around a cell between centres, on a
 /// path shifted by -K / 2. Weights go from one end of the cell to the other in a line, which in perspective is a chord:
 /// with w changing r-fold in the cell, its error is (sqrt(r) - 1) / (sqrt(r) + 1) of how far u and v go in it.
-GNOMON_KERNEL GNOMON_T(moving_receiver)
-    moving_receiver_tap(GNOMON_T(moving_receiver) state, GNOMON_T(texel_sweep) sweep, GNOMON_SETTING i,
-                        GNOMON_SETTING j, GNOMON_SETTING look_ups)
+GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_tap(GNOMON_T(moving_receiver) state,
+                                                            GNOMON_T(texel_sweep) sweep, GNOMON_SETTING i,
+                                                            GNOMON_SETTING j, GNOMON_SETTING look_ups)
 {
     GNOMON_T(texel_position) enters = receiver_path_at(sweep.path, sweep.t_begin);
     GNOMON_T(texel_position) leaves = receiver_path_at(sweep.path, sweep.t_end);
@@ -79,8 +79,8 @@ GNOMON_KERNEL GNOMON_T(moving_receiver)
 }
 
 /// One range, for a shutter that opens and closes at once.
-GNOMON_KERNEL GNOMON_T(moving_receiver)
-    moving_receiver_add_box(GNOMON_T(moving_receiver) state, GNOMON_T(depth_time_range) r)
+GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_add_box(GNOMON_T(moving_receiver) state,
+                                                                GNOMON_T(depth_time_range) r)
 {
     GNOMON_T(depth_time_range) hidden = range_in_front(r, state.course, state.t0, state.t1);
     Real share0 = shutter_box(hidden.t0, state.begin, state.end);
@@ -90,8 +90,8 @@ GNOMON_KERNEL GNOMON_T(moving_receiver)
 }
 
 /// One range, for a shutter that opens and closes evenly.
-GNOMON_KERNEL GNOMON_T(moving_receiver)
-    moving_receiver_add_tent(GNOMON_T(moving_receiver) state, GNOMON_T(depth_time_range) r)
+GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_add_tent(GNOMON_T(moving_receiver) state,
+                                                                 GNOMON_T(depth_time_range) r)
 {
     GNOMON_T(depth_time_range) hidden = range_in_front(r, state.course, state.t0, state.t1);
     Real share0 = shutter_tent(hidden.t0, state.begin, state.end);
@@ -101,9 +101,9 @@ GNOMON_KERNEL GNOMON_T(moving_receiver)
 }
 
 /// One range, for a shutter with given weights.
-GNOMON_KERNEL GNOMON_T(moving_receiver)
-    moving_receiver_add_given(GNOMON_T(moving_receiver) state, GNOMON_T(depth_time_range) r,
-                              GNOMON_T(shutter_weights) w)
+GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_add_given(GNOMON_T(moving_receiver) state,
+                                                                  GNOMON_T(depth_time_range) r,
+                                                                  GNOMON_T(shutter_weights) w)
 {
     GNOMON_T(depth_time_range) hidden = range_in_front(r, state.course, state.t0, state.t1);
     Real share0 = shutter_given(hidden.t0, state.begin, state.end, w);
@@ -146,8 +146,8 @@ GNOMON_KERNEL Real moving_receiver_part(GNOMON_T(moving_receiver) state, GNOMON_
 }
 
 /// One range of a tap, for a shutter that opens and closes at once.
-GNOMON_KERNEL GNOMON_T(moving_receiver)
-    moving_receiver_filter_box(GNOMON_T(moving_receiver) state, GNOMON_T(depth_time_range) r)
+GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_filter_box(GNOMON_T(moving_receiver) state,
+                                                                   GNOMON_T(depth_time_range) r)
 {
     GNOMON_T(depth_time_range) hidden = range_in_front(r, state.course, state.t0, state.t1);
     state.shadowed = state.shadowed + moving_receiver_part(state, hidden, state.begin, state.end, Real(1), Real(0));
@@ -155,8 +155,8 @@ GNOMON_KERNEL GNOMON_T(moving_receiver)
 }
 
 /// One range of a tap, for a shutter that opens and closes evenly.
-GNOMON_KERNEL GNOMON_T(moving_receiver)
-    moving_receiver_filter_tent(GNOMON_T(moving_receiver) state, GNOMON_T(depth_time_range) r)
+GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_filter_tent(GNOMON_T(moving_receiver) state,
+                                                                    GNOMON_T(depth_time_range) r)
 {
     GNOMON_T(depth_time_range) hidden = range_in_front(r, state.course, state.t0, state.t1);
     Real halfway = shutter_time(state.begin, state.end, Real(0.5));
@@ -167,9 +167,9 @@ GNOMON_KERNEL GNOMON_T(moving_receiver)
 }
 
 /// One range of a tap, for a shutter with given weights.
-GNOMON_KERNEL GNOMON_T(moving_receiver)
-    moving_receiver_filter_given(GNOMON_T(moving_receiver) state, GNOMON_T(depth_time_range) r,
-                                 GNOMON_T(shutter_weights) w)
+GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_filter_given(GNOMON_T(moving_receiver) state,
+                                                                     GNOMON_T(depth_time_range) r,
+                                                                     GNOMON_T(shutter_weights) w)
 {
     GNOMON_T(depth_time_range) hidden = range_in_front(r, state.course, state.t0, state.t1);
     Real none = Real(0);

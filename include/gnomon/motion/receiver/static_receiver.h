@@ -56,8 +56,8 @@ GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_weigh(GNOMON_T(static_re
 }
 
 /// When the range hides it while the shutter is open.
-GNOMON_KERNEL GNOMON_T(depth_time_range)
-    static_receiver_hidden(GNOMON_T(static_receiver) state, GNOMON_T(depth_time_range) r)
+GNOMON_KERNEL GNOMON_T(depth_time_range) static_receiver_hidden(GNOMON_T(static_receiver) state,
+                                                                GNOMON_T(depth_time_range) r)
 {
     GNOMON_T(depth_time_range) level;
     level.t0 = state.begin;
@@ -76,8 +76,8 @@ GNOMON_KERNEL Real receiver_loss(GNOMON_T(depth_time_range) hidden, Real id, Rea
 }
 
 /// One range, for a shutter that opens and closes at once.
-GNOMON_KERNEL GNOMON_T(static_receiver)
-    static_receiver_add_box(GNOMON_T(static_receiver) state, GNOMON_T(depth_time_range) r)
+GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_add_box(GNOMON_T(static_receiver) state,
+                                                                GNOMON_T(depth_time_range) r)
 {
     GNOMON_T(depth_time_range) hidden = static_receiver_hidden(state, r);
     Real share0 = shutter_box(hidden.t0, state.begin, state.end);
@@ -87,8 +87,8 @@ GNOMON_KERNEL GNOMON_T(static_receiver)
 }
 
 /// One range, for a shutter that opens and closes evenly.
-GNOMON_KERNEL GNOMON_T(static_receiver)
-    static_receiver_add_tent(GNOMON_T(static_receiver) state, GNOMON_T(depth_time_range) r)
+GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_add_tent(GNOMON_T(static_receiver) state,
+                                                                 GNOMON_T(depth_time_range) r)
 {
     GNOMON_T(depth_time_range) hidden = static_receiver_hidden(state, r);
     Real share0 = shutter_tent(hidden.t0, state.begin, state.end);
@@ -98,9 +98,9 @@ GNOMON_KERNEL GNOMON_T(static_receiver)
 }
 
 /// One range, for a shutter with given weights.
-GNOMON_KERNEL GNOMON_T(static_receiver)
-    static_receiver_add_given(GNOMON_T(static_receiver) state, GNOMON_T(depth_time_range) r,
-                              GNOMON_T(shutter_weights) w)
+GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_add_given(GNOMON_T(static_receiver) state,
+                                                                  GNOMON_T(depth_time_range) r,
+                                                                  GNOMON_T(shutter_weights) w)
 {
     GNOMON_T(depth_time_range) hidden = static_receiver_hidden(state, r);
     Real share0 = shutter_given(hidden.t0, state.begin, state.end, w);
@@ -125,8 +125,8 @@ GNOMON_KERNEL Real static_receiver_is_behind(GNOMON_T(static_receiver) state, GN
 }
 
 /// All ranges at once. Error: 4 2^-p for each of them.
-GNOMON_KERNEL GNOMON_T(static_receiver)
-    static_receiver_add_total(GNOMON_T(static_receiver) state, GNOMON_T(range_total) total)
+GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_add_total(GNOMON_T(static_receiver) state,
+                                                                  GNOMON_T(range_total) total)
 {
     state.shadowed = state.shadowed + state.weight * total.shadowed;
     return state;

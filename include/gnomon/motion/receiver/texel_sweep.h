@@ -88,8 +88,8 @@ GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_begin(GNOMON_T(receiver_path) pa
 /// The shares of the way, of 0 to 1, at which a path is over the texels from (left, top) to before (right, bottom), and
 /// w >= 0. Error: 4 2^-p (|x0| + |c| w0 + |x1| + |c| w1) over the distance from x0 - c w0 to x1 - c w1, for the border
 /// x = c that is crossed, rows alike. None for a NaN, or for positions that differ by 2^60 or more.
-GNOMON_KERNEL GNOMON_T(linear_times)
-    receiver_path_over(GNOMON_T(receiver_path) p, Real left, Real top, Real right, Real bottom)
+GNOMON_KERNEL GNOMON_T(linear_times) receiver_path_over(GNOMON_T(receiver_path) p, Real left, Real top, Real right,
+                                                        Real bottom)
 {
     GNOMON_T(linear_times) a = linear_edge_inside(p.x0 - gnomon_product(left, p.w0), p.x1 - gnomon_product(left, p.w1));
     GNOMON_T(linear_times) b = linear_edge_inside(p.y0 - gnomon_product(top, p.w0), p.y1 - gnomon_product(top, p.w1));
@@ -112,8 +112,8 @@ GNOMON_KERNEL Real texel_near(Real x, Real low, Real high)
 /// The first of the texels from (left, top) to before (right, bottom) that a path is over; (right, bottom) for no time
 /// where there is none. The sweep's times are those of texel_sweep_begin for these texels. Where w <= 0 at an end, it
 /// is of the time in which w > 0. Borders are whole numbers within +-65536.
-GNOMON_KERNEL GNOMON_T(texel_sweep)
-    texel_sweep_over(GNOMON_T(receiver_path) path, Real left, Real top, Real right, Real bottom)
+GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_over(GNOMON_T(receiver_path) path, Real left, Real top, Real right,
+                                                     Real bottom)
 {
     GNOMON_T(linear_times) shares = receiver_path_over(path, left, top, right, bottom);
     GNOMON_MASK some = shares.begin < shares.end;

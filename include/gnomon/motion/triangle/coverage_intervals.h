@@ -137,8 +137,8 @@ GNOMON_KERNEL GNOMON_T(ordered4) ordered4_of(Real a, Real b, Real c, Real d)
 }
 
 /// The times at which the sample is on the inside of all three edges.
-GNOMON_KERNEL GNOMON_T(coverage_times)
-    edge_times_together(GNOMON_T(edge_times) a, GNOMON_T(edge_times) b, GNOMON_T(edge_times) c)
+GNOMON_KERNEL GNOMON_T(coverage_times) edge_times_together(GNOMON_T(edge_times) a, GNOMON_T(edge_times) b,
+                                                           GNOMON_T(edge_times) c)
 {
     Real begin = gnomon_max(gnomon_max(gnomon_max(a.begin, b.begin), c.begin), Real(0));
     Real end = gnomon_min(gnomon_min(gnomon_min(a.end, b.end), c.end), Real(1));

@@ -32,8 +32,8 @@ GNOMON_KERNEL Real moving_cubic_at(GNOMON_T(moving_cubic) h, Real t)
 
 /// The time at which the sign of h changes between two times in order, at which h has the values at_begin and at_end
 /// and between which it goes one way. 24 halvings: within 2^-24 of the interval.
-GNOMON_KERNEL GNOMON_T(cubic_root)
-    moving_cubic_root(GNOMON_T(moving_cubic) h, Real begin, Real end, Real at_begin, Real at_end)
+GNOMON_KERNEL GNOMON_T(cubic_root) moving_cubic_root(GNOMON_T(moving_cubic) h, Real begin, Real end, Real at_begin,
+                                                     Real at_end)
 {
     GNOMON_MASK before = at_begin < Real(0);
     GNOMON_MASK after = at_end < Real(0);
@@ -121,15 +121,15 @@ GNOMON_KERNEL GNOMON_T(moving_cubic) depth_over_plane(GNOMON_T(depth_curve) c, R
 
 /// When the depth of a triangle is at least that of the plane, among the times at which this facing (1 or -1) covers
 /// the sample.
-GNOMON_KERNEL GNOMON_T(edge_times)
-    depth_times_beyond(GNOMON_T(depth_curve) c, GNOMON_SETTING plane, GNOMON_SETTING facing)
+GNOMON_KERNEL GNOMON_T(edge_times) depth_times_beyond(GNOMON_T(depth_curve) c, GNOMON_SETTING plane,
+                                                      GNOMON_SETTING facing)
 {
     return moving_cubic_inside(depth_over_plane(c, plane, facing));
 }
 
 /// When it is at most that.
-GNOMON_KERNEL GNOMON_T(edge_times)
-    depth_times_before(GNOMON_T(depth_curve) c, GNOMON_SETTING plane, GNOMON_SETTING facing)
+GNOMON_KERNEL GNOMON_T(edge_times) depth_times_before(GNOMON_T(depth_curve) c, GNOMON_SETTING plane,
+                                                      GNOMON_SETTING facing)
 {
     return moving_cubic_inside(depth_over_plane(c, plane, Real(-1) * facing));
 }

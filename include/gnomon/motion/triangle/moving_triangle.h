@@ -145,8 +145,8 @@ GNOMON_KERNEL Real depth_bend(Real most, Real d0, Real d3, Real turn0, Real turn
 /// The line from depth z0 to z1, between limits. Without limits depth would be free0 and free1 at the ends, and depart
 /// by bend from the line between these. A limit that is passed on the way adds no more than its distance from either
 /// end; and nothing departs by more than the limits allow.
-GNOMON_KERNEL GNOMON_T(depth_line)
-    depth_line_within(Real z0, Real z1, Real free0, Real free1, Real bend, Real least, Real most)
+GNOMON_KERNEL GNOMON_T(depth_line) depth_line_within(Real z0, Real z1, Real free0, Real free1, Real bend, Real least,
+                                                     Real most)
 {
     Real beyond = gnomon_max(gnomon_abs(free0 - z0), gnomon_abs(free1 - z1));
     Real all = gnomon_max(most - gnomon_min(z0, z1), gnomon_max(z0, z1) - least);
@@ -169,8 +169,8 @@ GNOMON_KERNEL GNOMON_T(moving_edge) moving_edge_between(GNOMON_T(moving_edge) e,
 }
 
 /// The sum of edge functions of moving_edge_between, each times what goes linearly from the one number to the other.
-GNOMON_KERNEL GNOMON_T(bernstein_cubic)
-    moving_edges_combined(GNOMON_T(moving_edges) e, Real a0, Real a1, Real b0, Real b1, Real c0, Real c1)
+GNOMON_KERNEL GNOMON_T(bernstein_cubic) moving_edges_combined(GNOMON_T(moving_edges) e, Real a0, Real a1, Real b0,
+                                                              Real b1, Real c0, Real c1)
 {
     GNOMON_T(bernstein_cubic) r;
     r.c0 = (e.a.e0 * a0 + e.b.e0 * b0) + e.c.e0 * c0;
@@ -224,8 +224,8 @@ GNOMON_KERNEL GNOMON_T(depth_line) moving_depth_line(GNOMON_T(moving_triangle) m
 }
 
 /// The same for depth z / w.
-GNOMON_KERNEL GNOMON_T(depth_line)
-    moving_triangle_depth_line(GNOMON_T(moving_triangle) m, GNOMON_T(moving_edges) e, Real begin, Real end)
+GNOMON_KERNEL GNOMON_T(depth_line) moving_triangle_depth_line(GNOMON_T(moving_triangle) m, GNOMON_T(moving_edges) e,
+                                                              Real begin, Real end)
 {
     return moving_depth_line(m, e, begin, end, Real(1));
 }
@@ -281,9 +281,9 @@ GNOMON_KERNEL GNOMON_T(depth_trial) depth_trial_next(GNOMON_T(depth_trial) trial
 /// end. Deviation is that of moving_depth_line, with its error. A piece of 33/1024 of the interval is taken whatever it
 /// deviates: beside a turn of the facing no line is near. A tolerance that is NaN or below 0 gives 32 pieces, passed
 /// that is NaN counts as 0.
-GNOMON_KERNEL GNOMON_T(depth_piece)
-    moving_depth_piece(GNOMON_T(moving_triangle) m, GNOMON_T(moving_edges) e, Real begin, Real end, Real passed,
-                       GNOMON_SETTING divided, GNOMON_SETTING tolerance)
+GNOMON_KERNEL GNOMON_T(depth_piece) moving_depth_piece(GNOMON_T(moving_triangle) m, GNOMON_T(moving_edges) e,
+                                                       Real begin, Real end, Real passed, GNOMON_SETTING divided,
+                                                       GNOMON_SETTING tolerance)
 {
     GNOMON_T(depth_trial) r = depth_trial_begin(begin, end, passed);
     for (int i = 0; i < 6; ++i) {

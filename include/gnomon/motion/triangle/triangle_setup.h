@@ -194,8 +194,8 @@ GNOMON_KERNEL GNOMON_T(moving_edges) linear_field_edges(GNOMON_T(moving_field) f
 }
 
 /// The plane that is as much higher everywhere as this one rises within h_x and h_y; lower where facing is -1.
-GNOMON_KERNEL GNOMON_T(sample_plane)
-    sample_plane_around(GNOMON_T(sample_plane) p, Real h_x, Real h_y, GNOMON_SETTING facing)
+GNOMON_KERNEL GNOMON_T(sample_plane) sample_plane_around(GNOMON_T(sample_plane) p, Real h_x, Real h_y,
+                                                         GNOMON_SETTING facing)
 {
     p.c = p.c + facing * (gnomon_abs(p.x) * h_x + gnomon_abs(p.y) * h_y);
     return p;
@@ -213,8 +213,8 @@ GNOMON_KERNEL GNOMON_T(edge_field) edge_field_around(GNOMON_T(edge_field) f, Rea
 /// where it is -1. Asked at (s_x, s_y), moving_coverage with the same facing has all times at which a triangle of this
 /// facing covers any sample of the block around it. Rounding may take 8 2^-p of the extents of the tile from h_x and
 /// h_y: ask for a little more.
-GNOMON_KERNEL GNOMON_T(moving_field)
-    moving_field_around(GNOMON_T(moving_field) f, Real h_x, Real h_y, GNOMON_SETTING facing)
+GNOMON_KERNEL GNOMON_T(moving_field) moving_field_around(GNOMON_T(moving_field) f, Real h_x, Real h_y,
+                                                         GNOMON_SETTING facing)
 {
     f.a = edge_field_around(f.a, h_x, h_y, facing);
     f.b = edge_field_around(f.b, h_x, h_y, facing);
@@ -223,8 +223,8 @@ GNOMON_KERNEL GNOMON_T(moving_field)
 }
 
 /// The plane a times k_a and b times k_b.
-GNOMON_KERNEL GNOMON_T(sample_plane)
-    sample_planes_weighed(GNOMON_T(sample_plane) a, Real k_a, GNOMON_T(sample_plane) b, Real k_b)
+GNOMON_KERNEL GNOMON_T(sample_plane) sample_planes_weighed(GNOMON_T(sample_plane) a, Real k_a, GNOMON_T(sample_plane) b,
+                                                           Real k_b)
 {
     GNOMON_T(sample_plane) r;
     r.x = a.x * k_a + b.x * k_b;
@@ -234,8 +234,8 @@ GNOMON_KERNEL GNOMON_T(sample_plane)
 }
 
 /// Twice the middle coefficient of an edge times the one end of a depth, and an outer one times the other end.
-GNOMON_KERNEL GNOMON_T(sample_plane)
-    depth_field_middle(GNOMON_T(sample_plane) outer, Real across, GNOMON_T(sample_plane) middle, Real beside)
+GNOMON_KERNEL GNOMON_T(sample_plane) depth_field_middle(GNOMON_T(sample_plane) outer, Real across,
+                                                        GNOMON_T(sample_plane) middle, Real beside)
 {
     return sample_planes_weighed(outer, across, middle, Real(2) * beside);
 }
@@ -264,8 +264,8 @@ GNOMON_KERNEL GNOMON_T(depth_field) depth_field_of(GNOMON_T(moving_field) f, GNO
 }
 
 /// Edge functions as of moving_field_edges, at the same sample.
-GNOMON_KERNEL GNOMON_T(depth_curve)
-    moving_depth_curve(GNOMON_T(depth_field) d, GNOMON_T(moving_edges) e, Real s_x, Real s_y)
+GNOMON_KERNEL GNOMON_T(depth_curve) moving_depth_curve(GNOMON_T(depth_field) d, GNOMON_T(moving_edges) e, Real s_x,
+                                                       Real s_y)
 {
     GNOMON_T(depth_curve) r;
     r.n0 = sample_plane_at(d.n0, s_x, s_y);
@@ -353,8 +353,8 @@ GNOMON_KERNEL GNOMON_T(depth_line) linear_depth_line(GNOMON_T(depth_curve) c, Re
 }
 
 /// As moving_depth_piece, of lines of depth_curve_line, for what is linear, too.
-GNOMON_KERNEL GNOMON_T(depth_piece)
-    depth_curve_piece(GNOMON_T(depth_curve) c, Real begin, Real end, Real passed, GNOMON_SETTING tolerance)
+GNOMON_KERNEL GNOMON_T(depth_piece) depth_curve_piece(GNOMON_T(depth_curve) c, Real begin, Real end, Real passed,
+                                                      GNOMON_SETTING tolerance)
 {
     GNOMON_T(depth_trial) r = depth_trial_begin(begin, end, passed);
     for (int i = 0; i < 6; ++i) {

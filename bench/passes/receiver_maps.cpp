@@ -1,0 +1,168 @@
+// Receivers in a map of ranges that no cache holds: squares that cross it at random, seen by receivers among them. The
+// baseline is the fold of the kernels, tap after tap and list after list, as moving_shadow and static_shadow were.
+#define GNOMON_BENCH_ARITHMETIC exact
+#include "core/measure.hpp"
+#include "support/hostile.hpp"
+
+#include <gnomon/passes/range/look_up.hpp>
+#include <gnomon/passes/range/resolve.hpp>
+
+namespace gnomon::bench {
+
+namespace {
+
+constexpr std::size_t side = 1024, squares = 6000;
+constexpr float widest = 24, longest = 60;              // half a square's side, and its way, in texels
+constexpr std::size_t receivers = 65536, at_once = 256; // of these so many at a time, then the next
+
+/// When a point is within half a side of a square's centre, along one axis on which that goes from a to b.
+std::pair<float, float> times_inside(float point, float a, float b, float half)
+{
+    if (a == b) return std::abs(point - a) <= half ? std::pair(0.f, 1.f) : std::pair(1.f, 0.f);
+    const float t = (point - half - a) / (b - a), u = (point + half - a) / (b - a);
+    return {std::max(std::min(t, u), 0.f), std::min(std::max(t, u), 1.f)};
+}
+
+class squares_map {
+  public:
+    squares_map()
+    {
+        test::bit_source bits(1);
+        const auto number = [&](float low, float high) {
+            return static_cast<float>(bits.uniform(double(low), double(high)));
+        };
+        std::vector<std::uint32_t> texels;
+        std::vector<depth_time_range<float>> ranges;
+        for (std::size_t id = 0; id < squares; ++id) {
+            const float x0 = number(0, side), y0 = number(0, side), half = number(4, widest);
+            const float x1 = x0 + number(-longest, longest), y1 = y0 + number(-longest, longest);
+            const float z0 = number(-0.9f, 0.9f), z1 = z0 + number(-0.1f, 0.1f);
+            const auto first = [&](float a, float b) { return std::size_t(std::max(std::min(a, b) - half, 0.f)); };
+            const auto last = [&](float a, float b) {
+                return std::size_t(std::clamp(std::max(a, b) + half, 0.f, side - 1.f));
+            };
+            for (std::size_t y = first(y0, y1); y <= last(y0, y1); ++y)
+                for (std::size_t x = first(x0, x1); x <= last(x0, x1); ++x) {
+                    const auto across = times_inside(float(x) + 0.5f, x0, x1, half);
+                    const auto along = times_inside(float(y) + 0.5f, y0, y1, half);
+                    const float t0 = std::max(across.first, along.first), t1 = std::min(across.second, along.second);
+                    if (!(t0 < t1)) continue;
+                    texels.push_back(static_cast<std::uint32_t>(range_map<float>::texel(side, x, y)));
+                    ranges.push_back(range_clip(depth_time_range<float>{0, 1, z0, z1, static_cast<float>(id)}, t0, t1));
+                }
+        }
+        std::vector<std::uint32_t> first(range_map<float>::texels(side, side) + 1);
+        std::vector<depth_time_range<float>> sorted(ranges.size());
+        sort_into_lists<float>(texels, ranges, first, sorted);
+        std::vector<visible_span<float>> room;
+        const range_map<float> all{side, side, first, sorted};
+        for (std::size_t i = 0; i + 1 < first.size(); ++i) {
+            const auto list = all[i];
+            room.resize(std::max(room.size(), resolve_capacity(list.size(), range_ids::surfaces)));
+            first_.push_back(static_cast<std::uint32_t>(ranges_.size()));
+            for (const auto& s : resolve_ranges<float>(list, room, range_ids::surfaces))
+                ranges_.push_back(range_of<float>(list, s));
+        }
+        first_.push_back(static_cast<std::uint32_t>(ranges_.size()));
+        totals_.resize(first.size() - 1);
+        set_totals(lists(), std::span(totals_), range_ids::surfaces);
+        for (std::size_t i = 0; i < receivers; ++i) {
+            const float x = number(0, side), y = number(0, side), z = number(-1, 1);
+            const float u = x + number(-longest, longest), v = y + number(-longest, longest);
+            const receiver_path<float> path{{0, 1, z, z + number(-0.1f, 0.1f), float(squares)}, x, y, 1, u, v, 1};
+            paths_.push_back(path);
+            placed_.push_back({x, y, static_receiver_begin(z, float(squares), 0.f, 1.f)});
+            const auto shifted = receiver_path_shifted(path, -0.5f, -0.5f);
+            auto sweep = texel_sweep_over(shifted, -1.f, -1.f, float(side), float(side));
+            for (++cells_; sweep.t_end < sweep.t_last; ++cells_) sweep = texel_sweep_next(sweep);
+        }
+        shadows_.resize(receivers);
+    }
+
+    range_map<float> lists() const { return {side, side, first_, ranges_}; }
+    range_map<float> with_totals() const { return {side, side, first_, ranges_, totals_}; }
+
+    /// Of a shutter that opens and closes at once, on their way: a cell each.
+    template <class... Add> work moving(const range_map<float>& map, const Add&... add)
+    {
+        return each(cells_ / receivers,
+                    [=, this](std::size_t i) { shadows_[i] = moving_shadow(map, paths_[i], 0.f, 1.f, 1, add...); });
+    }
+    work moving_by_fold()
+    {
+        return moving(lists(), [](const moving_receiver<float>& s, const depth_time_range<float>& r) {
+            return moving_receiver_filter_box(s, r);
+        });
+    }
+
+    /// At rest, many at a time and by the fold.
+    work resting(const range_map<float>& map)
+    {
+        return {[=, this, begin = start()]() mutable {
+                    const auto next = std::span(placed_).subspan(begin, at_once);
+                    static_shadows<float>(map, next, std::span(shadows_).subspan(begin, at_once));
+                    begin = (begin + at_once) % receivers;
+                },
+                double(at_once)};
+    }
+    work resting_by_fold()
+    {
+        return each(1, [this](std::size_t i) {
+            const auto add = [](const static_receiver<float>& s, const depth_time_range<float>& r) {
+                return static_receiver_add_box(s, r);
+            };
+            shadows_[i] = static_shadow(lists(), placed_[i].x, placed_[i].y, placed_[i].state, 1, add);
+        });
+    }
+
+  private:
+    /// Begins elsewhere each time: what one work has read would be in a cache for the next.
+    template <class Look> work each(double parts, const Look& look)
+    {
+        return {[=, begin = start()]() mutable {
+                    for (std::size_t i = begin; i < begin + at_once; ++i) look(i);
+                    begin = (begin + at_once) % receivers;
+                },
+                parts * double(at_once)};
+    }
+
+    std::size_t start() { return starts_++ * (receivers / 2) % receivers; }
+
+    std::size_t starts_ = 0;
+    std::vector<std::uint32_t> first_;
+    std::vector<depth_time_range<float>> ranges_;
+    std::vector<range_total<float>> totals_;
+    std::vector<receiver_path<float>> paths_;
+    std::vector<placed_receiver<float>> placed_;
+    std::vector<float> shadows_;
+    double cells_ = 0;
+};
+
+squares_map& scene()
+{
+    static squares_map map;
+    return map;
+}
+
+[[maybe_unused]] const bool registered =
+    add_comparison(
+        "receivers/a cell of a way/fold", [] { return scene().moving_by_fold(); },
+        [] { return scene().moving_by_fold(); }) &&
+    add_comparison(
+        "receivers/a cell of a way/lists", [] { return scene().moving(scene().lists()); },
+        [] { return scene().moving_by_fold(); }) &&
+    add_comparison(
+        "receivers/a cell of a way/totals", [] { return scene().moving(scene().with_totals()); },
+        [] { return scene().moving_by_fold(); }) &&
+    add_comparison(
+        "receivers/at rest/fold", [] { return scene().resting_by_fold(); }, [] { return scene().resting_by_fold(); }) &&
+    add_comparison(
+        "receivers/at rest/lists", [] { return scene().resting(scene().lists()); },
+        [] { return scene().resting_by_fold(); }) &&
+    add_comparison(
+        "receivers/at rest/totals", [] { return scene().resting(scene().with_totals()); },
+        [] { return scene().resting_by_fold(); });
+
+} // namespace
+
+} // namespace gnomon::bench

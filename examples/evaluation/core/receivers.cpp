@@ -1,0 +1,48 @@
+#include "receivers.hpp"
+
+#include "renderer/shade/shading.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::evaluation {
+
+double unit_slope(const renderer::camera& light, int resolution)
+{
+    const double texel = 2 * std::max(light.half_extent.x, light.half_extent.y) / resolution;
+    return texel * 2 / (light.far_distance - light.near_distance);
+}
+
+double plane_slope(const glm::dvec3& position, const glm::dvec3& normal, const renderer::camera& light, int resolution)
+{
+    // The ray of a texel meets the plane at view distance n . (p - e) / n . d, and d changes across the axis.
+    const bool perspective = light.perspective();
+    const double distance = perspective ? renderer::view_distance(light, position) : 1;
+    const glm::dvec3 ray = perspective ? (position - light.position) / distance : light.forward;
+    const double across = glm::length(glm::dvec2(glm::dot(normal, light.right), glm::dot(normal, light.up)));
+    const double along = std::abs(glm::dot(normal, ray));
+    return (across < steepest_slope * along ? across / along : steepest_slope) * distance *
+           unit_slope(light, resolution);
+}
+
+receivers receivers_of(const renderer::image<renderer::surface>& seen, const renderer::camera& light, int resolution)
+{
+    receivers result;
+    for (std::size_t i = 0; i < seen.pixels.size(); ++i) {
+        const renderer::surface& s = seen.pixels[i];
+        if (!s.valid() || !renderer::faces_light(light, s)) continue;
+        const glm::dvec3 place = renderer::project(light, s.position);
+        if (!renderer::within_view(place)) continue;
+        const double level = renderer::mip_level(light, s.position, s.d_dx, s.d_dy, resolution);
+        const double bias = bias_radius * std::exp2(level) * plane_slope(s.position, s.normal, light, resolution);
+        result.pixels.push_back(i);
+        result.places.push_back({static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(level)});
+        result.depths.push_back(static_cast<float>(place.z - bias));
+        result.unbiased_depths.push_back(static_cast<float>(place.z));
+    }
+    return result;
+}
+
+} // namespace gnomon::evaluation

@@ -1,0 +1,95 @@
+// The program behind ./run demo.
+#include "evaluation/core/drivers.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace {
+
+struct driver {
+    const char* name;
+    void (*run)(const gnomon::evaluation::settings&);
+};
+
+constexpr std::array drivers{driver{"hard_shadows", gnomon::evaluation::hard_shadows},
+                             driver{"vulkan_shadows", gnomon::evaluation::vulkan_shadows},
+                             driver{"bounds", gnomon::evaluation::bounds},
+                             driver{"motion_analytic", gnomon::evaluation::motion_analytic}};
+
+// The words of the command line, the last one first, as CLI11 wants them. It takes the next word for the value of
+// "--name=", so that an empty value is given as a word of its own.
+std::vector<std::string> words_of(int argc, char** argv)
+{
+    std::vector<std::string> words;
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const bool is_empty = word.starts_with("--") && word.ends_with("=") && word.find('=') == word.size() - 1;
+        words.push_back(is_empty ? word.substr(0, word.size() - 1) : word);
+        if (is_empty) words.emplace_back();
+    }
+    std::ranges::reverse(words);
+    return words;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+try {
+    using gnomon::evaluation::settings;
+    settings how;
+    std::vector<std::string> names;
+    std::string model, animation, out = how.out.string();
+    std::array<double, 2> shutter{0, 1. / 24};
+    bool full = false, tiny = false;
+
+    CLI::App app("Renders shadows by every method of Gnomon; with no argument all drivers run.", "gnomon_demo");
+    std::vector<std::string> known;
+    for (const driver& d : drivers) known.emplace_back(d.name);
+    app.add_option("NAME", names, "drivers to run")->check(CLI::IsMember(known));
+    app.add_flag("--full", full, "four camera samples per pixel");
+    app.add_flag("--tiny", tiny, "a quarter of the size, for tests")->excludes("--full");
+    app.add_flag("--hlsl", how.hlsl, "vulkan_shadows: shaders from HLSL instead of GLSL");
+    CLI::Option* still =
+        app.add_option("--model", model, "OBJ, PLY, glTF or similar, put on a ground plane and shaded by every method");
+    const CLI::Option* moving =
+        app.add_option("--animation", animation,
+                       "the model in motion, by its animation NAME; '' is the first that it has")
+            ->type_name("NAME")
+            ->needs(still);
+    const CLI::Option* exposed =
+        app.add_option("--shutter", shutter,
+                       "the model in motion, from T0 to T1 seconds after its animation starts; "
+                       "a frame of film, 0 to 1/24, where it is not given")
+            ->type_name("T0,T1")
+            ->delimiter(',')
+            ->needs(still);
+    app.add_option("--out", out, "folder for the gallery and report.json")->capture_default_str();
+    try {
+        app.parse(words_of(argc, argv));
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        fmt::print(stderr, "demo: {}\n", error.what());
+        return 2;
+    }
+    if (full) how.supersampling = 2;
+    if (tiny) how.width /= 4, how.height /= 4, how.map_resolution /= 4;
+    how.out = out;
+    std::filesystem::create_directories(how.out / "gallery");
+
+    if (moving->count() > 0 || exposed->count() > 0) gnomon::evaluation::animated_model(how, model, animation, shutter);
+    else if (still->count() > 0) gnomon::evaluation::model(how, model);
+    for (const driver& d : drivers)
+        if (names.empty() ? still->count() == 0 : std::count(names.begin(), names.end(), d.name) > 0) d.run(how);
+    return 0;
+} catch (const std::exception& error) {
+    fmt::print(stderr, "demo: {}\n", error.what());
+    return 2;
+}

@@ -1,0 +1,249 @@
+#include "renderer.hpp"
+
+#include "evaluation/core/receivers.hpp"
+#include "renderer/shade/shading.hpp"
+#include "spirv.hpp"
+
+#include <gnomon/passes/mips.hpp>
+
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <functional>
+#include <limits>
+#include <optional>
+
+namespace gnomon::evaluation {
+
+using namespace renderer;
+
+namespace {
+
+using glm::vec4;
+#include "evaluation/vulkan/shaders/view.h"
+
+using usage = vk::ImageUsageFlagBits;
+
+constexpr int repetitions = 3;
+constexpr std::uint32_t group = 8; // texels along a side of a compute shader's workgroup
+
+template <class T> std::span<const std::byte> bytes_of(const T& value) { return std::as_bytes(std::span(&value, 1)); }
+
+// scale dot(p - eye.position, axis) + offset as a product with (p, 1).
+glm::vec4 row(const camera& eye, const glm::dvec3& axis, double scale, double offset)
+{
+    return glm::dvec4(scale * axis, offset - scale * glm::dot(eye.position, axis));
+}
+
+// Vulkan's clip space: y points down, depth goes from 0 to 1.
+std::array<glm::vec4, 4> clip_rows(const camera& eye)
+{
+    const double near = eye.near_distance, scale = 1 / (eye.far_distance - near);
+    const double depth = eye.perspective() ? eye.far_distance * scale : scale;
+    return {row(eye, eye.right, 1 / eye.half_extent.x, 0), row(eye, eye.up, -1 / eye.half_extent.y, 0),
+            row(eye, eye.forward, depth, -near * depth),
+            eye.perspective() ? row(eye, eye.forward, 1, 0) : glm::vec4(0, 0, 0, 1)};
+}
+
+view view_of(const stage& scenery, int map_resolution)
+{
+    const camera& light = scenery.light;
+    const double depth = 2 / (light.far_distance - light.near_distance);
+    return {.light_rows = {row(light, light.right, 0.5 / light.half_extent.x, 0.5),
+                           row(light, light.up, -0.5 / light.half_extent.y, 0.5),
+                           row(light, light.forward, depth, -depth * light.near_distance - 1)},
+            .eye = glm::dvec4(scenery.eye.position, 1),
+            .to_light = glm::dvec4(-light.forward, 0),
+            .sun = {daylight.sun, 0},
+            .sky = {daylight.sky, 0},
+            .earth = {daylight.earth, 0},
+            .bias = {bias_radius * unit_slope(light, map_resolution), steepest_slope, map_resolution, 0}};
+}
+
+// Position, normal and albedo of each corner.
+std::vector<glm::vec3> corners_of(const scene& world)
+{
+    std::vector<glm::vec3> result;
+    for (const mesh& part : world.meshes)
+        for (const glm::uvec3& triangle : part.triangles) {
+            const std::array corners{part.positions[triangle.x], part.positions[triangle.y],
+                                     part.positions[triangle.z]};
+            const glm::vec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+            for (const glm::vec3& corner : corners) result.insert(result.end(), {corner, normal, part.albedo});
+        }
+    return result;
+}
+
+template <class T>
+vulkan::buffer filled(const vulkan::device& gpu, std::span<const T> values, vk::BufferUsageFlagBits use)
+{
+    vulkan::buffer result(gpu, values.size_bytes(), use);
+    std::ranges::copy(values, result.mapped<T>().begin());
+    return result;
+}
+
+vk::Extent2D square(int size) { return {std::uint32_t(size), std::uint32_t(size)}; }
+
+// A method's map, of one image or two, and the passes that make it from a shadow map.
+class device_map {
+  public:
+    device_map(const vulkan::device& gpu, const device_method& method, const vulkan::image& depths,
+               const vulkan::buffer& taps, const vulkan::shader& resolve, const vulkan::shader& blur)
+        : size_(depths.extent().width), radius_(int(taps.mapped<float>().size() / 2))
+    {
+        const auto levels = std::uint32_t(mip_levels(size_, size_));
+        for (const vk::Format format : method.images) {
+            const auto use = usage::eStorage | usage::eSampled;
+            maps_.emplace_back(gpu, format, depths.extent(), use | usage::eTransferSrc | usage::eTransferDst, levels);
+            scratch_.emplace_back(gpu, format, depths.extent(), use);
+        }
+        resolve_.emplace(gpu, resolve,
+                         resources{vulkan::sampled{depths}, vulkan::stored{first()}, vulkan::stored{second()}});
+        for (std::size_t i = 0; i < maps_.size(); ++i) {
+            const vulkan::image &map = maps_[i], &scratch = scratch_[i];
+            blur_.push_back(
+                {{gpu, blur, resources{vulkan::sampled{map}, vulkan::stored{scratch}, taps}, sizeof(blur_push)}, 1, 0});
+            blur_.push_back(
+                {{gpu, blur, resources{vulkan::sampled{scratch}, vulkan::stored{map}, taps}, sizeof(blur_push)}, 0, 1});
+        }
+    }
+
+    // Vulkan takes no empty place: of a method of one image both are the same.
+    const vulkan::image& first() const { return maps_.front(); }
+    const vulkan::image& second() const { return maps_.back(); }
+
+    void resolve(const vk::raii::CommandBuffer& commands) const { resolve_->record(commands, groups()); }
+    void blur(const vk::raii::CommandBuffer& commands) const
+    {
+        for (const auto& [pass, dx, dy] : blur_)
+            pass.record(commands, groups(), bytes_of(blur_push{dx, dy, radius_, int(size_) - 1}));
+    }
+    void build_mips(const vk::raii::CommandBuffer& commands) const
+    {
+        for (const vulkan::image& map : maps_) vulkan::build_mips(commands, map);
+    }
+
+  private:
+    using resources = std::vector<vulkan::resource>;
+    struct blur_push {
+        int dx, dy, radius, last;
+    };
+    struct blur_pass {
+        vulkan::compute_pass pass;
+        int dx, dy;
+    };
+    vk::Extent3D groups() const { return {(size_ + group - 1) / group, (size_ + group - 1) / group, 1}; }
+
+    std::uint32_t size_;
+    int radius_;
+    std::vector<vulkan::image> maps_, scratch_;
+    std::optional<vulkan::compute_pass> resolve_;
+    std::vector<blur_pass> blur_;
+};
+
+struct named_pass {
+    std::string name;
+    std::function<void(const vk::raii::CommandBuffer&)> record;
+};
+
+// Runs all passes in turn, several times over, and keeps the least time of each. The first run does not count: drivers
+// compile in it.
+std::vector<device_pass> timed(const vulkan::device& gpu, const std::vector<named_pass>& passes)
+{
+    std::vector<device_pass> result;
+    for (const named_pass& pass : passes) result.push_back({pass.name, std::numeric_limits<double>::infinity()});
+    const vulkan::timeline times(gpu, std::uint32_t(passes.size()) + 1);
+    for (int i = 0; i <= repetitions; ++i) {
+        gpu.run([&](const vk::raii::CommandBuffer& commands) {
+            std::uint32_t marks = 0;
+            times.reset(commands);
+            times.mark(commands, marks++);
+            for (const named_pass& pass : passes) {
+                pass.record(commands);
+                times.mark(commands, marks++);
+            }
+        });
+        const std::vector<double> milliseconds = times.milliseconds();
+        for (std::size_t k = 0; i > 0 && k < result.size(); ++k)
+            result[k].milliseconds = std::min(result[k].milliseconds, milliseconds[k]);
+    }
+    return result;
+}
+
+} // namespace
+
+shadow_renderer::shadow_renderer(const vulkan::device& gpu, const stage& scenery, vk::Extent2D extent,
+                                 int map_resolution, std::span<const float> taps, shading_language language)
+    : gpu_(gpu),
+      language_(language),
+      eye_rows_(clip_rows(scenery.eye)),
+      light_rows_(clip_rows(scenery.light)),
+      vertices_(filled<glm::vec3>(gpu, corners_of(scenery.world), vk::BufferUsageFlagBits::eVertexBuffer)),
+      frame_(filled<view>(gpu, std::array{view_of(scenery, map_resolution)}, vk::BufferUsageFlagBits::eUniformBuffer)),
+      taps_(filled<float>(gpu, taps, vk::BufferUsageFlagBits::eStorageBuffer)),
+      depths_(gpu, vk::Format::eD32Sfloat, square(map_resolution), usage::eDepthStencilAttachment | usage::eSampled, 1,
+              vk::SampleCountFlagBits::e4),
+      camera_depth_(gpu, vk::Format::eD32Sfloat, extent, usage::eDepthStencilAttachment),
+      camera_picture_(gpu, vk::Format::eR32G32B32A32Sfloat, extent, usage::eColorAttachment | usage::eTransferSrc),
+      trilinear_(gpu.handle(),
+                 vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eLinear,
+                                       vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge,
+                                       vk::SamplerAddressMode::eClampToEdge)
+                     .setMaxLod(VK_LOD_CLAMP_NONE))
+{}
+
+bool shadow_renderer::supports(const device_method& method) const
+{
+    using feature = vk::FormatFeatureFlagBits;
+    const auto needed =
+        feature::eStorageImage | feature::eSampledImageFilterLinear | feature::eBlitSrc | feature::eBlitDst;
+    return gpu_.physical().getFeatures().shaderStorageImageWriteWithoutFormat &&
+           std::ranges::all_of(method.images, [&](vk::Format format) {
+               return (gpu_.physical().getFormatProperties(format).optimalTilingFeatures & needed) == needed;
+           });
+}
+
+device_frame shadow_renderer::render(const device_method& method) const
+{
+    const shader_texts& texts = language_ == shading_language::glsl ? glsl : hlsl;
+    std::vector<std::uint32_t> constants{method.id, std::uint32_t(method.images.size())};
+    for (const float setting : method.settings) constants.push_back(std::bit_cast<std::uint32_t>(setting));
+    const vulkan::shader scene{texts.scene};
+
+    const vulkan::raster_target to_map{.depth = depths_, .samples = vk::SampleCountFlagBits::e4};
+    const vulkan::raster_pass shadow_map(gpu_, {scene, {}}, to_map, 3, {}, sizeof(light_rows_));
+    const device_map map(gpu_, method, depths_, taps_, {texts.resolve, constants}, {texts.blur});
+    const glm::vec3& sky = daylight.background;
+    const vulkan::raster_target to_camera{
+        camera_depth_, vk::SampleCountFlagBits::e1, &camera_picture_, {sky.r, sky.g, sky.b, 1}};
+    const vulkan::raster_pass lighting(
+        gpu_, {scene, vulkan::shader{texts.lighting, constants}}, to_camera, 3,
+        {vulkan::uniform{frame_}, vulkan::sampled{map.first()}, vulkan::sampled{map.second()}, *trilinear_},
+        sizeof(eye_rows_));
+    device_frame result;
+    result.passes = timed(
+        gpu_,
+        {
+            {"shadow_map", [&](auto& commands) { shadow_map.record(commands, vertices_, bytes_of(light_rows_)); }},
+            {"resolve", [&](auto& commands) { map.resolve(commands); }},
+            {"blur", [&](auto& commands) { map.blur(commands); }},
+            {"mips", [&](auto& commands) { map.build_mips(commands); }},
+            {"lighting", [&](auto& commands) { lighting.record(commands, vertices_, bytes_of(eye_rows_)); }},
+        });
+
+    const auto [width, height] = camera_picture_.extent();
+    const vulkan::buffer pixels(gpu_, width * height * sizeof(glm::vec4), vk::BufferUsageFlagBits::eTransferDst);
+    gpu_.run([&](const vk::raii::CommandBuffer& commands) { copy(commands, camera_picture_, pixels); });
+    result.colour = picture(int(width), int(height));
+    result.visibility = image<float>(int(width), int(height));
+    for (std::size_t i = 0; i < result.colour.pixels.size(); ++i) {
+        const glm::vec4 pixel = pixels.mapped<glm::vec4>()[i];
+        result.colour.pixels[i] = pixel;
+        result.visibility.pixels[i] = pixel.a;
+    }
+    return result;
+}
+
+} // namespace gnomon::evaluation

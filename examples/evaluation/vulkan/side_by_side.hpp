@@ -1,0 +1,71 @@
+// Methods on the CPU and on a Vulkan device: the same stage, the same receivers, the same weights.
+//
+// The kernels are one text, so what differs is what Vulkan leaves to a device: whether a product and a sum are fused,
+// in which direction a stored half float is rounded, with how many bits a sampler weighs texels, how positions are
+// interpolated, and how finely corners are snapped to the grid of samples. All but the last move the moments by no more
+// than a few of the formats' roundings, which their biases and minimum variances are made to hide: on a lit surface
+// they show as 1% of intensity at most (storage/filters_formats.hpp). With corners snapped more coarsely than on the CPU, a
+// straight edge may gain or lose one sample in each texel that it crosses, a quarter of a texel under the blur's
+// largest weight. Hence the tolerance: 99% of the receivers keep it, and those that do not lie at an edge of a surface
+// or of a shadow.
+#pragma once
+
+#include "evaluation/core/drivers.hpp"
+#include "evaluation/core/report.hpp"
+#include "on_device.hpp"
+
+#include <gnomon/passes/blur.hpp>
+
+#include <tbb/parallel_for.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace gnomon::evaluation {
+
+// Of the device's visibilities against the CPU's.
+struct difference_statistics {
+    renderer::error_statistics errors;
+    double median, p99, p999;     // of the absolute difference
+    double beyond, beyond_inside; // shares of receivers beyond the tolerance: of all, and away from edges
+};
+
+struct side_by_side {
+    renderer::image<float> host; // visibility
+    device_frame device;
+    difference_statistics difference;
+};
+
+class device_comparison {
+  public:
+    device_comparison(const renderer::vulkan::device& gpu, const renderer::stage& scenery, const settings& how);
+
+    template <method M> bool possible() const { return renderer_.supports(on_device<M>); }
+
+    template <method M> side_by_side render() const
+    {
+        const typename M::map map{depths_, taps_};
+        side_by_side result{{seen_.width, seen_.height, 1}, renderer_.render(on_device<M>), {}};
+        tbb::parallel_for(std::size_t(0), where_.size(), [&](std::size_t i) {
+            result.host.pixels[where_.pixels[i]] = 1 - M::intensity(M::fetch(map, where_.places[i]), where_.depths[i]);
+        });
+        result.difference = difference(result.device.visibility, result.host);
+        return result;
+    }
+
+    difference_statistics difference(const renderer::image<float>& device, const renderer::image<float>& host) const;
+
+    float tolerance() const { return tolerance_; }
+    const renderer::image<renderer::surface>& seen() const { return seen_; }
+    const receivers& where() const { return where_; }
+
+  private:
+    std::array<float, 9> taps_ = gaussian_weights();
+    float tolerance_;
+    depth_map depths_;
+    renderer::image<renderer::surface> seen_;
+    receivers where_;
+    shadow_renderer renderer_;
+};
+
+} // namespace gnomon::evaluation

@@ -1,0 +1,228 @@
+// The lists of a pack of texels while the rasterizer of motion works at them: columns of rows (simd/resolve.hpp), to
+// which ranges come by packs, until they are laid out.
+#pragma once
+
+#include "moving_tiles.hpp"
+
+#include <gnomon/passes/range/backdrop.hpp>
+#include <gnomon/simd/resolve.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gnomon::renderer {
+
+// Things one after the other, and room behind them that keeps what it has.
+template <class T> class stack {
+  public:
+    std::size_t size() const { return size_; }
+    std::span<const T> used() const { return std::span(room_).first(size_); }
+    void clear() { size_ = 0; }
+    T* room_for(std::size_t count)
+    {
+        if (room_.size() < size_ + count) room_.resize(2 * (size_ + count));
+        return &room_[size_];
+    }
+    void grow(std::size_t count) { size_ += count; }
+
+  private:
+    std::vector<T> room_;
+    std::size_t size_ = 0;
+};
+
+// Depths behind which all is hidden, while lists are still open: in each of some equal parts of the shutter, the
+// farthest depth of the nearest range that lasts for all of the part.
+class hidden_depths {
+  public:
+    void clear()
+    {
+        depths_.fill(texel_pack(2.f));
+        any_ = false;
+    }
+
+    // Of the lanes that exist those in which the range may be in front.
+    GNOMON_INLINE xsimd::batch_bool<float> may_be_seen(const xsimd::batch_bool<float>& exists,
+                                                       const range_pack& r) const
+    {
+        if (!any_) return exists;
+        const texel_pack nearest = gnomon_min(r.z0, r.z1);
+        xsimd::batch_bool<float> seen(false);
+        for (std::size_t k = 0; k < parts; ++k)
+            seen = seen || (r.t0 < end(k) && begin(k) < r.t1 && nearest <= depths_[k]);
+        return seen && exists;
+    }
+
+    // Adds a range that is listed in these lanes.
+    GNOMON_INLINE void add(const xsimd::batch_bool<float>& exists, const range_pack& r)
+    {
+        if (!gnomon_any(exists && texel_pack(part) <= r.t1 - r.t0)) return;
+        any_ = true;
+        const texel_pack farthest = gnomon_max(r.z0, r.z1);
+        for (std::size_t k = 0; k < parts; ++k)
+            depths_[k] = gnomon_select(exists && r.t0 <= begin(k) && end(k) <= r.t1, gnomon_min(depths_[k], farthest),
+                                       depths_[k]);
+    }
+
+  private:
+    static constexpr std::size_t parts = 8;
+    static constexpr float part = 1 / float(parts);
+    static texel_pack begin(std::size_t k) { return texel_pack(part * float(k)); }
+    static texel_pack end(std::size_t k) { return texel_pack(part * float(k + 1)); }
+
+    std::array<texel_pack, parts> depths_;
+    bool any_ = false;
+};
+
+class texel_lists {
+  public:
+    using range = depth_time_range<float>;
+    using range_lanes = depth_time_range<texel_pack>;
+    using lane_mask = xsimd::batch_bool<float>;
+
+    // The number of ranges that there is room for.
+    std::size_t room() const { return texel_pack::size * count_; }
+
+    // Resolved lists keep what is in front. Without backdrops the farthest range that is always there waits outside of
+    // them, since what comes may be behind it.
+    void clear(bool resolved, bool backdrops)
+    {
+        resolved_ = resolved, backdrops_ = backdrops;
+        count_ = 0;
+        if (!resolved) return;
+        hidden_.clear();
+        backdrop_ = {};
+    }
+
+    // Those that exist.
+    GNOMON_INLINE void add(const lane_mask& exists, const range_pack& r, float id)
+    {
+        const range_lanes came{r.t0, r.t1, r.z0, r.z1, texel_pack(id)};
+        if (resolved_) add_resolved(exists, came);
+        else if (gnomon_any(exists)) put_in_new_row(exists, came);
+    }
+
+    // At the end of others, texel by texel, how many of each in sizes.
+    void append_to(stack<range>& all, std::span<std::uint32_t, texel_pack::size> sizes) const
+    {
+        range* end = all.room_for(room() + 1);
+        for (std::size_t i = 0; i < texel_pack::size; ++i) {
+            std::uint32_t count = 0;
+            // Without branches: what does not exist is overwritten.
+            for (std::size_t k = 0; k < count_; ++k) {
+                const std::uint32_t exists = used_[k] >> i & 1;
+                *end = rows_[k].range(i);
+                end += exists, count += exists;
+            }
+            sizes[i] = count;
+            all.grow(count);
+        }
+    }
+
+    // The same of what of them is in front; finish(list) says what of a list, which it may change, is kept.
+    template <class Finish>
+    void append_resolved_to(stack<range>& all, std::span<std::uint32_t, texel_pack::size> sizes, const Finish& finish)
+    {
+        if (!backdrops_) add_seen(backdrop_.rest().t0 < backdrop_.rest().t1, backdrop_.rest());
+        resolve();
+        for (std::size_t i = 0; i < texel_pack::size; ++i) {
+            const std::span list(all.room_for(pieces_[i].size() + 1), pieces_[i].size());
+            std::ranges::transform(pieces_[i], list.begin(), [&](const piece& p) { return rows_[p.row].range(i); });
+            sizes[i] = static_cast<std::uint32_t>(finish(list).size());
+            all.grow(sizes[i]);
+        }
+    }
+
+    // They become what of them is in front.
+    void thin_out()
+    {
+        resolve();
+        std::size_t longest = 0;
+        for (const std::vector<piece>& some : pieces_) longest = std::max(longest, some.size());
+        thinned_.resize(longest);
+        for (std::size_t k = 0; k < longest; ++k) {
+            used_[k] = 0;
+            for (std::size_t i = 0; i < texel_pack::size; ++i) {
+                const bool exists = k < pieces_[i].size();
+                thinned_[k].set(i, exists ? rows_[pieces_[i][k].row].range(i) : range_empty(float(range_nothing)));
+                used_[k] |= std::uint64_t(exists) << i;
+            }
+        }
+        std::swap(rows_, thinned_);
+        count_ = longest;
+    }
+
+  private:
+    using row = range_row<texel_pack>;
+    struct piece {
+        float begin;
+        std::uint32_t row;
+    };
+
+    GNOMON_INLINE void put_in_new_row(const lane_mask& exists, const range_lanes& r)
+    {
+        if (count_ >= rows_.size()) rows_.resize(count_ + 1);
+        if (count_ >= used_.size()) used_.resize(rows_.size());
+        used_[count_] = bits_of(exists);
+        rows_[count_++].set(range_kept(exists, r));
+    }
+
+    [[gnu::noinline]] void add_resolved(lane_mask exists, const range_lanes& came)
+    {
+        if (backdrops_) return add_seen(exists, came);
+        const range_lanes listed = backdrop_.add(range_kept(exists, came));
+        add_seen(listed.t0 < listed.t1, listed);
+    }
+
+    // In one of the last rows that has room for it, or in a new one.
+    GNOMON_INLINE void add_seen(const lane_mask& exists, const range_lanes& r)
+    {
+        const range_pack times{r.t0, r.t1, r.z0, r.z1};
+        const lane_mask seen = hidden_.may_be_seen(exists, times);
+        const std::uint64_t bits = bits_of(seen);
+        if (bits == 0) return;
+        hidden_.add(seen, times);
+        constexpr std::size_t asked = 8;
+        std::size_t k = count_ < asked ? 0 : count_ - asked;
+        while (k < count_ && (used_[k] & bits) != 0) ++k;
+        if (k == count_) return put_in_new_row(seen, r);
+        used_[k] |= bits;
+        rows_[k].set(range_select(seen, r, rows_[k].range()));
+    }
+
+    // Puts what is in front into pieces_, in order of time.
+    void resolve()
+    {
+        resolve_rows<texel_pack>(rows_, fronts_, count_);
+        used_.resize(std::max(used_.size(), rows_.size()));
+        for (std::vector<piece>& some : pieces_) some.clear();
+        for (std::uint32_t k = 0; k < rows_.size(); ++k) {
+            row& r = rows_[k];
+            const front_row<texel_pack>& front = fronts_[k];
+            const texel_pack begin = front.load(front.begin), end = front.load(front.end);
+            const std::uint64_t seen = bits_of(begin < end);
+            if (seen == 0) continue;
+            r.set(range_clip(r.range(), begin, end));
+            for_each_bit(seen, [&](std::size_t i) {
+                std::vector<piece>& some = pieces_[i];
+                some.push_back({r.t0[i], k});
+                for (std::size_t j = some.size() - 1; j > 0 && some[j].begin < some[j - 1].begin; --j)
+                    std::swap(some[j], some[j - 1]);
+            });
+        }
+    }
+
+    std::vector<row> rows_, thinned_; // the first count_ are in use
+    std::vector<front_row<texel_pack>> fronts_;
+    std::vector<std::uint64_t> used_; // of each row, a bit for each lane
+    std::size_t count_ = 0;
+    bool resolved_ = false, backdrops_ = true;
+    hidden_depths hidden_;
+    backdrop_filter<texel_pack> backdrop_;
+    std::array<std::vector<piece>, texel_pack::size> pieces_;
+};
+
+} // namespace gnomon::renderer

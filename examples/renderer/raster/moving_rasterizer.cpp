@@ -1,0 +1,347 @@
+#include "moving_rasterizer.hpp"
+
+#include "moving_lists.hpp"
+#include "moving_tiles.hpp"
+
+#include <gnomon/passes/range/join.hpp>
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+namespace gnomon::renderer {
+
+namespace {
+
+using map = range_map<float>;
+
+constexpr std::size_t texels_per_tile = map::texels_per_tile, packs_per_tile = moving_samples::packs_per_tile;
+constexpr std::size_t long_lists = 256 * texel_pack::size; // ranges of a pack
+
+// What a tile needs, and what becomes of it.
+struct tile_lists {
+    tile_members members;
+    texel_lists texels; // that are worked at
+    range_counts counts;
+    stack<depth_time_range<float>> lists; // in the order of texels
+    std::array<std::uint32_t, texels_per_tile> sizes;
+};
+
+// Where a triangle is seen by samples, and what becomes of that. Large things go by value to functions that are called
+// rarely: they need no memory elsewhere.
+struct sighting {
+    const tile_triangle& triangle;
+    const moving_samples& samples;
+    float tolerance;
+    texel_lists& to;
+};
+
+// Ranges whose depth is further from its line than the tolerance, in pieces (Palmer 2011, chapter 5).
+[[gnu::noinline]] void add_pieces(const sighting& at, xsimd::batch_bool<float> bent, depth_curve<texel_pack> curve,
+                                  texel_pack opening, texel_pack closing)
+{
+    texel_pack passed = gnomon_select(bent, texel_pack(0.f), texel_pack(1.f));
+    while (gnomon_any(passed < texel_pack(1.f))) {
+        const depth_piece<texel_pack> piece =
+            depth_curve_piece(curve, opening, closing, passed, texel_pack(at.tolerance));
+        at.to.add(passed < texel_pack(1.f) && piece.t0 < piece.t1, {piece.t0, piece.t1, piece.z0, piece.z1},
+                  float(at.triangle.setup().number));
+        passed = piece.passed;
+    }
+}
+
+// A range of those lanes that have it, in pieces where its depth bends.
+template <class Sight>
+GNOMON_INLINE void add_range(const sighting& at, const Sight& sight, const xsimd::batch_bool<float>& exists,
+                             const texel_pack& opening, const texel_pack& closing)
+{
+    const auto id = float(at.triangle.setup().number);
+    if (!(at.tolerance > 0)) {
+        at.to.add(exists, {opening, closing, sight.depth(opening), sight.depth(closing)}, id);
+        return;
+    }
+    const depth_line<texel_pack> line = sight.line(opening, closing);
+    const auto bent = exists && texel_pack(at.tolerance) < line.deviation;
+    if (gnomon_any(bent)) add_pieces(at, bent, sight.curve, opening, closing);
+    at.to.add(exists && !bent, {opening, closing, line.z0, line.z1}, id);
+}
+
+// Adds the parts of an interval in which a triangle that passes the near or the far plane is between them.
+template <class Sight>
+[[gnu::noinline]] std::uint64_t add_between_planes(const sighting& at, Sight sight, xsimd::batch_bool<float> exists,
+                                                   texel_pack opening, texel_pack closing, float facing)
+{
+    // Depths at or beyond a plane are limited to it.
+    const texel_pack one(1.f);
+    const depth_line<texel_pack> line = sight.line(opening, closing);
+    const auto inside = gnomon_max(line.z0, line.z1) + line.deviation < one &&
+                        texel_pack(-1.f) < gnomon_min(line.z0, line.z1) - line.deviation;
+    if (!gnomon_any(exists && !inside)) {
+        add_range(at, sight, exists, opening, closing);
+        return bits_of(exists);
+    }
+    const edge_times<texel_pack> beyond = depth_times_beyond(sight.curve, texel_pack(-1.f), texel_pack(facing)),
+                                 before = depth_times_before(sight.curve, one, texel_pack(facing));
+    std::uint64_t seen = 0;
+    for (const float i : {0.f, 1.f})
+        for (const float k : {0.f, 1.f}) {
+            linear_times<texel_pack> part = edge_times_part(beyond, texel_pack(i), opening, closing);
+            part = edge_times_part(before, texel_pack(k), part.begin, part.end);
+            const auto there = exists && part.begin < part.end;
+            if (!gnomon_any(there)) continue;
+            add_range(at, sight, there, part.begin, part.end);
+            seen |= bits_of(there);
+        }
+    return seen;
+}
+
+// Adds an interval of those lanes that have it. Returns which are in the picture, a bit for each.
+template <class Sight>
+GNOMON_INLINE std::uint64_t add_interval(const sighting& at, const Sight& sight, xsimd::batch_bool<float> exists,
+                                         const texel_pack& opening, const texel_pack& closing, float facing)
+{
+    if (!at.triangle.whole()) exists = exists && at.triangle.contains(at.samples);
+    if (!at.triangle.setup().between_planes) return add_between_planes(at, sight, exists, opening, closing, facing);
+    add_range(at, sight, exists, opening, closing);
+    return bits_of(exists);
+}
+
+[[gnu::noinline]] std::uint64_t add_further_intervals(const sighting& at, curved_sight sight,
+                                                      coverage_times<texel_pack> times, float facing)
+{
+    return add_interval(at, sight, times.count > texel_pack(1.f), times.begin1, times.end1, facing) |
+           add_interval(at, sight, times.count > texel_pack(2.f), times.begin2, times.end2, facing) |
+           add_interval(at, sight, times.count > texel_pack(3.f), times.begin3, times.end3, facing);
+}
+
+// Of one facing. Returns how many texels it covers.
+GNOMON_INLINE std::size_t add_facing(const sighting& at, const curved_sight& sight, float facing)
+{
+    const coverage_times<texel_pack> times = sight.covered(facing);
+    const auto covered = times.count > texel_pack(0.f);
+    if (!gnomon_any(covered)) return 0;
+    std::uint64_t seen = add_interval(at, sight, covered, times.begin0, times.end0, facing);
+    if (gnomon_any(times.count > texel_pack(1.f))) seen |= add_further_intervals(at, sight, times, facing);
+    return std::size_t(std::popcount(seen));
+}
+
+GNOMON_INLINE std::size_t add_facing(const sighting& at, const linear_sight& sight, float facing)
+{
+    const linear_times<texel_pack> times = sight.covered(facing);
+    const auto covered = times.begin < times.end;
+    if (!gnomon_any(covered)) return 0;
+    return std::size_t(std::popcount(add_interval(at, sight, covered, times.begin, times.end, facing)));
+}
+
+[[gnu::noinline]] std::size_t add_turned(const sighting& at)
+{
+    if (at.triangle.setup().linear) return add_facing(at, at.triangle.linear(at.samples, -1), -1);
+    return add_facing(at, at.triangle.curved(at.samples, -1), -1);
+}
+
+[[gnu::noinline]] std::size_t add_curved(const sighting& at)
+{
+    return add_facing(at, at.triangle.curved(at.samples, 1), 1);
+}
+
+// Joins ranges of one mesh.
+class mesh_joiner {
+  public:
+    mesh_joiner(const scene& world, float tolerance) : numbers_(world), tolerance_(tolerance) {}
+
+    std::span<depth_time_range<float>> operator()(std::span<depth_time_range<float>> list) const
+    {
+        return join_ranges(list, tolerance_, [&](const auto& a, const auto& b) { return mesh(a) == mesh(b); });
+    }
+
+  private:
+    std::uint32_t mesh(const depth_time_range<float>& r) const { return numbers_[std::uint32_t(r.id)].mesh; }
+
+    triangle_numbers numbers_;
+    float tolerance_;
+};
+
+void rasterize_tile(const tiled_triangles& scenery, std::size_t tile, const range_options& how,
+                    const mesh_joiner& joined, tile_lists& to)
+{
+    to.members.assign(scenery, tile, how.resolved);
+    to.counts = {};
+    to.lists.clear();
+    for (std::size_t i = 0; i < packs_per_tile; ++i) {
+        const moving_samples samples(i);
+        // Resolving compares ranges with one another, so long lists are thinned out in between.
+        std::size_t budget = how.resolved ? std::min(how.budget, long_lists) : how.budget;
+        to.texels.clear(how.resolved, how.backdrops);
+        to.members.for_each(i / moving_samples::packs_per_block, [&](const tile_triangle& triangle) {
+            const sighting at{triangle, samples, how.depth_tolerance, to.texels};
+            to.counts.tested += texel_pack::size;
+            const moving_setup& s = triangle.setup();
+            if (s.positive)
+                to.counts.pairs += s.linear ? add_facing(at, triangle.linear(samples, 1), 1) : add_curved(at);
+            if (s.negative) to.counts.pairs += add_turned(at);
+            if (to.texels.room() <= budget) return;
+            ++to.counts.early_resolves;
+            to.texels.thin_out();
+            budget = std::max(budget, 2 * to.texels.room());
+        });
+        const auto sizes = std::span(to.sizes).subspan(i * texel_pack::size).first<texel_pack::size>();
+        if (how.resolved) to.texels.append_resolved_to(to.lists, sizes, joined);
+        else to.texels.append_to(to.lists, sizes);
+    }
+}
+
+// Of each sample the nearest triangle at its time; z0 is 1 where there is none.
+void sample_instants(const tile_triangle& triangle, const moving_samples& at, const moving_tile& where, int samples,
+                     std::vector<depth_time_range<float>>& nearest)
+{
+    const moving_setup& s = triangle.setup();
+    const curved_sight sight = triangle.curved(at, 1);
+    const moving_edges<texel_pack> negative = s.negative ? triangle.curved(at, -1).edges : sight.edges;
+    const auto instant = [&](std::size_t lane, int k) -> depth_time_range<float>* {
+        const glm::ivec2 place = at.place(lane);
+        if (!triangle.contains(place)) return nullptr;
+        return &nearest[where.pixel(place) * std::size_t(samples) + std::size_t(k)];
+    };
+    for (int k = 0; k < samples; ++k) {
+        texel_lanes time{}, least, most, z;
+        for (std::size_t i = 0; i < texel_pack::size; ++i)
+            if (const auto* there = instant(i, k)) time[i] = there->t0;
+        const texel_pack t = texel_pack::load_unaligned(time.data());
+        const auto at_time = [&](const moving_edges<texel_pack>& e) {
+            return std::array{moving_edge_at(e.a, t), moving_edge_at(e.b, t), moving_edge_at(e.c, t)};
+        };
+        const auto inside = at_time(sight.edges), outside = at_time(negative);
+        gnomon_min(gnomon_min(inside[0], inside[1]), inside[2]).store_unaligned(least.data());
+        gnomon_max(gnomon_max(outside[0], outside[1]), outside[2]).store_unaligned(most.data());
+        sight.depth(t).store_unaligned(z.data());
+        for (std::size_t i = 0; i < texel_pack::size; ++i) {
+            const bool covered = (s.positive && least[i] >= 0) || (s.negative && most[i] <= 0);
+            auto* there = covered ? instant(i, k) : nullptr;
+            if (there && z[i] > -1 && z[i] < there->z0) {
+                there->z0 = there->z1 = z[i];
+                there->id = float(s.number);
+            }
+        }
+    }
+}
+
+// Past the caches, which a map does not fit in: that saves reading what is overwritten.
+void copy_to_memory(std::span<const depth_time_range<float>> from, depth_time_range<float>* to)
+{
+#ifdef __SSE2__
+    constexpr std::size_t line = sizeof(__m128i), group = std::lcm(line, sizeof *to) / sizeof *to;
+    while (!from.empty() && std::bit_cast<std::uintptr_t>(to) % line != 0) *to++ = from[0], from = from.subspan(1);
+    for (; from.size() >= group; from = from.subspan(group), to += group)
+        for (std::size_t i = 0; i < group * sizeof *to / line; ++i)
+            _mm_stream_si128(reinterpret_cast<__m128i*>(to) + i,
+                             _mm_loadu_si128(reinterpret_cast<const __m128i*>(from.data()) + i));
+    _mm_sfence();
+#endif
+    std::ranges::copy(from, to);
+}
+
+// Evenly spread bits, for times that no two samples share.
+float jitter(std::uint32_t sample)
+{
+    std::uint32_t x = sample * 0x9e3779b9u;
+    x = (x ^ (x >> 16)) * 0x21f0aaadu;
+    x = (x ^ (x >> 15)) * 0x735a2d97u;
+    return float((x ^ (x >> 15)) >> 8) * 0x1p-24f;
+}
+
+} // namespace
+
+struct range_rasterizer::scratch {
+    std::vector<tile_lists> lists; // of some tiles, one after the other
+};
+
+range_rasterizer::range_rasterizer() : scratch_(std::make_unique<scratch>()) {}
+range_rasterizer::~range_rasterizer() = default;
+
+const range_lists& range_rasterizer::operator()(const moving_scene& world, const moving_camera& eye, int width,
+                                                int height, const range_options& how)
+{
+    const tiled_triangles scenery(world, eye, width, height, how.visible);
+    const mesh_joiner joined(world.open, how.joining);
+    lists_.width = width, lists_.height = height, lists_.counts = {};
+    lists_.first.resize(map::texels(std::size_t(width), std::size_t(height)) + 1);
+    // As many tiles at a time as keep all threads busy and caches full: their lists are laid out while they are there.
+    const std::size_t wave = 2 * std::size_t(tbb::this_task_arena::max_concurrency());
+    scratch_->lists.resize(wave);
+    std::vector<std::size_t> begins(wave);
+    std::size_t end = 0;
+    for (std::size_t tile = 0; tile < scenery.tiles(); tile += wave) {
+        const std::span tiles = std::span(scratch_->lists).first(std::min(wave, scenery.tiles() - tile));
+        tbb::parallel_for(std::size_t(0), tiles.size(),
+                          [&](std::size_t i) { rasterize_tile(scenery, tile + i, how, joined, tiles[i]); });
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            begins[i] = end;
+            end += tiles[i].lists.used().size();
+            lists_.counts += tiles[i].counts;
+        }
+        if (end > std::numeric_limits<std::uint32_t>::max())
+            throw std::length_error("moving rasterizer: more than 2^32 ranges");
+        if (lists_.ranges.size() < end) lists_.ranges.resize(std::max(end, 2 * lists_.ranges.size()));
+        tbb::parallel_for(std::size_t(0), tiles.size(), [&](std::size_t i) {
+            const auto made = tiles[i].lists.used();
+            copy_to_memory(made, lists_.ranges.data() + begins[i]);
+            const auto first = lists_.first.begin() + std::ptrdiff_t((tile + i) * texels_per_tile);
+            std::exclusive_scan(tiles[i].sizes.begin(), tiles[i].sizes.end(), first, std::uint32_t(begins[i]));
+        });
+    }
+    lists_.first.back() = static_cast<std::uint32_t>(end);
+    lists_.ranges.resize(end);
+    return lists_;
+}
+
+std::vector<depth_time_range<float>> rasterize_instants(const moving_scene& world, const moving_camera& eye, int width,
+                                                        int height, int samples)
+{
+    if (samples < 1) throw std::invalid_argument("moving rasterizer: at least one sample is needed");
+    const tiled_triangles scenery(world, eye, width, height, faces::both);
+    std::vector<depth_time_range<float>> result(std::size_t(width) * std::size_t(height) * std::size_t(samples));
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const auto stratum = float(i % std::size_t(samples));
+        const float t = std::min((stratum + jitter(std::uint32_t(i))) / float(samples), 1.f);
+        result[i] = {t, t, 1, 1, 0};
+    }
+    tbb::parallel_for(std::size_t(0), scenery.tiles(), [&](std::size_t tile) {
+        tile_members members;
+        members.assign(scenery, tile);
+        for (std::size_t i = 0; i < packs_per_tile; ++i)
+            members.for_each(i / moving_samples::packs_per_block, [&, at = moving_samples(i)](const tile_triangle& t) {
+                sample_instants(t, at, scenery.tile(tile), samples, result);
+            });
+    });
+    return result;
+}
+
+std::size_t range_lists::bytes() const
+{
+    return first.size() * sizeof first[0] + ranges.size() * sizeof(depth_time_range<float>);
+}
+
+triangle_numbers::triangle_numbers(const scene& world) : begins_{0}
+{
+    for (const mesh& part : world.meshes)
+        begins_.push_back(begins_.back() + static_cast<std::uint32_t>(part.triangles.size()));
+}
+
+triangle_place triangle_numbers::operator[](std::uint32_t number) const
+{
+    const auto next = std::upper_bound(begins_.begin(), begins_.end() - 1, number);
+    const auto mesh = static_cast<std::uint32_t>(next - begins_.begin() - 1);
+    return {mesh, number - begins_[mesh]};
+}
+
+} // namespace gnomon::renderer

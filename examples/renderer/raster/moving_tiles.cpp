@@ -1,0 +1,246 @@
+#include "moving_tiles.hpp"
+
+#include <gnomon/passes/range/map.hpp>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace gnomon::renderer {
+
+namespace {
+
+constexpr int largest_extent = 1 << 14;        // texels
+constexpr std::size_t largest_count = 1 << 24; // triangles
+
+bool finite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+struct moving_view {
+    camera open, close;
+    glm::dvec2 size;
+
+    moving_vertex<double> vertex(const glm::vec3& opening, const glm::vec3& closing) const
+    {
+        const glm::dvec4 q = texel_space(open, size, opening), r = texel_space(close, size, closing);
+        return {q.x, q.y, q.z, q.w, r.x, r.y, r.z, r.w};
+    }
+};
+
+// Which sides of it are seen: the sign of the determinant of the corners' (x, y, w), a cubic in time, by its Bernstein
+// coefficients. It is the edge function across from a corner asked at this corner. One that only turns its negative
+// side is turned around.
+void set_facing(moving_setup& s, faces visible)
+{
+    const moving_vertex<double>& a = s.corners.a;
+    const edge_field<double> across = edge_field_of(s.corners.b, s.corners.c);
+    const auto open = [&](const sample_plane<double>& p) { return p.x * a.x0 + p.y * a.y0 + p.c * a.w0; };
+    const auto close = [&](const sample_plane<double>& p) { return p.x * a.x1 + p.y * a.y1 + p.c * a.w1; };
+    const auto [least, most] = std::minmax({open(across.e0), close(across.e0) + 2 * open(across.e1),
+                                            2 * close(across.e1) + open(across.e2), close(across.e2)});
+    // Texels count rows downwards: what turns its front to the eye runs clockwise.
+    s.positive = most > 0 && visible != faces::front;
+    s.negative = least < 0 && visible != faces::back;
+    if (s.positive || !s.negative) return;
+    std::swap(s.corners.b, s.corners.c);
+    std::swap(s.positive, s.negative);
+}
+
+// Where its corners are seen at both ends, and hence in between; everywhere if one is ever behind the eye.
+bool set_extent(moving_setup& s, const moving_view& from)
+{
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    glm::dvec2 low(infinity), high(-infinity);
+    double nearest = infinity, farthest = -infinity, least_w = infinity;
+    for (const moving_vertex<double>* v : {&s.corners.a, &s.corners.b, &s.corners.c}) {
+        for (const glm::dvec2& at : {glm::dvec2(v->x0, v->y0) / v->w0, glm::dvec2(v->x1, v->y1) / v->w1})
+            low = glm::min(low, at), high = glm::max(high, at);
+        nearest = std::min({nearest, v->z0, v->z1}), farthest = std::max({farthest, v->z0, v->z1});
+        least_w = std::min({least_w, v->w0, v->w1});
+    }
+    if (!(nearest <= 1) || !(farthest >= -1)) return false;
+    s.before_eye = least_w > 0;
+    s.between_planes = -1 < nearest && farthest < 1;
+    s.nearest = static_cast<float>(nearest);
+    if (!s.before_eye) low = glm::dvec2(0), high = from.size;
+    s.first = glm::ivec2(glm::clamp(glm::ceil(low - 0.5 - double(tile_triangle::margin)), glm::dvec2(0), from.size));
+    s.last =
+        glm::ivec2(glm::clamp(glm::floor(high - 0.5 + double(tile_triangle::margin)), glm::dvec2(-1), from.size - 1.0));
+    return s.first.x <= s.last.x && s.first.y <= s.last.y;
+}
+
+// What moves alike but for rounding: that of positions in float, 2^-24 of the picture's extent each. Every edge is
+// asked by itself, for both triangles that share it; only beside a vertex a crack of that size may open.
+void set_linear(moving_setup& s, const moving_view& from)
+{
+    constexpr double rounding = 0x1p-22;
+    moving_vertex<double>&a = s.corners.a, &b = s.corners.b, &c = s.corners.c;
+    if (!s.before_eye) return;
+    const double tolerance = rounding * std::max(from.size.x, from.size.y);
+    s.linear_edges = {moving_edge_bend(b, c) <= tolerance, moving_edge_bend(c, a) <= tolerance,
+                      moving_edge_bend(a, b) <= tolerance};
+    const auto [least, most] = std::minmax({a.z1 - a.z0, b.z1 - b.z0, c.z1 - c.z0});
+    s.linear = glm::all(s.linear_edges) && most - least <= rounding;
+    if (!s.linear) return;
+    for (moving_vertex<double>* v : {&a, &b, &c}) v->z1 = v->z0 + 0.5 * (least + most);
+}
+
+std::vector<moving_setup> set_up(const moving_scene& world, const moving_view& from, faces visible)
+{
+    std::vector<moving_setup> all;
+    const std::size_t triangles =
+        std::transform_reduce(world.open.meshes.begin(), world.open.meshes.end(), std::size_t(0), std::plus(),
+                              [](const mesh& part) { return part.triangles.size(); });
+    if (triangles > largest_count)
+        throw std::invalid_argument(
+            fmt::format("moving rasterizer: {} triangles, {} are possible: a number is an id, which float must hold",
+                        triangles, largest_count));
+    all.reserve(triangles);
+    std::uint32_t number = 0;
+    for (std::size_t m = 0; m < world.open.meshes.size(); ++m) {
+        const mesh& part = world.open.meshes[m];
+        std::vector<moving_vertex<double>> vertices(part.positions.size());
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const glm::vec3 &open = part.positions[i], &close = world.closing[m][i];
+            if (!finite(open) || !finite(close))
+                throw std::invalid_argument(
+                    fmt::format("moving rasterizer: vertex {} of mesh {} is not at a finite place", i, m));
+            vertices[i] = from.vertex(open, close);
+        }
+        for (const glm::uvec3& t : part.triangles) {
+            moving_setup s{};
+            s.corners = {vertices[t.x], vertices[t.y], vertices[t.z]};
+            s.number = number++;
+            if (!set_extent(s, from)) continue;
+            set_facing(s, visible);
+            if (!s.positive && !s.negative) continue;
+            set_linear(s, from);
+            all.push_back(s);
+        }
+    }
+    return all;
+}
+
+// Calls visit(tile) for those in which it is seen at some time.
+template <class Visit> void for_each_tile(const moving_setup& s, const Visit& visit)
+{
+    const glm::ivec2 low = s.first / moving_tile_size, extent = s.last / moving_tile_size - low + 1;
+    const int count = extent.x * extent.y;
+    if (count <= 2) { // it reaches into both
+        visit(low);
+        if (count == 2) visit(low + extent - 1);
+        return;
+    }
+    const glm::dvec2 origin = double(moving_tile_size) * (glm::dvec2(low) + 0.5 * glm::dvec2(extent));
+    const auto field = numbers_as<float>(moving_field_of(s.corners, origin.x, origin.y));
+    const edge_errors errors(field, s.linear_edges, 0.5f * float(moving_tile_size) * glm::vec2(extent));
+    const touched_cells touched(field, errors, s, 0.5f * float(moving_tile_size) + tile_triangle::margin);
+    const auto tile = [&](int i) { return low + glm::ivec2(i % extent.x, i / extent.x); };
+    for (int begin = 0; begin < count; begin += int(texel_pack::size)) {
+        texel_lanes x, y;
+        for (std::size_t i = 0; i < texel_pack::size; ++i) {
+            const glm::dvec2 middle = double(moving_tile_size) * (glm::dvec2(tile(begin + int(i))) + 0.5) - origin;
+            x[i] = float(middle.x), y[i] = float(middle.y);
+        }
+        for_each_bit(touched(texel_pack::load_unaligned(x.data()), texel_pack::load_unaligned(y.data())),
+                     [&](std::size_t lane) {
+                         if (begin + int(lane) < count) visit(tile(begin + int(lane)));
+                     });
+    }
+}
+
+} // namespace
+
+tiled_triangles::tiled_triangles(const moving_scene& world, const moving_camera& eye, int width, int height,
+                                 faces visible)
+    : size_(width, height), grid_((size_ + moving_tile_size - 1) / moving_tile_size)
+{
+    if (width < 1 || height < 1 || width > largest_extent || height > largest_extent)
+        throw std::invalid_argument(fmt::format("moving rasterizer: {}x{} texels, 1 to {} per side are possible", width,
+                                                height, largest_extent));
+    setups_ = set_up(world, {eye.open, eye.at(1), size_}, visible);
+    sort_into_tiles();
+}
+
+moving_tile tiled_triangles::tile(std::size_t i) const
+{
+    const glm::ivec2 corner = moving_tile_size * glm::ivec2(int(i) % grid_.x, int(i) / grid_.x);
+    return {corner, glm::min(glm::ivec2(moving_tile_size), size_ - corner), size_.x};
+}
+
+void tiled_triangles::sort_into_tiles()
+{
+    struct member {
+        std::uint32_t tile, triangle;
+    };
+    tbb::enumerable_thread_specific<std::vector<member>> local;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, setups_.size(), 64), [&](const auto& some) {
+        std::vector<member>& found = local.local();
+        for (std::size_t i = some.begin(); i < some.end(); ++i)
+            for_each_tile(setups_[i], [&](const glm::ivec2& tile) {
+                found.push_back({static_cast<std::uint32_t>(tile.y * grid_.x + tile.x), static_cast<std::uint32_t>(i)});
+            });
+    });
+    first_.assign(static_cast<std::size_t>(grid_.x * grid_.y) + 1, 0);
+    for (const auto& found : local)
+        for (const member& m : found) ++first_[m.tile];
+    begins_from_counts(first_);
+    members_.resize(first_.back());
+    std::vector<std::uint32_t> next = first_;
+    for (const auto& found : local)
+        for (const member& m : found) members_[next[m.tile]++] = m.triangle;
+    // In one order, in whichever order threads have found them.
+    tbb::parallel_for(std::size_t(0), tiles(), [&](std::size_t i) {
+        std::sort(members_.begin() + first_[i], members_.begin() + first_[i + 1]);
+    });
+}
+
+tile_triangle::tile_triangle(const moving_setup& s, const moving_tile& where)
+    : tile_triangle(s, where,
+                    moving_field_of(s.corners, double(where.corner.x) + 0.5 * moving_tile_size,
+                                    double(where.corner.y) + 0.5 * moving_tile_size))
+{}
+
+tile_triangle::tile_triangle(const moving_setup& s, const moving_tile& where, const moving_field<double>& field)
+    : setup_(&s),
+      last_(glm::min(s.last - where.corner, where.size - 1)),
+      low_(glm::max(s.first - where.corner, 0) / moving_block_size),
+      high_(last_ / moving_block_size),
+      whole_(where.size == glm::ivec2(moving_tile_size)),
+      depths_(numbers_as<float>(depth_field_of(field, s.corners)))
+{
+    wide_ = numbers_as<float>(field);
+    errors_ = {wide_, s.linear_edges, glm::vec2(0.5f * float(moving_tile_size))};
+    wide_ = widened(wide_, errors_, 1);
+}
+
+void tile_members::assign(const tiled_triangles& scenery, std::size_t tile, bool front_to_back)
+{
+    triangles_.clear();
+    touching_.clear();
+    members_.clear();
+    const moving_tile where = scenery.tile(tile);
+    scenery.for_each(tile, [&](const moving_setup& s) { members_.push_back(&s); });
+    if (front_to_back) std::ranges::stable_sort(members_, {}, &moving_setup::nearest);
+    for (const moving_setup* member : members_) {
+        const moving_setup& s = *member;
+        const std::size_t i = triangles_.size() % 64;
+        if (i == 0) touching_.emplace_back();
+        const std::uint64_t blocks = triangles_.emplace_back(s, where).blocks();
+        for_each_bit(blocks, [&](std::size_t block) { touching_.back()[block] |= std::uint64_t(1) << i; });
+    }
+}
+
+} // namespace gnomon::renderer

@@ -1,0 +1,351 @@
+#include "moving_stages.hpp"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::renderer {
+
+namespace {
+
+mesh painted(std::string name, const glm::vec3& albedo)
+{
+    return {.name = std::move(name), .albedo = albedo, .positions = {}, .normals = {}, .triangles = {}};
+}
+
+const glm::vec3 clay(0.72f, 0.45f, 0.33f), sand(0.74f, 0.66f, 0.48f), moss(0.42f, 0.58f, 0.36f), stone(0.5f);
+
+mesh moved(mesh part, const glm::vec3& by)
+{
+    for (glm::vec3& position : part.positions) position += by;
+    return part;
+}
+
+void add(moving_scene& world, const mesh& open, const mesh& closing)
+{
+    world.open.meshes.push_back(open);
+    world.closing.push_back(closing.positions);
+}
+
+void add(moving_scene& world, const mesh& open, const glm::vec3& motion) { add(world, open, moved(open, motion)); }
+
+// A level quad around its centre that can be seen from above.
+mesh level_quad(std::string name, const glm::vec3& albedo, const glm::vec3& centre, float half_x, float half_z)
+{
+    mesh result = painted(std::move(name), albedo);
+    add_quad(result, centre + glm::vec3(-half_x, 0, half_z), {2 * half_x, 0, 0}, {0, 0, -2 * half_z});
+    return result;
+}
+
+// A cube of cells x cells quads per face. Faces meet in equal corners: their coordinates are computed alike.
+void add_fine_cube(mesh& target, const glm::vec3& centre, float half, int cells)
+{
+    const auto count = static_cast<std::uint32_t>(cells);
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {-1.f, 1.f}) {
+            const auto first = static_cast<std::uint32_t>(target.positions.size());
+            for (int j = 0; j <= cells; ++j)
+                for (int i = 0; i <= cells; ++i) {
+                    glm::vec3 corner;
+                    corner[axis] = side;
+                    corner[(axis + 1) % 3] = static_cast<float>(2 * i - cells) / static_cast<float>(cells);
+                    corner[(axis + 2) % 3] = static_cast<float>(2 * j - cells) / static_cast<float>(cells);
+                    target.positions.push_back(centre + half * corner);
+                }
+            for (std::uint32_t j = 0; j < count; ++j)
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    const std::uint32_t a = first + j * (count + 1) + i, b = a + 1, c = b + count + 1, d = c - 1;
+                    if (side > 0) target.triangles.insert(target.triangles.end(), {{a, b, c}, {a, c, d}});
+                    else target.triangles.insert(target.triangles.end(), {{a, c, b}, {a, d, c}});
+                }
+        }
+}
+
+std::vector<glm::vec3> positions_at(const moving_scene& world, bool closing)
+{
+    std::vector<glm::vec3> result;
+    for (std::size_t m = 0; m < world.closing.size(); ++m) {
+        const auto& positions = closing ? world.closing[m] : world.open.meshes[m].positions;
+        result.insert(result.end(), positions.begin(), positions.end());
+    }
+    return result;
+}
+
+struct lamp {
+    glm::dvec3 open, closing;
+};
+
+struct view {
+    glm::dvec3 position, target;
+    double degrees;
+};
+
+const glm::vec3 green(0.05f, 0.6f, 0.1f), cyan(0.02f, 0.6f, 0.7f);
+
+using interests = std::vector<point_of_interest>;
+
+moving_stage staged(const moving_scene& casters, moving_scene world, const lamp& light, const view& eye, double aspect,
+                    interests places)
+{
+    moving_stage result{std::move(world), {}, {}, std::move(places)};
+    result.eye = perspective_view_from(eye.position, eye.target, bounds_of(result.world).corners(),
+                                       glm::radians(eye.degrees), aspect);
+    result.light = spot_light(casters, result.world, light.open, light.closing);
+    return result;
+}
+
+// The ground holds all casters and shadows, and a quarter as much again on each side. One of light and caster stands
+// still in each scene, so that the shadow of a corner moves on a straight line, and its ends bound it.
+moving_stage on_ground(const moving_scene& casters, const lamp& light, const view& eye, double aspect, interests places)
+{
+    bounds covered = bounds_of(casters);
+    for (const bool last : {false, true}) {
+        const glm::dvec3& from = last ? light.closing : light.open;
+        for (const glm::dvec3 corner : positions_at(casters, last))
+            covered.include(glm::vec3(from + from.y / (from.y - corner.y) * (corner - from)));
+    }
+    const glm::vec3 centre = covered.centre(), extent = covered.extent();
+    const float margin = 0.5f * std::max(extent.x, extent.z);
+    moving_scene world = casters;
+    add(world, ground({centre.x, 0, centre.z}, extent.x + margin, extent.z + margin, stone), glm::vec3(0));
+    return staged(casters, std::move(world), light, eye, aspect, std::move(places));
+}
+
+// std::uniform_real_distribution is not the same everywhere.
+class uniform {
+  public:
+    explicit uniform(std::uint32_t seed) : bits_(seed) {}
+    float operator()(float low, float high)
+    {
+        return low + (high - low) * (static_cast<float>(bits_() >> 8) * 0x1p-24f);
+    }
+
+  private:
+    std::mt19937 bits_;
+};
+
+} // namespace
+
+moving_camera spot_light(const moving_scene& casters, const moving_scene& world, const glm::dvec3& open,
+                         const glm::dvec3& closing)
+{
+    bounds directions; // unit vectors
+    for (const bool last : {false, true})
+        for (const glm::dvec3 corner : positions_at(casters, last))
+            directions.include(glm::vec3(glm::normalize(corner - (last ? closing : open))));
+    const glm::dvec3 direction(directions.centre());
+    moving_camera light{{}, closing - open};
+    double half_extent = 0, nearest = std::numeric_limits<double>::infinity(), farthest = 0;
+    for (const bool last : {false, true}) {
+        const glm::dvec3& position = last ? closing : open;
+        light.open =
+            perspective_view_from(position, position + direction, positions_at(world, last), glm::half_pi<double>(), 1);
+        nearest = std::min(nearest, light.open.near_distance);
+        farthest = std::max(farthest, light.open.far_distance);
+        // In this view at right angles 2 (u, v) - 1 is x / z and y / z, ratios of linear functions of time and so
+        // greatest at an end.
+        for (const glm::vec3& corner : positions_at(casters, last)) {
+            if (!(view_distance(light.open, corner) > 0))
+                throw std::invalid_argument("spot light: a caster is not in front of it");
+            const glm::dvec2 seen = glm::abs(2.0 * glm::dvec2(project(light.open, corner)) - 1.0);
+            half_extent = std::max({half_extent, seen.x, seen.y});
+        }
+    }
+    light.open.position = open;
+    light.open.half_extent = glm::dvec2(1.001 * half_extent); // rounding leaves no corner outside
+    light.open.near_distance = nearest, light.open.far_distance = farthest;
+    return light;
+}
+
+moving_stage pillars(double aspect)
+{
+    mesh boxes = painted("pillars", sand);
+    for (int x = -2; x <= 2; ++x)
+        for (int z = -1; z <= 1; ++z) add_box(boxes, upright({x, 0.5f, z}, {0.24f, 1, 0.24f}));
+    moving_scene casters{{"pillars", {}}, {}};
+    add(casters, boxes, glm::vec3(0));
+    return on_ground(casters, {{-3, 2.5, -0.5}, {-3, 5, -0.5}}, {{1, 5.5, 6}, {0.6, 0, 0}, 40}, aspect,
+                     {{"tips of shadows", {2.8f, 0, 1.7f}, green}});
+}
+
+moving_stage crossed_quads(double aspect)
+{
+    moving_scene casters{{"crossed quads", {}}, {}};
+    add(casters, level_quad("upper", clay, {-2, 2, 0}, 0.25f, 2), {4, 0, 0});
+    add(casters, level_quad("lower", moss, {0, 1, -2}, 2, 0.25f), {0, 0, 4});
+    return on_ground(casters, {{0, 8, 0}, {0, 8, 0}}, {{0, 7, 7}, {0, 0.5, 0}, 45}, aspect,
+                     {{"lower quad", {0, 1, 0}, green}, {"ground", {0.3f, 0, 2.1f}, cyan}});
+}
+
+moving_stage toward_and_away(double aspect)
+{
+    moving_scene casters{{"toward and away", {}}, {}};
+    add(casters, level_quad("toward", clay, {-1.2f, 0.3f, 0}, 0.5f, 0.5f), {0, 2.2f, 0});
+    add(casters, level_quad("away", moss, {1.2f, 2.5f, 0}, 0.5f, 0.5f), {0, -2.2f, 0});
+    return on_ground(casters, {{0, 6, 0}, {0, 6, 0}}, {{0, 5, 7}, {0, 0.6, 0}, 45}, aspect,
+                     {{"toward", {-2, 0, 0.3f}, green}, {"away", {2, 0, 0.3f}, cyan}});
+}
+
+moving_stage cubes_to_the_light(double aspect)
+{
+    mesh cubes = painted("cubes", clay);
+    for (const float x : {-1.f, 1.f}) add_fine_cube(cubes, {x, 0.6f, 0}, 0.5f, 22);
+    moving_scene casters{{"cubes to the light", {}}, {}};
+    add(casters, cubes, {0, 1.5f, 0});
+    return on_ground(casters, {{0, 7, 0}, {0, 7, 0}}, {{0, 4, 6}, {0, 0.9, 0}, 45}, aspect,
+                     {{"ground", {-1.8f, 0, 0.6f}, green}, {"face", {1, 1.3f, 0.5f}, cyan}});
+}
+
+moving_stage random_cubes(double aspect, int count, float longest, float half_extent)
+{
+    mesh open = painted("cubes", sand), closing = open;
+    const glm::vec3 size(2 * half_extent);
+    uniform random(1);
+    for (int i = 0; i < count; ++i) {
+        const float x = random(-4, 4), y = random(0.5f, 4.5f), z = random(-4, 4);
+        const float upwards = random(-1, 1), angle = random(0, glm::two_pi<float>()), length = random(0, longest);
+        const float level = std::sqrt(1 - upwards * upwards);
+        const glm::vec3 half_way = 0.5f * length * glm::vec3(level * std::cos(angle), upwards, level * std::sin(angle));
+        add_box(open, upright(glm::vec3(x, y, z) - half_way, size));
+        add_box(closing, upright(glm::vec3(x, y, z) + half_way, size));
+    }
+    moving_scene casters{{"random cubes", {}}, {}};
+    add(casters, open, closing);
+    return on_ground(casters, {{3, 10, 3}, {3, 10, 3}}, {{0, 8, 11}, {0, 1.5, 0}, 45}, aspect,
+                     {{"ground", {-3, 0, 2}, green}, {"cubes", {1, 2, 1}, cyan}});
+}
+
+moving_stage cube_over_plane(double aspect, float degrees, float height, float z)
+{
+    mesh cube = painted("cube", clay);
+    add_box(cube, upright({-0.75f, height, z}, glm::vec3(0.8f)));
+    moving_scene casters{{fmt::format("cube over plane, {:g} degrees", degrees), {}}, {}};
+    add(casters, cube, {1.5f, 0, 0});
+    const auto plane = [](float angle) {
+        mesh result = painted("plane", stone);
+        const glm::vec3 away(0, std::sin(angle), -std::cos(angle));
+        add_quad(result, glm::vec3(-3, 0, 0) - 3.f * away, {6, 0, 0}, 6.f * away);
+        return result;
+    };
+    const float reach = 6 / (6 - height); // of the shadow, over that of the cube from the light
+    moving_scene world = casters;
+    add(world, plane(-glm::radians(degrees)), plane(glm::radians(degrees)));
+    return staged(casters, std::move(world), {{2, 6, 1}, {2, 6, 1}}, {{0, 5, 7}, {0, 0.4, 0}, 45}, aspect,
+                  {{"shadow", {2 - 2 * reach, 0, 1 + reach * (z - 1)}, green}});
+}
+
+moving_stage fan(double aspect)
+{
+    const auto blades = [](float turn) {
+        mesh result = painted("blades", clay);
+        const float pitch = 0.25f * glm::pi<float>(), half_width = 0.25f * pitch;
+        for (std::uint32_t i = 0; i < 8; ++i) {
+            const float middle = turn + static_cast<float>(i) * pitch;
+            for (const auto& [radius, side] : {std::pair(0.2f, -1.f), {1.8f, -1.f}, {1.8f, 1.f}, {0.2f, 1.f}}) {
+                const float angle = middle + side * half_width;
+                result.positions.push_back({radius * std::cos(angle), 1.5f, -radius * std::sin(angle)});
+            }
+            result.triangles.insert(result.triangles.end(), {4 * i + glm::uvec3(0, 1, 2), 4 * i + glm::uvec3(0, 2, 3)});
+        }
+        return result;
+    };
+    moving_scene casters{{"fan", {}}, {}};
+    add(casters, blades(0), blades(glm::half_pi<float>()));
+    return on_ground(casters, {{0, 8, 0}, {0, 8, 0}}, {{0, 6, 6}, {0, 0.6, 0}, 45}, aspect,
+                     {{"rim", {0, 0, 1.8f}, green}, {"hub", {0, 0, 0.3f}, cyan}});
+}
+
+moving_stage waving_sheet(double aspect, int cells)
+{
+    const auto at = [&](float drift, float phase) {
+        mesh result = painted("sheet", moss);
+        const auto count = static_cast<std::uint32_t>(cells);
+        for (std::uint32_t j = 0; j <= count; ++j)
+            for (std::uint32_t i = 0; i <= count; ++i) {
+                const float u = static_cast<float>(i) / static_cast<float>(cells),
+                            v = static_cast<float>(j) / static_cast<float>(cells);
+                const float wave = std::sin(2 * glm::two_pi<float>() * (u + phase)) + std::sin(9 * v - 5 * u);
+                result.positions.push_back({4 * u - 2 + drift, 1.2f + 0.15f * wave, 4 * v - 2});
+                if (i == count || j == count) continue;
+                const std::uint32_t a = j * (count + 1) + i, b = a + 1, c = b + count + 1, d = c - 1;
+                result.triangles.insert(result.triangles.end(), {{a, c, b}, {a, d, c}});
+            }
+        return result;
+    };
+    moving_scene casters{{"waving sheet", {}}, {}};
+    add(casters, at(-0.1f, 0), at(0.1f, 0.1f));
+    return on_ground(casters, {{1, 8, 1}, {1, 8, 1}}, {{0, 5, 6}, {0, 0.6, 0}, 45}, aspect,
+                     {{"sheet", {0, 1.2f, 0}, green}});
+}
+
+moving_stage lit_ramp(double aspect)
+{
+    mesh ramp = painted("ramp", moss);
+    const glm::vec3 uphill = 1.5f * glm::vec3(std::cos(0.5f), std::sin(0.5f), 0), away(0, 0, -1.5f);
+    add_quad(ramp, glm::vec3(0, -0.2f, 0) - uphill - away, 2.f * uphill, 2.f * away);
+    moving_scene world{{"lit ramp", {}}, {}};
+    add(world, ramp, {0, 2, 0});
+    return staged(world, world, {{0, 7, 0}, {0, 7, 0}}, {{0, 5, 6}, {0, 0.8, 0}, 45}, aspect,
+                  {{"ramp", {0, 0.8f, 0}, green}});
+}
+
+moving_stage trapezoid(double aspect)
+{
+    moving_scene casters{{"trapezoid", {}}, {}};
+    add(casters, level_quad("bar", clay, {-1, 2, 0}, 0.25f, 1.5f), {2, 0, 0});
+    return on_ground(casters, {{0, 2000, 0}, {0, 2000, 0}}, {{0, 6, 6}, {0, 0.5, 0}, 45}, aspect,
+                     {{"slope", {1, 0, 0.8f}, green}});
+}
+
+double trapezoid_visibility(const glm::dvec3& ground_point)
+{
+    // The way to the light crosses the bar's height at (x, z), and the bar's centre runs from -1 to 1 in x.
+    const double to_height = (2000.0 - 2.0) / 2000.0;
+    const double x = std::abs(to_height * ground_point.x), z = std::abs(to_height * ground_point.z);
+    if (!(z < 1.5)) return 1;
+    return 1 - 0.5 * std::max(std::min(x + 0.25, 1.0) - (x - 0.25), 0.0);
+}
+
+moving_stage animated_model_stage(moving_scene model, double aspect)
+{
+    const auto corners = bounds_of(model).corners();
+    mesh everywhere;
+    everywhere.positions.assign(corners.begin(), corners.end());
+    const stage framed = model_stage({"", {everywhere}}, aspect);
+    add(model, framed.world.meshes.back(), glm::vec3(0));
+    return {std::move(model), framed.eye, {framed.light, glm::dvec3(0)}, {}};
+}
+
+std::span<const listed_stage> moving_stages()
+{
+    static constexpr std::array<listed_stage, 11> all{{
+        {"pillars", "pillars, the light rises", pillars},
+        {"crossed_quads", "crossed quads", crossed_quads},
+        {"toward_and_away", "toward the light and away", toward_and_away},
+        {"cubes_to_the_light", "cubes on their way to the light", cubes_to_the_light},
+        {"random_cubes", "400 random cubes", [](double aspect) { return random_cubes(aspect, 400, 0.5f); }},
+        {"cube_over_plane", "a cube over a plane", [](double aspect) { return cube_over_plane(aspect, 0, 2, 0); }},
+        {"cube_over_turning_plane", "a cube over a plane that turns",
+         [](double aspect) { return cube_over_plane(aspect, 20, 2, 0); }},
+        {"cube_near_turning_plane", "a cube close to a plane that turns a little",
+         [](double aspect) { return cube_over_plane(aspect, 5, 1, -1); }},
+        {"fan", "a fan that turns by 90 degrees", fan},
+        {"lit_ramp", "a ramp that shadows nothing", lit_ramp},
+        {"trapezoid", "a bar, known in closed form", trapezoid},
+    }};
+    return all;
+}
+
+} // namespace gnomon::renderer

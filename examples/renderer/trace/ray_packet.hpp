@@ -1,0 +1,68 @@
+// Packets of rays for the tracer. Only for it: Embree's types stay behind it.
+#pragma once
+
+#include "renderer/scene/scene.hpp"
+
+#include <embree3/rtcore.h>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace gnomon::renderer {
+
+// Rays in one packet; those of one receiver or pixel at many times are as coherent as rays can be.
+inline constexpr int packet = 16;
+
+// A moment in part i of n, chosen by the finalizer of SplitMix64.
+inline float moment(std::size_t owner, int i, int n)
+{
+    std::uint64_t bits = (static_cast<std::uint64_t>(owner) << 24) + static_cast<std::uint64_t>(i) + 1;
+    bits *= 0x9e3779b97f4a7c15u;
+    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
+    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
+    const auto jitter = static_cast<float>((bits ^ (bits >> 31)) >> 40) * 0x1p-24f;
+    return (static_cast<float>(i) + jitter) / static_cast<float>(n);
+}
+
+using mask = std::array<int, packet>; // -1 for rays that are to be traced
+
+struct way {
+    glm::vec3 origin, direction;
+    float end;
+};
+
+inline constexpr float endless = std::numeric_limits<float>::infinity();
+
+// Whether a part of the way lies within `margin` of the box: the three slabs overlap.
+inline bool crosses(const way& ray, const bounds& box, float margin)
+{
+    float enter = 0, leave = ray.end;
+    for (int i = 0; i < 3; ++i) {
+        const float a = (box.lower[i] - margin - ray.origin[i]) / ray.direction[i];
+        const float b = (box.upper[i] + margin - ray.origin[i]) / ray.direction[i];
+        enter = std::max(enter, std::min(a, b)), leave = std::min(leave, std::max(a, b));
+    }
+    return enter <= leave;
+}
+
+inline void set_ray(RTCRay16& rays, int lane, const way& ray, float time)
+{
+    rays.org_x[lane] = ray.origin.x, rays.org_y[lane] = ray.origin.y, rays.org_z[lane] = ray.origin.z;
+    rays.dir_x[lane] = ray.direction.x, rays.dir_y[lane] = ray.direction.y, rays.dir_z[lane] = ray.direction.z;
+    rays.tnear[lane] = 0, rays.tfar[lane] = ray.end;
+    rays.time[lane] = time, rays.mask[lane] = ~0u, rays.id[lane] = 0, rays.flags[lane] = 0;
+}
+
+inline RTCIntersectContext coherent()
+{
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    return context;
+}
+
+} // namespace gnomon::renderer

@@ -1,0 +1,351 @@
+#include "tracer.hpp"
+
+#include "ray_packet.hpp"
+#include "renderer/shade/shading.hpp"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+namespace gnomon::renderer {
+
+namespace {
+
+// Float positions within the bounds are exact to 6e-8 of the diagonal, Embree's intersections to a few times that.
+constexpr float relative_offset = 2e-6f;
+
+struct release {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+
+template <class T> using owned = std::unique_ptr<std::remove_pointer_t<T>, release>;
+
+template <class T>
+void upload(RTCGeometry geometry, RTCBufferType type, unsigned slot, RTCFormat format, const std::vector<T>& values)
+{
+    // Embree owns the buffer, and pads it as it needs to.
+    void* buffer = rtcSetNewGeometryBuffer(geometry, type, slot, format, sizeof(T), values.size());
+    if (!values.empty()) std::memcpy(buffer, values.data(), sizeof(T) * values.size());
+}
+
+moving_scene at_rest(const scene& world)
+{
+    moving_scene result{world, {}};
+    for (const mesh& part : world.meshes) result.closing.push_back(part.positions);
+    return result;
+}
+
+glm::vec3 unit(const glm::vec3& v)
+{
+    const float length = glm::length(v);
+    return length > 0 ? v / length : v;
+}
+
+receiver between(const receiver_course& moving, float t)
+{
+    return {glm::mix(moving.open.position, moving.closing.position, t),
+            unit(glm::mix(moving.open.normal, moving.closing.normal, t))};
+}
+
+struct corners {
+    std::array<glm::vec3, 3> at;
+
+    glm::vec3 inside(const glm::vec3& weights) const
+    {
+        return weights.x * at[0] + weights.y * at[1] + weights.z * at[2];
+    }
+    glm::vec3 normal() const
+    {
+        return unit(
+            glm::vec3(glm::cross(glm::dvec3(at[1]) - glm::dvec3(at[0]), glm::dvec3(at[2]) - glm::dvec3(at[0]))));
+    }
+};
+
+void check_samples(int samples)
+{
+    if (samples < 1) throw std::invalid_argument(fmt::format("tracer: {} moments, at least one expected", samples));
+}
+
+void check_room(std::size_t receivers, std::size_t results)
+{
+    if (receivers != results)
+        throw std::invalid_argument(fmt::format("tracer: {} receivers, room for {} results", receivers, results));
+}
+
+} // namespace
+
+struct tracer::state {
+    moving_scene world;
+    std::vector<bool> moves;
+    std::vector<bounds> swept; // all places of each mesh that moves
+    owned<RTCDevice> device{rtcNewDevice(nullptr)};
+    owned<RTCScene> scene;
+    float offset = 0;
+
+    // A spot light's ray is the segment up to the light, a directional one has no end.
+    way to_light(const receiver& from, const moving_camera& light, float time) const
+    {
+        const glm::vec3 origin = from.position + offset * from.normal;
+        if (!light.open.perspective()) return {origin, glm::vec3(-light.open.forward), endless};
+        const glm::dvec3 place = light.open.position + static_cast<double>(time) * light.motion;
+        return {origin, glm::vec3(place - glm::dvec3(origin)), 1};
+    }
+
+    // Returns the cosine between the receiver's normal and the way to the light.
+    float aim(RTCRay16& rays, int lane, const receiver& from, const moving_camera& light, float time) const
+    {
+        const way ray = to_light(from, light, time);
+        set_ray(rays, lane, ray, time);
+        return glm::dot(from.normal, unit(ray.direction));
+    }
+
+    // Whether nothing that moves comes near: then what the ray meets is the same at all times. Boxes are farther away
+    // than rounding can tell.
+    bool always_alike(const way& ray) const
+    {
+        return std::ranges::none_of(swept, [&](const bounds& box) { return crosses(ray, box, 10 * offset); });
+    }
+
+    bool always_alike(const receiver& from, const moving_camera& light) const
+    {
+        return light.motion == glm::dvec3(0) && always_alike(to_light(from, light, 0));
+    }
+
+    // Ends the rays of a packet that meet something: tfar becomes -infinity.
+    void trace(const mask& valid, RTCRay16& rays) const
+    {
+        RTCIntersectContext context = coherent();
+        rtcOccluded16(valid.data(), scene.get(), &context, &rays);
+    }
+
+    void look(const mask& valid, RTCRayHit16& rays) const
+    {
+        RTCIntersectContext context = coherent();
+        rtcIntersect16(valid.data(), scene.get(), &context, &rays);
+    }
+
+    glm::vec3 colour(const hit& seen, float sunlight) const
+    {
+        if (!seen.valid()) return daylight.background;
+        return radiance(world.open.meshes[static_cast<std::size_t>(seen.mesh)].albedo, seen.normal, sunlight);
+    }
+
+    corners triangle(std::size_t mesh, std::uint32_t index, float time) const
+    {
+        const auto& part = world.open.meshes[mesh];
+        const glm::uvec3 t = part.triangles[index];
+        corners result;
+        for (int i = 0; i < 3; ++i) {
+            const glm::vec3& open = part.positions[t[i]];
+            result.at[static_cast<std::size_t>(i)] =
+                moves[mesh] ? glm::mix(open, world.closing[mesh][t[i]], time) : open;
+        }
+        return result;
+    }
+
+    // What a ray of a packet has met on its way in this direction.
+    hit met(const RTCRayHit16& rays, int lane, const glm::dvec3& direction) const
+    {
+        hit result;
+        if (rays.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) return result;
+        const float u = rays.hit.u[lane], v = rays.hit.v[lane];
+        const corners at = triangle(rays.hit.geomID[lane], rays.hit.primID[lane], rays.ray.time[lane]);
+        result.mesh = static_cast<int>(rays.hit.geomID[lane]), result.triangle = rays.hit.primID[lane];
+        result.weights = {1 - u - v, u, v};
+        result.position = at.inside(result.weights);
+        result.normal = at.normal();
+        if (glm::dot(glm::dvec3(result.normal), direction) > 0) result.normal = -result.normal;
+        return result;
+    }
+};
+
+tracer::tracer(const renderer::scene& world) : tracer(at_rest(world)) {}
+
+tracer::tracer(moving_scene world) : state_(std::make_unique<state>())
+{
+    if (!state_->device) throw std::runtime_error("tracer: Embree has no device");
+    state_->world = std::move(world);
+    const moving_scene& all = state_->world;
+    state_->scene.reset(rtcNewScene(state_->device.get()));
+    rtcSetSceneFlags(state_->scene.get(), RTC_SCENE_FLAG_ROBUST);
+    for (std::size_t m = 0; m < all.open.meshes.size(); ++m) {
+        const mesh& part = all.open.meshes[m];
+        state_->moves.push_back(all.moves(m));
+        if (all.moves(m)) state_->swept.push_back(bounds_of(moving_scene{{"", {part}}, {all.closing[m]}}));
+        RTCGeometry geometry = rtcNewGeometry(state_->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+        rtcSetGeometryTimeStepCount(geometry, all.moves(m) ? 2 : 1);
+        upload(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, part.positions);
+        if (all.moves(m)) upload(geometry, RTC_BUFFER_TYPE_VERTEX, 1, RTC_FORMAT_FLOAT3, all.closing[m]);
+        upload(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, part.triangles);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(state_->scene.get(), geometry);
+        rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(state_->scene.get());
+    if (const bounds box = bounds_of(all); !box.empty()) state_->offset = relative_offset * glm::length(box.extent());
+    if (const RTCError error = rtcGetDeviceError(state_->device.get()); error != RTC_ERROR_NONE)
+        throw std::runtime_error(fmt::format("tracer: Embree error {}", static_cast<int>(error)));
+}
+
+tracer::~tracer() = default;
+tracer::tracer(tracer&&) noexcept = default;
+tracer& tracer::operator=(tracer&&) noexcept = default;
+
+float tracer::offset() const { return state_->offset; }
+
+void tracer::visibility(const camera& light, std::span<const receiver> receivers, std::span<float> result) const
+{
+    const std::vector<float> times(receivers.size(), 0);
+    visibility({light, glm::dvec3(0)}, receivers, times, result);
+}
+
+void tracer::visibility(const moving_camera& light, std::span<const receiver> receivers, std::span<const float> times,
+                        std::span<float> result) const
+{
+    check_room(receivers.size(), result.size());
+    if (receivers.size() != times.size())
+        throw std::invalid_argument(fmt::format("tracer: {} receivers, times for {}", receivers.size(), times.size()));
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, receivers.size(), 1024), [&](const auto& range) {
+        alignas(64) RTCRay16 rays{};
+        for (std::size_t first = range.begin(); first < range.end(); first += packet) {
+            alignas(64) mask valid{};
+            const int count = static_cast<int>(std::min<std::size_t>(packet, range.end() - first));
+            for (int i = 0; i < count; ++i) {
+                const std::size_t r = first + static_cast<std::size_t>(i);
+                state_->aim(rays, i, receivers[r], light, times[r]);
+                valid[static_cast<std::size_t>(i)] = -1;
+            }
+            state_->trace(valid, rays);
+            for (int i = 0; i < count; ++i) result[first + static_cast<std::size_t>(i)] = rays.tfar[i] < 0 ? 0.f : 1.f;
+        }
+    });
+}
+
+void tracer::mean_visibility(const moving_camera& light, std::span<const receiver_course> receivers, int samples,
+                             std::span<float> result) const
+{
+    check_room(receivers.size(), result.size());
+    check_samples(samples);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, receivers.size(), 64), [&](const auto& range) {
+        alignas(64) RTCRay16 rays{};
+        for (std::size_t r = range.begin(); r < range.end(); ++r) {
+            const receiver_course& at = receivers[r];
+            const bool one_is_all = at.open == at.closing && state_->always_alike(at.open, light);
+            const int moments = one_is_all ? 1 : samples;
+            int lit = 0;
+            for (int first = 0; first < moments; first += packet) {
+                alignas(64) mask valid{};
+                for (int i = 0; i < std::min(packet, moments - first); ++i) {
+                    const float time = moment(r, first + i, moments);
+                    if (state_->aim(rays, i, between(at, time), light, time) > 0)
+                        valid[static_cast<std::size_t>(i)] = -1;
+                }
+                state_->trace(valid, rays);
+                for (int i = 0; i < packet; ++i) lit += valid[static_cast<std::size_t>(i)] && !(rays.tfar[i] < 0);
+            }
+            result[r] = static_cast<float>(lit) / static_cast<float>(moments);
+        }
+    });
+}
+
+hit tracer::first_hit(const view_ray& ray, float time) const
+{
+    alignas(64) RTCRayHit16 query{};
+    alignas(64) const mask one{-1};
+    set_ray(query.ray, 0, {glm::vec3(ray.origin), glm::vec3(ray.direction), endless}, time);
+    query.hit.geomID[0] = RTC_INVALID_GEOMETRY_ID;
+    state_->look(one, query);
+    return state_->met(query, 0, ray.direction);
+}
+
+receiver_course tracer::receiver_of(const hit& seen, float time_of_hit) const
+{
+    const auto mesh = static_cast<std::size_t>(seen.mesh);
+    const glm::vec3 then = state_->triangle(mesh, seen.triangle, time_of_hit).normal();
+    const float side = glm::dot(then, seen.normal) < 0 ? -1.f : 1.f;
+    const auto at = [&](float time) {
+        const corners triangle = state_->triangle(mesh, seen.triangle, time);
+        return receiver{triangle.inside(seen.weights), side * triangle.normal()};
+    };
+    return {at(0), at(1)};
+}
+
+reference_picture tracer::photograph(const moving_camera& light, const camera& eye, int width, int height,
+                                     int samples) const
+{
+    check_samples(samples);
+    reference_picture result{{width, height, 1}, {width, height, 0}, {width, height}};
+    const auto expose = [&](int x, int y) {
+        const view_ray centre = ray_through(eye, {(x + 0.5) / width, (y + 0.5) / height});
+        const way ray{glm::vec3(centre.origin), glm::vec3(centre.direction), endless};
+        const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+        const bool one_hit = state_->always_alike(ray);
+        const hit only = one_hit ? first_hit(centre, 0) : hit{};
+        const bool one_is_all = one_hit && (!only.valid() || state_->always_alike({only.position, only.normal}, light));
+        const int moments = one_is_all ? 1 : samples;
+        alignas(64) RTCRayHit16 view{};
+        alignas(64) RTCRay16 rays{};
+        glm::dvec3 colour(0);
+        int covered = 0, lit = 0;
+        for (int first = 0; first < moments; first += packet) {
+            alignas(64) mask looking{}, facing{};
+            std::array<hit, packet> seen{};
+            std::array<float, packet> cosines{};
+            for (int i = 0; i < std::min(packet, moments - first); ++i) {
+                set_ray(view.ray, i, ray, moment(pixel, first + i, moments));
+                view.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+                looking[static_cast<std::size_t>(i)] = -1;
+            }
+            if (!one_hit) state_->look(looking, view);
+            for (std::size_t i = 0; i < packet; ++i) {
+                if (!looking[i]) continue;
+                const float time = view.ray.time[i];
+                seen[i] = one_hit ? only : state_->met(view, static_cast<int>(i), centre.direction);
+                if (!seen[i].valid()) continue;
+                const receiver from{seen[i].position, seen[i].normal};
+                cosines[i] = state_->aim(rays, static_cast<int>(i), from, light, time);
+                if (cosines[i] > 0) facing[i] = -1;
+            }
+            state_->trace(facing, rays);
+            for (std::size_t i = 0; i < packet; ++i) {
+                if (!looking[i]) continue;
+                const bool sunny = facing[i] && !(rays.tfar[i] < 0);
+                covered += seen[i].valid(), lit += sunny;
+                colour += state_->colour(seen[i], sunny ? cosines[i] : 0);
+            }
+        }
+        result.coverage(x, y) = static_cast<float>(covered) / static_cast<float>(moments);
+        if (covered > 0) result.visibility(x, y) = static_cast<float>(lit) / static_cast<float>(covered);
+        result.colour(x, y) = glm::vec3(colour / static_cast<double>(moments));
+    };
+    tbb::parallel_for(0, height, [&](int y) {
+        for (int x = 0; x < width; ++x) expose(x, y);
+    });
+    return result;
+}
+
+image<float> traced_visibility(const tracer& rays, const camera& light, const image<surface>& seen)
+{
+    std::vector<receiver> receivers;
+    std::vector<std::size_t> pixels;
+    for (std::size_t i = 0; i < seen.pixels.size(); ++i)
+        if (const surface& s = seen.pixels[i]; s.valid())
+            receivers.push_back({s.position, s.normal}), pixels.push_back(i);
+    std::vector<float> visible(receivers.size());
+    rays.visibility(light, receivers, visible);
+    image<float> result(seen.width, seen.height, 1);
+    for (std::size_t i = 0; i < pixels.size(); ++i) result.pixels[pixels[i]] = visible[i];
+    return result;
+}
+
+} // namespace gnomon::renderer

@@ -1,0 +1,197 @@
+// Four moments never darken: whatever a distribution on [-1, 1] and wherever the receiver,
+//     intensity <= Z(z < z_f) + the stated weight of the format and of the way to the intensity
+// after one rounding in storage, and after two filter passes that round there again. Searched by a hill climber, as are
+// the largest errors that hamburger4.h and storage/moments4.h state.
+#include "evaluation/methods/raised_pivots4.hpp"
+#include "support/climber.hpp"
+#include "support/contacts.hpp"
+#include "support/moments_of.hpp"
+#include "support/statistics.hpp"
+
+#include <gnomon/storage/moments_formats.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <string>
+
+using namespace gnomon;
+using namespace gnomon::test;
+
+namespace {
+
+using moments = moments4<float>;
+
+/// What the map of a format holds of a distribution.
+template <class Format> moments stored(const distribution& d) { return Format::decode(Format::encode(moments4_of(d))); }
+
+constexpr std::int64_t evaluations = 200'000;
+
+/// The largest intensity - Z(z < z_f) after one rounding; the search ends beyond enough.
+template <class Format, class Intensity>
+double darkest_once(std::int64_t count, Intensity intensity, double enough = HUGE_VAL)
+{
+    return climb(sight_dimensions, count, 1,
+                 [&](const std::vector<double>& place) {
+                     const sight s = sight_at(place);
+                     const double shown = double(intensity(stored<Format>(s.seen), float(s.receiver)));
+                     const double darkness = shown - s.seen.below(s.receiver);
+                     return darkness > enough ? HUGE_VAL : darkness;
+                 })
+        .score;
+}
+
+/// The same after two filter passes.
+template <class Format, class Intensity> double darkest_filtered(std::int64_t count, Intensity intensity)
+{
+    return climb(contact_dimensions, count, 2,
+                 [&](const std::vector<double>& place) {
+                     const contact s = contact_at(place);
+                     return double(intensity(filtered_moments<Format>(s), float(s.receiver))) - s.below(s.receiver);
+                 })
+        .score;
+}
+
+template <class Format> void report(const char* way, double darkness, double weight)
+{
+    std::printf("%s, %s: darkness %.3g of %.3g\n", std::string(Format::name).c_str(), way, darkness, weight);
+    CHECK(darkness <= weight);
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("a lit surface is never darkened", Format, moments4_unorm16, moments4_half, moments4_float)
+{
+    const auto once = [](moments c, float z_f) { return Format::intensity(c, z_f); };
+    const auto passes = [](moments c, float z_f) { return Format::filtered_intensity(c, z_f); };
+    report<Format>("certified, one rounding", darkest_once<Format>(evaluations, once), Format::darkening);
+    report<Format>("certified, two filter passes", darkest_filtered<Format>(evaluations, passes),
+                   Format::filtered_darkening);
+    const auto constant = [](moments c, float z_f) { return hamburger4_lower(Format::factor(c), z_f); };
+    const auto constant_passes = [](moments c, float z_f) { return hamburger4_lower(Format::filtered_factor(c), z_f); };
+    report<Format>("constant bias, one rounding", darkest_once<Format>(evaluations, constant),
+                   Format::bias_weight + stored4_arithmetic_weight);
+    report<Format>("constant bias, two filter passes", darkest_filtered<Format>(evaluations, constant_passes),
+                   Format::filtered_bias_weight + stored4_arithmetic_weight);
+}
+
+// Where noise misplaces nodes, a certificate proves little: a lit speck in a shadow that the constant bias still has.
+TEST_CASE_TEMPLATE("contact shadows have no specks", Format, moments4_unorm16, moments4_half, moments4_float)
+{
+    bit_source bits(5);
+    int specks = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        std::vector<double> place(contact_dimensions);
+        for (double& x : place) x = bits.uniform(0, 1);
+        const contact s = contact_at(place);
+        const moments c = filtered_moments<Format>(s);
+        const float z_f = float(s.receiver);
+        const float constant = hamburger4_lower(Format::filtered_factor(c), z_f);
+        specks += Format::filtered_intensity(c, z_f) < constant - 0.2f;
+    }
+    CHECK(specks == 0);
+}
+
+TEST_CASE_TEMPLATE("the climber finds what darkens: raised pivots", Format, moments4_unorm16, moments4_half,
+                   moments4_float)
+{
+    const auto darkening = [](moments c, float z_f) {
+        return hamburger4_lower(bench::hankel4_raised_from(Format{}, c), z_f);
+    };
+    CHECK(darkest_once<Format>(100 * evaluations, darkening, 0.05) > 0.05);
+}
+
+namespace {
+
+moments4<double> in_double(const moments& b) { return {double(b.b1), double(b.b2), double(b.b3), double(b.b4)}; }
+
+/// Holds the largest error that a search finds, of float against double over distributions as Format stores them, to
+/// the row of the header; error(channels, z_f), where both are of float.
+template <class Format, class Error> void climb_error(const char* header, const std::string& name, Error error)
+{
+    const summit top = climb(sight_dimensions, evaluations, 3, [&](const std::vector<double>& place) {
+        const sight s = sight_at(place);
+        return error(stored<Format>(s.seen), float(s.receiver));
+    });
+    const double stated = stated_error(header, name).maximum;
+    std::printf("%s: error %.3g of %.3g\n", name.c_str(), top.score, stated);
+    CHECK(top.score <= stated);
+}
+
+template <class Format, class Factor> void climb_bounds(const std::string& name, Factor factor)
+{
+    climb_error<Format>("moments/hamburger4.h", "float, " + name, [&](const moments& c, float z_f) {
+        const hamburger_bounds<float> r = hamburger4_bounds(factor(c), z_f);
+        const hamburger_bounds<double> exact = hamburger4_bounds(factor(in_double(c)), double(z_f));
+        return std::max(std::abs(double(r.lower) - exact.lower), std::abs(double(r.upper) - exact.upper));
+    });
+}
+
+/// Certificates, also over the families for the quantiles of their rows.
+template <class Format, class Intensity> void check_certified(const std::string& name, Intensity intensity)
+{
+    const auto error = [&](const moments& c, float z_f) {
+        return std::abs(double(intensity(c, z_f)) - intensity(in_double(c), double(z_f)));
+    };
+    climb_error<Format>("storage/moments4.h", "float, " + name, error);
+    error_sample sample;
+    distribution_source source(20170101);
+    for (int f = 0; f < family_count; ++f)
+        for (int i = 0; i < 2000; ++i) {
+            const distribution d = source.draw(family(f));
+            sample.add(error(stored<Format>(d), float(source.receiver(d))));
+        }
+    const error_row row = stated_error("storage/moments4.h", "float, " + name);
+    CHECK(sample.quantile(0.99) <= row.p99);
+    CHECK(sample.quantile(0.999) <= row.p999);
+}
+
+} // namespace
+
+TEST_CASE("stated errors of four moments in float, by climbing")
+{
+    climb_bounds<moments4_float>("hankel4_from_float", [](auto b) { return hankel4_from_float(b); });
+    climb_bounds<moments4_float>("hankel4_from_float_filtered", [](auto b) { return hankel4_from_float_filtered(b); });
+    climb_bounds<moments4_half>("hankel4_from_half", [](auto b) { return hankel4_from_half(b); });
+    climb_bounds<moments4_half>("hankel4_from_half_filtered", [](auto b) { return hankel4_from_half_filtered(b); });
+    climb_bounds<moments4_unorm16>("hankel4_from_unorm16", [](auto c) { return hankel4_from_unorm16(c); });
+    climb_bounds<moments4_unorm16>("hankel4_from_unorm16_filtered",
+                                   [](auto c) { return hankel4_from_unorm16_filtered(c); });
+    check_certified<moments4_float>("certified4_float", [](auto b, auto z) { return certified4_float(b, z); });
+    check_certified<moments4_float>("certified4_float_filtered",
+                                    [](auto b, auto z) { return certified4_float_filtered(b, z); });
+    check_certified<moments4_half>("certified4_half", [](auto b, auto z) { return certified4_half(b, z); });
+    check_certified<moments4_half>("certified4_half_filtered",
+                                   [](auto b, auto z) { return certified4_half_filtered(b, z); });
+    check_certified<moments4_unorm16>("certified4_unorm16", [](auto c, auto z) { return certified4_unorm16(c, z); });
+    check_certified<moments4_unorm16>("certified4_unorm16_filtered",
+                                      [](auto c, auto z) { return certified4_unorm16_filtered(c, z); });
+}
+
+namespace {
+
+/// Two depths in contact with the receiver on the second, as issue reports have them: what raised pivots show, and what
+/// is true.
+struct finding {
+    double first, weight, second, shows;
+};
+
+template <class Format> void check_finding(const finding& f)
+{
+    const float z_f = float(f.second);
+    const moments c = stored<Format>({{double(float(f.first)), double(z_f)}, {f.weight, 1 - f.weight}});
+    CHECK(double(hamburger4_lower(bench::hankel4_raised_from(Format{}, c), z_f)) ==
+          doctest::Approx(f.shows).epsilon(0.02));
+    CHECK(double(Format::intensity(c, z_f)) <= f.weight + Format::darkening);
+    CHECK(double(hamburger4_lower(Format::factor(c), z_f)) <=
+          f.weight + Format::bias_weight + stored4_arithmetic_weight);
+}
+
+} // namespace
+
+TEST_CASE("where raised pivots were seen to darken, nothing does")
+{
+    check_finding<moments4_unorm16>({-0.731, 0.125, -0.711, 0.889});
+    check_finding<moments4_half>({-0.821, 0.25, -0.741, 0.648});
+    check_finding<moments4_float>({0.9467, 0.25, 0.9477, 0.619});
+}

@@ -1,0 +1,92 @@
+// What the renderer's Vulkan promises: compute passes with their constants, complaints of the validation layer kept,
+// times in order, and a clear word where there is no driver.
+#include "device.hpp"
+#include "probe.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <span>
+#include <string>
+
+using namespace gnomon::renderer;
+
+TEST_CASE("a compute pass reads buffers, push constants and specialization constants")
+{
+    const auto gpu = test::device_or_skip();
+    if (!gpu) return;
+    constexpr std::uint32_t groups = 5, count = 64 * groups;
+    const vulkan::buffer input(*gpu, count * sizeof(float)), output(*gpu, count * sizeof(float));
+    const std::span<float> values = input.mapped<float>(), results = output.mapped<float>();
+    REQUIRE(values.size() == count);
+    std::iota(values.begin(), values.end(), 1.f);
+    const std::array factor{3.f};
+    const vulkan::shader code{probe, {std::bit_cast<std::uint32_t>(0.5f)}};
+    const vulkan::compute_pass pass(*gpu, code, {input, output}, sizeof(factor));
+    const vulkan::timeline times(*gpu, 3);
+    gpu->run([&](const vk::raii::CommandBuffer& commands) {
+        times.reset(commands);
+        times.mark(commands, 0);
+        pass.record(commands, {groups, 1, 1}, std::as_bytes(std::span(factor)));
+        times.mark(commands, 1);
+        times.mark(commands, 2);
+    });
+    for (std::size_t i = 0; i < count; ++i) CHECK(results[i] == 3 * values[i] + 0.5f); // small whole numbers: exact
+
+    const std::vector<double> milliseconds = times.milliseconds();
+    REQUIRE(milliseconds.size() == 2);
+    CHECK(milliseconds[0] > 0);
+    CHECK(milliseconds[1] >= 0);
+    CHECK(gpu->complaints().empty());
+}
+
+TEST_CASE("complaints of the validation layer are kept")
+{
+    const auto gpu = test::device_or_skip();
+    if (!gpu) return;
+    const vk::raii::Buffer of_no_use(gpu->handle(), {{}, 64, {}});
+    REQUIRE(gpu->complaints().size() == 1);
+    CHECK(gpu->complaints().front().find("VUID-VkBufferCreateInfo-usage") != std::string::npos);
+}
+
+TEST_CASE("mip levels are means, and a copy has the rows of level 0")
+{
+    const auto gpu = test::device_or_skip();
+    if (!gpu) return;
+    using usage = vk::ImageUsageFlagBits;
+    const vulkan::image whole(*gpu, vk::Format::eR32Sfloat, {8, 4},
+                              usage::eSampled | usage::eTransferSrc | usage::eTransferDst, 4);
+    const vulkan::buffer top(*gpu, 32 * sizeof(float), vk::BufferUsageFlagBits::eTransferSrc);
+    const vulkan::buffer again(*gpu, 32 * sizeof(float), vk::BufferUsageFlagBits::eTransferDst);
+    const vulkan::buffer last(*gpu, sizeof(float), vk::BufferUsageFlagBits::eTransferDst);
+    const std::span<float> values = top.mapped<float>();
+    std::iota(values.begin(), values.end(), 0.f);
+    gpu->run([&](const vk::raii::CommandBuffer& commands) {
+        const auto part = [](std::uint32_t level, std::uint32_t width, std::uint32_t height) {
+            return vk::BufferImageCopy(0, 0, 0, {vk::ImageAspectFlagBits::eColor, level, 0, 1}, {}, {width, height, 1});
+        };
+        commands.copyBufferToImage(top.handle(), whole.handle(), vk::ImageLayout::eGeneral, part(0, 8, 4));
+        vulkan::barrier(commands);
+        vulkan::build_mips(commands, whole);
+        vulkan::copy(commands, whole, again);
+        commands.copyImageToBuffer(whole.handle(), vk::ImageLayout::eGeneral, last.handle(), part(3, 1, 1));
+    });
+    CHECK(std::ranges::equal(again.mapped<float>(), values));
+    CHECK(last.mapped<float>().front() == 15.5f); // whole numbers and halves: exact
+    CHECK(gpu->complaints().empty());
+}
+
+TEST_CASE("without a driver the device says so")
+{
+    for (const char* variable : {"VK_ICD_FILENAMES", "VK_DRIVER_FILES"}) {
+        const char* earlier = std::getenv(variable);
+        const std::string kept = earlier ? earlier : "";
+        setenv(variable, "/nowhere.json", 1);
+        CHECK_THROWS_AS(vulkan::device(), vulkan::unavailable);
+        if (earlier) setenv(variable, kept.c_str(), 1);
+        else unsetenv(variable);
+    }
+}
