@@ -12,7 +12,7 @@ PRELUDE = re.compile(HEAD + r"(?P<rest>.*)#endif\n", re.DOTALL)
 MACRO = re.compile(r"#define (GNOMON_\w+|Real)(?:\(([^)]*)\))?(?: (.*))?")
 NUMBER = r"-?\d+(?:\.\d*)?(?:e[+-]?\d+)?"
 CONSTANT = re.compile(r"^GNOMON_CONSTANT\((\w+),.*\n", re.MULTILINE)
-DEFINED = re.compile(r"^GNOMON_(?:(?:LIST_)?KERNEL\s+(?:GNOMON_(?:LIST_)?T\(\w+\)|\w+)\s+|(?:LIST_)?STRUCT |CONSTANT\()(\w+)",
+DEFINED = re.compile(r"^GNOMON_(?:(?:LIST_)?KERNEL\s+(?:GNOMON_(?:LIST_)?T\(\w+\)|\w+)\s+|(?:LIST_)?STRUCT\(|CONSTANT\()(\w+)",
                      re.MULTILINE)
 DECIDED = re.compile(r"^( *)if \((?:(true|false)|(\d+) > (\d+))\) \{\n(.*?)^\1\}(?: else \{\n(.*?)^\1\})?\n",
                      re.DOTALL | re.MULTILINE)
@@ -110,7 +110,8 @@ class Prelude:
                 prelude.frame.append(block) # on this word the compiler decides: it stays a macro, for as long as the package
                 continue
             for name, parameters, value in MACRO.findall(code):
-                prelude.macros[name] = parameters.split(", ") if parameters else None, re.sub(r"\bgnomon::", "", value)
+                value = re.sub(r"\bgnomon::", "", value).replace("; ", ";\n") # statements on lines of their own
+                prelude.macros[name] = parameters.split(", ") if parameters else None, value
             if re.sub(r"^(#define .*|typedef float Real;)\n", "", code, flags=re.MULTILINE):
                 prelude.blocks.append(block)
         return prelude

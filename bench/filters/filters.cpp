@@ -34,8 +34,8 @@ std::vector<std::array<double, n + 1>> averages(std::size_t count, std::uint64_t
 struct algorithm1 : moments_and_receiver<4>, compilation {
     template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
     {
-        const moments4<Real> b = moments4_biased(moments4<Real>{b1, b2, b3, b4}, literal<Real>(bias4_raw_b2),
-                                                 literal<Real>(bias4_raw_b4), literal<Real>(stored4_float_weight));
+        const moments4<Real> b = moments4_add_bias(moments4<Real>{b1, b2, b3, b4}, literal<Real>(bias4_raw_b2),
+                                                   literal<Real>(bias4_raw_b4), literal<Real>(stored4_float_weight));
         return hamburger4_cholesky_intensity(b, z_f);
     }
 };

@@ -87,10 +87,10 @@ struct receiver_behind : path_and_range {
     {
         using real = std::common_type_t<Reals...>;
         const std::array<real, 16> x{operands...};
-        const range_total<real> total{x[13], x[13], x[12], real(3)};
+        const range_summary<real> total{x[13], x[13], x[12], real(3)};
         const auto state = static_receiver_begin(x[2], x[4], real(0), real(1));
         const real behind = static_receiver_is_behind(state, total);
-        return behind * static_receiver_end(static_receiver_add_total(state, total));
+        return behind * static_receiver_end(static_receiver_add_summary(state, total));
     }
 };
 

@@ -108,11 +108,11 @@ struct prism_pairs : triangle_and_sample {
     {
         using real = std::common_type_t<Reals...>;
         const std::array<real, 26> x{operands...};
-        const prism<real> p = prism_of(triangle(x), real(1));
+        const prism<real> p = prism_make(triangle(x), real(1));
         prism_pair<real> pair = prism_pair_begin(real(0));
         real k = real(0);
         for (int i = 0; i < 14; ++i, k = k + real(1))
-            pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_of(p, k), x[24], x[25], real(1)));
+            pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_make(p, k), x[24], x[25], real(1)));
         const prism_ranges<real> ranges = prism_pair_end(pair);
         return range_duration(ranges.first) + range_duration(ranges.second);
     }
@@ -127,9 +127,9 @@ struct field_and_sample : compilation {
         const auto triangles = triangle_and_sample::samples(count, seed);
         for (std::size_t i = 0; i < count; ++i) {
             const moving_triangle<double> m = triangle_and_sample::triangle(triangles[i]);
-            const moving_field<double> field = moving_field_of(m, triangles[i][24], triangles[i][25]);
-            const auto edges = std::bit_cast<std::array<double, 9>>(moving_field_edges(field, 0.0, 0.0));
-            const auto depths = std::bit_cast<std::array<double, 16>>(depth_field_of(field, m));
+            const triangle_setup<double> field = triangle_setup_make(m, triangles[i][24], triangles[i][25]);
+            const auto edges = std::bit_cast<std::array<double, 9>>(triangle_setup_edges(field, 0.0, 0.0));
+            const auto depths = std::bit_cast<std::array<double, 16>>(depth_setup_make(field, m));
             auto at = std::copy(edges.begin(), edges.end(), result[i].begin());
             at = std::copy(depths.begin(), depths.end(), at);
             *at++ = 0;
@@ -148,7 +148,7 @@ struct field_and_sample : compilation {
         const auto plane = [&](std::size_t k) GNOMON_BENCH_INLINE {
             return sample_plane<Real>{x[k], x[k + 1], x[k + 2]};
         };
-        const depth_field<Real> field{plane(9), plane(12), plane(15), plane(18), x[21], x[22], x[23], x[24]};
+        const depth_setup<Real> field{plane(9), plane(12), plane(15), plane(18), x[21], x[22], x[23], x[24]};
         return moving_depth_curve(field, edges(x), x[25], x[26]);
     }
     template <class Real>
@@ -239,23 +239,23 @@ struct translated_field : compilation {
                 x += (v->x0 + v->x1) / (m.a.w0 + m.a.w1) / 3, y += (v->y0 + v->y1) / (m.a.w0 + m.a.w1) / 3;
             }
             if (moving_edge_at(moving_triangle_edges(m, x, y).a, 0.5) < 0) std::swap(m.b, m.c);
-            const moving_field<double> field = moving_field_of(m, x, y);
+            const triangle_setup<double> field = triangle_setup_make(m, x, y);
             const auto edges = std::bit_cast<std::array<double, 27>>(field);
-            const auto depths = std::bit_cast<std::array<double, 16>>(depth_field_of(field, m));
+            const auto depths = std::bit_cast<std::array<double, 16>>(depth_setup_make(field, m));
             std::copy(depths.begin(), depths.end(), std::copy(edges.begin(), edges.end(), result[i].begin()));
         }
         return result;
     }
 
-    template <class Real> static GNOMON_INLINE constexpr moving_field<Real> edges(const std::array<Real, inputs>& x)
+    template <class Real> static GNOMON_INLINE constexpr triangle_setup<Real> edges(const std::array<Real, inputs>& x)
     {
         const auto edge = [&](std::size_t k) GNOMON_BENCH_INLINE {
-            return edge_field<Real>{
+            return edge_equation<Real>{
                 {x[k], x[k + 1], x[k + 2]}, {x[k + 3], x[k + 4], x[k + 5]}, {x[k + 6], x[k + 7], x[k + 8]}};
         };
         return {edge(0), edge(9), edge(18)};
     }
-    template <class Real> static GNOMON_INLINE constexpr depth_field<Real> depths(const std::array<Real, inputs>& x)
+    template <class Real> static GNOMON_INLINE constexpr depth_setup<Real> depths(const std::array<Real, inputs>& x)
     {
         const auto plane = [&](std::size_t k) GNOMON_BENCH_INLINE {
             return sample_plane<Real>{x[k], x[k + 1], x[k + 2]};
@@ -270,9 +270,9 @@ struct any_sight : translated_field {
     {
         using real = std::common_type_t<Reals...>;
         const std::array<real, inputs> x{operands...};
-        const moving_edges<real> e = moving_field_edges(edges(x), x[43], x[44]);
+        const moving_edges<real> e = triangle_setup_edges(edges(x), x[43], x[44]);
         const depth_curve<real> depth = moving_depth_curve(depths(x), e, x[43], x[44]);
-        const coverage_times<real> times = moving_coverage(e, real(1));
+        const coverage_intervals<real> times = moving_coverage(e, real(1));
         return coverage_duration(times) + depth_curve_at(depth, times.begin0) + depth_curve_at(depth, times.end0);
     }
 };
@@ -283,9 +283,9 @@ struct translated_sight : translated_field {
     {
         using real = std::common_type_t<Reals...>;
         const std::array<real, inputs> x{operands...};
-        const moving_edges<real> e = linear_field_edges(edges(x), x[43], x[44]);
+        const moving_edges<real> e = triangle_setup_edges_linear(edges(x), x[43], x[44]);
         const depth_curve<real> depth = moving_depth_curve(depths(x), e, x[43], x[44]);
-        const linear_times<real> times = linear_coverage(e);
+        const linear_interval<real> times = linear_coverage(e);
         return gnomon_max(times.end - times.begin, real(0)) + linear_depth_at(depth, times.begin) +
                linear_depth_at(depth, times.end);
     }

@@ -1,5 +1,5 @@
 // Receivers in a map of ranges that no cache holds: squares that cross it at random, seen by receivers among them. The
-// baseline is the fold of the kernels, tap after tap and list after list, as moving_shadow and static_shadow were.
+// baseline is the fold of the kernels, tap after tap and list after list, as moving_intensity and static_intensity were.
 #define GNOMON_BENCH_ARITHMETIC exact
 #include "core/measure.hpp"
 #include "support/hostile.hpp"
@@ -72,7 +72,7 @@ class squares_map {
             const receiver_path<float> path{{0, 1, z, z + number(-0.1f, 0.1f), float(squares)}, x, y, 1, u, v, 1};
             paths_.push_back(path);
             placed_.push_back({x, y, static_receiver_begin(z, float(squares), 0.f, 1.f)});
-            const auto shifted = receiver_path_shifted(path, -0.5f, -0.5f);
+            const auto shifted = receiver_path_shift(path, -0.5f, -0.5f);
             auto sweep = texel_sweep_over(shifted, -1.f, -1.f, float(side), float(side));
             for (++cells_; sweep.t_end < sweep.t_last; ++cells_) sweep = texel_sweep_next(sweep);
         }
@@ -86,7 +86,7 @@ class squares_map {
     template <class... Add> work moving(const range_map<float>& map, const Add&... add)
     {
         return each(cells_ / receivers,
-                    [=, this](std::size_t i) { shadows_[i] = moving_shadow(map, paths_[i], 0.f, 1.f, 1, add...); });
+                    [=, this](std::size_t i) { shadows_[i] = moving_intensity(map, paths_[i], 0.f, 1.f, 1, add...); });
     }
     work moving_by_fold()
     {
@@ -100,7 +100,7 @@ class squares_map {
     {
         return {[=, this, begin = start()]() mutable {
                     const auto next = std::span(placed_).subspan(begin, at_once);
-                    static_shadows<float>(map, next, std::span(shadows_).subspan(begin, at_once));
+                    static_intensities<float>(map, next, std::span(shadows_).subspan(begin, at_once));
                     begin = (begin + at_once) % receivers;
                 },
                 double(at_once)};
@@ -111,7 +111,7 @@ class squares_map {
             const auto add = [](const static_receiver<float>& s, const depth_time_range<float>& r) {
                 return static_receiver_add_box(s, r);
             };
-            shadows_[i] = static_shadow(lists(), placed_[i].x, placed_[i].y, placed_[i].state, 1, add);
+            shadows_[i] = static_intensity(lists(), placed_[i].x, placed_[i].y, placed_[i].state, 1, add);
         });
     }
 
@@ -131,7 +131,7 @@ class squares_map {
     std::size_t starts_ = 0;
     std::vector<std::uint32_t> first_;
     std::vector<depth_time_range<float>> ranges_;
-    std::vector<range_total<float>> totals_;
+    std::vector<range_summary<float>> totals_;
     std::vector<receiver_path<float>> paths_;
     std::vector<placed_receiver<float>> placed_;
     std::vector<float> shadows_;

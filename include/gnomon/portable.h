@@ -3,10 +3,12 @@
 // A kernel (every .h beside this file) is one text for C++, CUDA, GLSL, HLSL, Metal and OpenCL. What differs
 // between them is spelled by the prelude, and only by it:
 //
-//   GNOMON_KERNEL, GNOMON_STRUCT     head of a function, of a struct: a template over Real where there are templates
-//   GNOMON_T(name)                   that struct for this Real
-//   GNOMON_LIST_KERNEL, _STRUCT      the same for a list of at most GNOMON_CAPACITY, of which it holds an array; the
-//   GNOMON_LIST_T(name)              capacity is a template parameter after Real, and a macro where there are none
+//   GNOMON_KERNEL                    head of a function: a template over Real in C++
+//   GNOMON_STRUCT(name)              head of a struct, a template over Real in C++
+//   GNOMON_T(name)                   that struct for this Real; not needed where a variable is initialised, whose
+//                                    type C++ deduces: double_word p = two_product(a, b);
+//   GNOMON_LIST_KERNEL, _STRUCT(name)  the same for a list of at most GNOMON_CAPACITY, of which it holds an array; the
+//   GNOMON_LIST_T(name)              capacity is a template parameter after Real in C++, a macro elsewhere
 //   GNOMON_MASK                      what a comparison of two Reals gives: bool, or one bool per lane
 //   GNOMON_SETTING                   a Real parameter that takes no part in deduction, so that packs accept scalars
 //   GNOMON_CONSTANT(name, value)     a named number; GNOMON_LITERAL(name) is that number as a Real, rounded once

@@ -67,12 +67,12 @@ TEST_CASE("Algorithm 1 agrees with counting and weighing in double")
 {
     double worst4 = 0, worst6 = 0;
     for_each_sample(1, [&](const auto& b, double z) {
-        const auto b4 = moments4_biased(four<double>(b), bias4_raw_b2, bias4_raw_b4, 1e-3);
-        const auto b6 = moments6_biased(six<double>(b), bias6_raw_b2, bias6_raw_b4, bias6_raw_b6, 1e-3);
+        const auto b4 = moments4_add_bias(four<double>(b), bias4_raw_b2, bias4_raw_b4, 1e-3);
+        const auto b6 = moments6_add_bias(six<double>(b), bias6_raw_b2, bias6_raw_b4, bias6_raw_b6, 1e-3);
         worst4 =
-            std::max(worst4, std::abs(hamburger4_cholesky_intensity(b4, z) - hamburger4_lower(hankel4_fast(b4), z)));
+            std::max(worst4, std::abs(hamburger4_cholesky_intensity(b4, z) - hamburger4_lower(hankel4_plain(b4), z)));
         worst6 =
-            std::max(worst6, std::abs(hamburger6_cholesky_intensity(b6, z) - hamburger6_lower(hankel6_fast(b6), z)));
+            std::max(worst6, std::abs(hamburger6_cholesky_intensity(b6, z) - hamburger6_lower(hankel6_plain(b6), z)));
     });
     MESSAGE("largest difference: four moments ", worst4, ", six moments ", worst6);
     CHECK(worst4 < 3e-12);
@@ -84,11 +84,11 @@ TEST_CASE("Algorithm 1 in float loses more to rounding than the default routes")
     std::vector<double> paper4, default4, paper6, default6;
     const auto paper_route4 = []<class Real>(const moments4<Real>& b, Real z) {
         return double(hamburger4_cholesky_intensity(
-            moments4_biased(b, Real(bias4_raw_paper_b2), Real(bias4_raw_paper_b4), Real(stored4_float_weight)), z));
+            moments4_add_bias(b, Real(bias4_raw_paper_b2), Real(bias4_raw_paper_b4), Real(stored4_float_weight)), z));
     };
     const auto paper_route6 = []<class Real>(const moments6<Real>& b, Real z) {
-        return double(hamburger6_cholesky_intensity(moments6_biased(b, Real(bias6_paper_b2), Real(bias6_paper_b4),
-                                                                    Real(bias6_paper_b6), Real(stored6_float_weight)),
+        return double(hamburger6_cholesky_intensity(moments6_add_bias(b, Real(bias6_paper_b2), Real(bias6_paper_b4),
+                                                                      Real(bias6_paper_b6), Real(stored6_float_weight)),
                                                     z));
     };
     const auto default_route4 = []<class Real>(const moments4<Real>& b, Real z) {

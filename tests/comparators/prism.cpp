@@ -36,7 +36,7 @@ TEST_CASE("an edge crosses itself where both of its places do")
     std::int64_t crossings = 0;
     for (std::int64_t i = 0; i < effort(100'000); ++i) {
         const auto a = lattice_vertex(bits, 8), b = lattice_vertex(bits, 8);
-        const prism_side<double> side = prism_side_of(a, b, 1.0), swapped = prism_side_of(b, a, 1.0);
+        const prism_side<double> side = prism_side_make(a, b, 1.0), swapped = prism_side_make(b, a, 1.0);
         // Each edge's ends on different sides of the other, by whole numbers.
         const auto turn = [](double px, double py, double qx, double qy, double rx, double ry) {
             return (qx - px) * (ry - py) - (qy - py) * (rx - px);
@@ -72,7 +72,7 @@ TEST_CASE("a crossing has the mean depth of what crosses")
 {
     // From (-1, 0) to (1, 0) at open, depth -1 to 0 along it; from (0.5, -3) to (0.5, 1) at close, depth 0 to 1.
     const moving_vertex<double> a{-1, 0, -1, 1, 0.5, -3, 0, 1}, b{1, 0, 0, 1, 0.5, 1, 1, 1};
-    const prism_side<double> side = prism_side_of(a, b, 1.0);
+    const prism_side<double> side = prism_side_make(a, b, 1.0);
     CHECK(side.crosses == 1);
     CHECK(side.centre.x == 0.5);
     CHECK(side.centre.y == 0);
@@ -84,7 +84,7 @@ TEST_CASE("a crossing in perspective: as deep as the edges are there in space, w
 {
     // Distances 1 to 4 and 2 to 4; on the screen as above. In space the edges are 3/7 and 3/5 of the way there.
     const moving_vertex<double> a{-1, 0, -1, 1, 1, -6, 0, 2}, b{4, 0, 0, 4, 2, 4, 1, 4};
-    const prism_side<double> linear = prism_side_of(a, b, 0.0), divided = prism_side_of(a, b, 1.0);
+    const prism_side<double> linear = prism_side_make(a, b, 0.0), divided = prism_side_make(a, b, 1.0);
     for (const auto& side : {linear, divided}) {
         CHECK(side.crosses == 1);
         CHECK(side.centre.x == 0.5);
@@ -104,7 +104,7 @@ TEST_CASE("a closed surface has an even number of fragments, on its edges and ve
     std::int64_t on_edge = 0;
     for (std::int64_t i = 0; i < effort(200'000); ++i) {
         const moving_triangle<double> m{lattice_vertex(bits, 6), lattice_vertex(bits, 6), lattice_vertex(bits, 6)};
-        const prism<double> p = prism_of(m, 1.0);
+        const prism<double> p = prism_make(m, 1.0);
         if (p.ab.crosses + p.bc.crosses + p.ca.crosses > 0) continue;
         const double s_x = double(bits.below(21)) / 4, s_y = double(bits.below(21)) / 4;
         const prism_pair<double> pair = pair_at(p, s_x, s_y);
@@ -122,7 +122,7 @@ TEST_CASE("triangles of a prism: its corners in turn, two a side where it crosse
     bit_source bits(3);
     for (std::int64_t i = 0; i < effort(20'000); ++i) {
         const moving_triangle<double> m{lattice_vertex(bits, 9), lattice_vertex(bits, 9), lattice_vertex(bits, 9)};
-        const prism<double> p = prism_of(m, 1.0);
+        const prism<double> p = prism_make(m, 1.0);
         const auto same_place = [](const prism_vertex<double>& a, const prism_vertex<double>& b) {
             return a.x == b.x && a.y == b.y && a.z == b.z && a.t == b.t && a.inverse_w == b.inverse_w;
         };
@@ -133,7 +133,7 @@ TEST_CASE("triangles of a prism: its corners in turn, two a side where it crosse
             const std::array<prism_vertex<double>, 5> loop{open[side], open[next], close[next], close[side],
                                                            open[side]};
             for (std::size_t k = 0; k < 4; ++k) {
-                const auto t = prism_triangle_of(p, double(4 * side + k));
+                const auto t = prism_triangle_make(p, double(4 * side + k));
                 const bool none = sides[side].crosses > 0 && k % 2 == 0;
                 REQUIRE(same_place(t.a, loop[k]));
                 REQUIRE(same_place(t.b, none ? t.a : loop[k + 1]));
@@ -142,10 +142,10 @@ TEST_CASE("triangles of a prism: its corners in turn, two a side where it crosse
             }
         }
         for (const auto& [k, corners] : {std::pair{12.0, open}, std::pair{13.0, close}}) {
-            const auto t = prism_triangle_of(p, k);
+            const auto t = prism_triangle_make(p, k);
             REQUIRE((same_place(t.a, corners[0]) && same_place(t.b, corners[1]) && same_place(t.c, corners[2])));
         }
-        const auto t = prism_triangle_of(p, 14.0);
+        const auto t = prism_triangle_make(p, 14.0);
         REQUIRE((same_place(t.a, t.b) && same_place(t.a, t.c)));
     }
 }
@@ -266,11 +266,11 @@ TEST_CASE_TEMPLATE("anything in: fragments and ranges within their limits", T, f
             if (kind > 0 || bits.chance(0.1)) x = kind == 1 ? hostile.special() : hostile.pattern();
         std::memcpy(&m, numbers.data(), sizeof m);
         const T divided = T(bits.chance(0.5));
-        const prism<T> p = prism_of(m, divided);
+        const prism<T> p = prism_make(m, divided);
         prism_pair<T> pair = prism_pair_begin(T(1));
         for (int k = 0; k < 15; ++k) {
             const T which = k < 14 ? T(k) : hostile.pattern();
-            prism_fragment<T> f = prism_fragment_at(prism_triangle_of(p, which), numbers[24], numbers[25], divided);
+            prism_fragment<T> f = prism_fragment_at(prism_triangle_make(p, which), numbers[24], numbers[25], divided);
             REQUIRE((f.covered == 0 || f.covered == 1));
             REQUIRE((f.time >= 0 && f.time <= 1));
             REQUIRE(std::abs(f.depth) <= 1);

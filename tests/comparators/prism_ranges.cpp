@@ -19,7 +19,7 @@ using namespace gnomon::test;
 namespace {
 
 /// The time during which just one of two says that the triangle is there.
-double disagreement(const coverage_times<double>& front, const coverage_times<double>& back,
+double disagreement(const coverage_intervals<double>& front, const coverage_intervals<double>& back,
                     const prism_ranges<double>& ranges)
 {
     std::vector<double> times{0, 1};
@@ -104,7 +104,7 @@ shares measure(motion how, std::int64_t count)
         const moving_scene scene = draw_motion(how, bits);
         const moving_edges<double> e = moving_triangle_edges(scene.triangle, scene.s_x, scene.s_y);
         const auto front = moving_coverage(e, 1.0), back = moving_coverage(e, -1.0);
-        const prism_pair<double> pair = pair_at(prism_of(scene.triangle, 1.0), scene.s_x, scene.s_y);
+        const prism_pair<double> pair = pair_at(prism_make(scene.triangle, 1.0), scene.s_x, scene.s_y);
         s.fragments += std::int64_t(pair.count);
         if (pair.count != 2 && pair.count != 4) s.unpaired += std::int64_t(pair.count);
         s.odd += std::fmod(pair.count, 2) != 0;
@@ -136,7 +136,7 @@ TEST_CASE("translations, in perspective, too: the ranges are the exact ones, wit
             if (x.count == 0 || x.end0 - x.begin0 < 1e-6 || area < 1e-3) continue;
             ++seen;
             for (const double divided : {0.0, 1.0}) {
-                const auto r = prism_pair_end(pair_at(prism_of(m, divided), scene.s_x, scene.s_y, divided));
+                const auto r = prism_pair_end(pair_at(prism_make(m, divided), scene.s_x, scene.s_y, divided));
                 REQUIRE(r.count == 1);
                 REQUIRE(std::abs(r.first.t0 - x.begin0) <= 1e-9);
                 REQUIRE(std::abs(r.first.t1 - x.end0) <= 1e-9);

@@ -43,7 +43,7 @@ TEST_CASE("receivers of accumulated maps see what the texels around them say")
     const moving_stage stage = random_cubes(1, 60, 1, 0.4f);
     const accumulated_maps maps = accumulate(stage.world, stage.light, resolution, middle_times(4));
     REQUIRE(maps.times == std::vector{0.125f, 0.375f, 0.625f, 0.875f});
-    const seen_motion seen = renderer::analytic_visibility(stage.world, stage.eye, 48, 48, 1e-3f);
+    const seen_motion seen = renderer::camera_segments(stage.world, stage.eye, 48, 48, 1e-3f);
     const seen_motion at_times = seen_at_times(seen, maps.times);
     const auto receivers = accumulated_receivers_of(at_times, stage.light, maps);
     const auto all = light_receivers_of(at_times, stage.light, resolution);

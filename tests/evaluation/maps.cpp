@@ -151,7 +151,7 @@ TEST_CASE("without backdrops, every surface of the scene gets the shadow it had"
 TEST_CASE("kinds of maps take the memory that they say, in the order that they should")
 {
     const auto& stage = cubes();
-    const auto packed = packed_ranges(resolved_ranges(stage.world, stage.light, resolution));
+    const auto packed = compact_ranges(resolved_ranges(stage.world, stage.light, resolution));
     const auto covered = covered_ranges(exact()), resolved = resolved_ranges(stage.world, stage.light, resolution),
                prisms = prism_ranges(stage.world, stage.light, resolution),
                covered_prisms = covered_prism_ranges(stage.world, stage.light, resolution);
@@ -170,9 +170,9 @@ TEST_CASE("kinds of maps take the memory that they say, in the order that they s
     CHECK(same_maps(exact(), exact_ranges(stage.world, stage.light, resolution)));
     CHECK(same_maps(prisms, prism_ranges(stage.world, stage.light, resolution)));
     CHECK(same_maps(interval_lists(exact(), 4), interval_lists(exact(), 4)));
-    CHECK(packed.spans.bodies == packed_ranges(resolved).spans.bodies);
+    CHECK(packed.spans.bodies == compact_ranges(resolved).spans.bodies);
     const auto casters = caster_ranges(stage.world, stage.light, resolution);
-    const auto packed_casters = packed_ranges(casters);
+    const auto packed_casters = compact_ranges(casters);
     CHECK(casters.bytes < resolved.bytes);
     CHECK(packed_casters.bytes < packed.bytes);
     CHECK(with_totals(casters).bytes == casters.bytes + 16 * (casters.first.size() - 1));

@@ -1,5 +1,5 @@
 // Lists in few bits: packed spans, and lists of a fixed capacity, which must not change what they promise.
-#include "evaluation/motion/packed_spans.hpp"
+#include "evaluation/motion/compact_spans.hpp"
 #include "passes/range/range_questions.hpp"
 
 #include <gnomon/motion/range/range_list.h>
@@ -54,7 +54,7 @@ TEST_CASE("lists by packs have the bits of one texel alone")
     const auto lists = interval_lists(all, 16);
     std::array<int, 3> checked{}; // of one, two and more ranges
     for (std::size_t i = 0; i < texels_of(resolution); i += 3) {
-        auto list = range_list_of<float, 16>(range_empty(0.f));
+        auto list = range_list_make<float, 16>(range_empty(0.f));
         std::vector<range> parted(list_of(all, i).begin(), list_of(all, i).end());
         part_neighbours(std::span(parted));
         for (const range& r : parted) list = range_list_insert(list, r);
@@ -72,7 +72,7 @@ TEST_CASE("packed spans are never farther than the list, and little nearer")
 {
     bit_source bits(4);
     constexpr double step = 1 / span_times;
-    packed_spans packed;
+    compact_spans packed;
     for (std::int64_t i = 0, n = effort(20'000); i < n; ++i) {
         // Long spans and ones shorter than a step, with gaps and without.
         std::vector<range> list;
@@ -87,11 +87,11 @@ TEST_CASE("packed spans are never farther than the list, and little nearer")
             t = double(t1) + (bits.below(2) ? 0 : bits.below(2) ? bits.uniform(0, 0.2) : bits.uniform(0, 2 * step));
         }
         packed.clear();
-        for (std::size_t k = bits.below(100); k > 0; --k) pack_spans(std::array{range{0, 0.5f, 0, 0, 0}}, packed);
+        for (std::size_t k = bits.below(100); k > 0; --k) compact_list(std::array{range{0, 0.5f, 0, 0, 0}}, packed);
         const std::size_t place = packed.lists.size(), before = packed.begins.size();
-        pack_spans(list, packed);
+        compact_list(list, packed);
         REQUIRE(packed.begins.size() - before <= 2 * list.size() + 1);
-        pack_spans({}, packed);
+        compact_list({}, packed);
         std::vector<range> unpacked;
         for_each_span(packed, place, [&](const range& r) { unpacked.push_back(r); });
         const auto at = [](const std::vector<range>& ranges, double time) -> const range* {
@@ -133,14 +133,14 @@ TEST_CASE("packed spans are never farther than the list, and little nearer")
             REQUIRE(depth(*p, time) >= least - 0x1p-19 - 1e-9);
         }
     }
-    CHECK_THROWS_WITH_AS(pack_spans(std::array{range{0, 1, 0, 0, 0x1p24f}}, packed),
+    CHECK_THROWS_WITH_AS(compact_list(std::array{range{0, 1, 0, 0, 0x1p24f}}, packed),
                          "packed spans: id 16777216, 0 to 16777213 are possible", std::invalid_argument);
 }
 
 TEST_CASE("packed maps are close to the resolved ones, less than half as large, and looked up as they are")
 {
     const auto resolved = with_totals(resolved_ranges(cubes().world, cubes().light, resolution));
-    const auto packed = packed_ranges(resolved);
+    const auto packed = compact_ranges(resolved);
     range_shadow_map unpacked = resolved;
     unpacked.first.clear(), unpacked.ranges.clear();
     for (std::size_t i = 0; i < texels_of(resolution); ++i) {
@@ -156,8 +156,8 @@ TEST_CASE("packed maps are close to the resolved ones, less than half as large, 
         other += found < expected - 1e-5f;
         const auto receiver = static_receiver_begin(float(bits.uniform(-1, 1.1)), -3.f, 0.f, 1.f);
         const float x = float(bits.uniform(-2, resolution + 2)), y = float(bits.uniform(-2, resolution + 2));
-        const float shadow = evaluation::static_shadow(packed, x, y, receiver);
-        REQUIRE(shadow == gnomon::static_shadow(unpacked.map(), x, y, receiver));
+        const float shadow = evaluation::static_intensity(packed, x, y, receiver);
+        REQUIRE(shadow == gnomon::static_intensity(unpacked.map(), x, y, receiver));
         shadowed += shadow > 0 && shadow < 1;
     });
     CHECK(other < asked / 200);
@@ -170,7 +170,7 @@ TEST_CASE("packed, the ranges of casters take at most a third of what all ranges
     for (const int count : {100, 200, 400, 800}) {
         const moving_stage stage = renderer::random_cubes(1, count, 0.5f);
         const auto all = exact_ranges(stage.world, stage.light, 256);
-        const auto packed = packed_ranges(caster_ranges(stage.world, stage.light, 256));
+        const auto packed = compact_ranges(caster_ranges(stage.world, stage.light, 256));
         CHECK(3 * packed.bytes <= all.bytes);
     }
 }

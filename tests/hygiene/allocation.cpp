@@ -118,9 +118,9 @@ TEST_CASE("no pass over ranges allocates")
     for (std::size_t i = 0; i < resolved.size(); ++i) some[i] = range_of<float>(loose, resolved[i]);
     sort_into_lists<float>(texels, some, first, ranges);
     const map lists{12, 9, first, ranges};
-    static_shadows<float>(lists, receivers, shadows);
-    const float shadow = static_shadow(lists, 0.5f, 0.5f, static_receiver_begin(0.f, 4.f, 0.f, 1.f)) +
-                         moving_shadow(lists, path, 0.f, 1.f) + sampled_shadow(lists, path, 0.f, 16.f);
+    static_intensities<float>(lists, receivers, shadows);
+    const float shadow = static_intensity(lists, 0.5f, 0.5f, static_receiver_begin(0.f, 4.f, 0.f, 1.f)) +
+                         moving_intensity(lists, path, 0.f, 1.f) + sampled_intensity(lists, path, 0.f, 16.f);
     CHECK(allocations == before);
     CHECK(shadow > 0);
 }

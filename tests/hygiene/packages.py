@@ -30,12 +30,12 @@ class Refused(Exception):
 
 def touch(language, kernels):
     """(definitions, statements) that make a compiler go through these kernels."""
-    if language == "opencl": # functions with neither static nor inline are compiled in any case
+    if language in ("opencl", "metal"): # functions with neither static nor inline are compiled in any case
         return "", ""
-    if language in ("c++", "metal"):
+    if language == "c++":
         instances = [f"template {typed(kernel.result, real)} {kernel.name}<{real}>"
                      f"({', '.join(typed(parameter, real) for parameter in kernel.parameters)});\n"
-                     for kernel in kernels for real in (["float", "double"] if language == "c++" else ["float"])]
+                     for kernel in kernels for real in ("float", "double")]
         return f"namespace gnomon {{\n{''.join(instances)}}}\n", ""
     calls = []
     for kernel in kernels:
@@ -53,7 +53,7 @@ def code(language, text, kernels, folder, include=None):
     """The code that a unit becomes, by function."""
     route = ROUTES[language]
     definitions, statements = touch(language, kernels)
-    plain = "#define static\n#define inline\n" if language == "opencl" else ""
+    plain = "#define static\n#define inline\n" if language in ("opencl", "metal") else ""
     output = folder / "unit.out"
     run = route.compiled(route.begin + plain + text + definitions + route.main.format(statements), output, include)
     if run.returncode:

@@ -114,8 +114,8 @@ TEST_CASE_TEMPLATE("moments of a depth, and of mixtures", T, float, double)
     for (std::int64_t i = 0; i < effort(100'000); ++i) {
         const T z = T(bits.uniform(-1, 1));
         const auto want = powers<6>(exact(z));
-        const auto four = numbers(moments4_of_depth(z));
-        const auto six = numbers(moments6_of_depth(z));
+        const auto four = numbers(moments4_from_depth(z));
+        const auto six = numbers(moments6_from_depth(z));
         for (std::size_t j = 0; j < 6; ++j)
             REQUIRE(std::abs(double(exact(six[j]) - want[j])) <=
                     roundings[j] * 1.001 * u<T> * std::abs(double(want[j])));
@@ -123,9 +123,9 @@ TEST_CASE_TEMPLATE("moments of a depth, and of mixtures", T, float, double)
 
         const T w = T(bits.uniform(0, 1)), other = T(bits.uniform(-1, 1));
         const auto mixed4 =
-            numbers(moments4_add(moments4_scale(moments4_of_depth(z), w), moments4_of_depth(other), 1 - w));
+            numbers(moments4_add(moments4_scale(moments4_from_depth(z), w), moments4_from_depth(other), 1 - w));
         const auto mixed6 =
-            numbers(moments6_add(moments6_scale(moments6_of_depth(z), w), moments6_of_depth(other), 1 - w));
+            numbers(moments6_add(moments6_scale(moments6_from_depth(z), w), moments6_from_depth(other), 1 - w));
         const auto want_other = powers<6>(exact(other));
         for (std::size_t j = 0; j < 6; ++j)
             REQUIRE(std::abs(double(exact(mixed6[j]) - (exact(w) * want[j] + (1 - exact(w)) * want_other[j]))) <=

@@ -113,11 +113,11 @@ namespace {
 
 hankel4<double> factor4(const std::array<double, 7>& b)
 {
-    return hankel4_biased(moments4<double>{b[1], b[2], b[3], b[4]}, 0, 0, 0);
+    return hankel4_constant_bias(moments4<double>{b[1], b[2], b[3], b[4]}, 0, 0, 0);
 }
 hankel6<double> factor6(const std::array<double, 7>& b)
 {
-    return hankel6_biased(moments6<double>{b[1], b[2], b[3], b[4], b[5], b[6]}, 0, 0, 0, 0);
+    return hankel6_constant_bias(moments6<double>{b[1], b[2], b[3], b[4], b[5], b[6]}, 0, 0, 0, 0);
 }
 
 // Pivots are 0, then raised to F = 2^-66, or at least 2^-34 = (1/256)^2 (1/64)^3 or so. P_k at a node is off by about

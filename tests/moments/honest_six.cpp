@@ -162,15 +162,15 @@ TEST_CASE("exact moments in double: both bounds hold within 1e-9")
             x[14] < 0.15 ? 2 * x[15] - 1 : std::clamp(depth + (x[14] < 0.3 ? 0 : any_size(x[15], 45)), -1.0, 1.0);
         double on_it = 0;
         for (std::size_t i = 0; i < count; ++i) on_it += d.depths[i] == z_f ? d.weights[i] : 0;
-        const auto r =
-            hamburger6_bounds(hankel6_biased(moments6<double>{b[0], b[1], b[2], b[3], b[4], b[5]}, 0, 0, 0, 0), z_f);
+        const auto r = hamburger6_bounds(
+            hankel6_constant_bias(moments6<double>{b[0], b[1], b[2], b[3], b[4], b[5]}, 0, 0, 0, 0), z_f);
         return std::max(r.lower - d.below(z_f), d.below(z_f) + on_it - r.upper);
     });
     std::printf("exact moments in double: outside by %.3g\n", top.score);
     CHECK(top.score <= 1e-9);
     // Depths -1/2 (weight 1/4) and 1, the receiver 2^-32 behind the first: 0.923 once.
     const auto pair =
-        hankel6_biased(moments6<double>{0.625, 0.8125, 0.71875, 0.765625, 0.7421875, 0.75390625}, 0, 0, 0, 0);
+        hankel6_constant_bias(moments6<double>{0.625, 0.8125, 0.71875, 0.765625, 0.7421875, 0.75390625}, 0, 0, 0, 0);
     CHECK(hamburger6_lower(pair, -0.5 + 0x1p-32) <= 0.25 + 1e-9);
 }
 
@@ -206,9 +206,9 @@ TEST_CASE("hankel6_minor: its stated error, by climbing")
 
 TEST_CASE("stated maxima of six moments in float, by climbing")
 {
-    climb_error<moments6_float>("float, hankel6_biased at 5e-6", [](auto b) {
+    climb_error<moments6_float>("float, hankel6_constant_bias at 5e-6", [](auto b) {
         using T = decltype(b.b1);
-        return hankel6_biased(b, T(bias6_raw_b2), T(bias6_raw_b4), T(bias6_raw_b6), T(5e-6f));
+        return hankel6_constant_bias(b, T(bias6_raw_b2), T(bias6_raw_b4), T(bias6_raw_b6), T(5e-6f));
     });
     climb_error<moments6_float>("float, hankel6_from_float", [](auto b) { return hankel6_from_float(b); });
     climb_error<moments6_float>("float, hankel6_from_float_filtered",

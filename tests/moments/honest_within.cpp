@@ -137,7 +137,7 @@ TEST_CASE("dither on store, filtered in float")
             moments sum{};
             for (std::size_t j = 0; j < 9; ++j)
                 for (std::size_t k = 0; k < 9; ++k) {
-                    moments c = theta4(moments4_of_depth(s.depths[j][k]));
+                    moments c = theta4(moments4_from_depth(s.depths[j][k]));
                     for (float* channel : {&c.b1, &c.b2, &c.b3, &c.b4})
                         *channel += float(bits.uniform(-amplitude, amplitude));
                     const moments stored = moments4_unorm16::decode(moments4_unorm16::encode_channels(c));

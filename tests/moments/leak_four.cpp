@@ -77,7 +77,7 @@ template <class Format> double shown(way w, const Format& f, const moments& c, d
             return double(hamburger4_lower(Format::factor(c), z));
         case paper:
             return double(hamburger4_lower(
-                hankel4_biased(raw(f, c), float(s.paper_bias), float(s.paper_bias), float(s.paper_weight)), z));
+                hankel4_constant_bias(raw(f, c), float(s.paper_bias), float(s.paper_bias), float(s.paper_weight)), z));
         case raised_pivots:
             return double(hamburger4_lower(bench::hankel4_raised_from(f, c), z));
     }

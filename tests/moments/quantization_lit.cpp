@@ -18,8 +18,8 @@ using namespace gnomon::test;
 
 namespace {
 
-moments4<float> moments_of_depth(const moments4<float>*, float z) { return moments4_of_depth(z); }
-moments6<float> moments_of_depth(const moments6<float>*, float z) { return moments6_of_depth(z); }
+moments4<float> moments_of_depth(const moments4<float>*, float z) { return moments4_from_depth(z); }
+moments6<float> moments_of_depth(const moments6<float>*, float z) { return moments6_from_depth(z); }
 moments4<float> scale(const moments4<float>& b, float w) { return moments4_scale(b, w); }
 moments6<float> scale(const moments6<float>& b, float w) { return moments6_scale(b, w); }
 moments4<float> add(const moments4<float>& sum, const moments4<float>& b, float w) { return moments4_add(sum, b, w); }

@@ -11,7 +11,7 @@ using namespace gnomon;
 
 TEST_CASE_TEMPLATE("glm: vec4 and moments4, vec2 and variance_moments", T, float, double)
 {
-    const moments4<T> b = moments4_of_depth(T(-0.5));
+    const moments4<T> b = moments4_from_depth(T(-0.5));
     const glm::vec<4, T> v = to_glm(b);
     CHECK(v == glm::vec<4, T>(-0.5, 0.25, -0.125, 0.0625));
     const moments4<T> halfway = from_glm<moments4<T>>(T(0.5) * (v + glm::vec<4, T>(1)));
@@ -27,10 +27,10 @@ TEST_CASE_TEMPLATE("glm: vec4 and moments4, vec2 and variance_moments", T, float
 
 TEST_CASE_TEMPLATE("eigen: vectors of four and six, and expressions of them", T, float, double)
 {
-    const Eigen::Matrix<T, 4, 1> v = to_eigen(moments4_of_depth(T(-0.5)));
+    const Eigen::Matrix<T, 4, 1> v = to_eigen(moments4_from_depth(T(-0.5)));
     CHECK(v == Eigen::Matrix<T, 4, 1>(T(-0.5), T(0.25), T(-0.125), T(0.0625)));
     const moments6<T> zero{0, 0, 0, 0, 0, 0};
-    const moments6<T> b = from_eigen<moments6<T>>(T(0.5) * (to_eigen(zero) + to_eigen(moments6_of_depth(T(-1)))));
+    const moments6<T> b = from_eigen<moments6<T>>(T(0.5) * (to_eigen(zero) + to_eigen(moments6_from_depth(T(-1)))));
     CHECK(b.b1 == T(-0.5));
     CHECK(b.b2 == T(0.5));
     CHECK(b.b5 == T(-0.5));

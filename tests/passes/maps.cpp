@@ -142,7 +142,7 @@ TEST_CASE("blur is both passes, in place too; padding stays untouched; a constan
     blur<format>(map.view, scratch.view, map.view, weights);
     for (std::size_t y = 0; y < 23; ++y)
         for (std::size_t x = 0; x < 37; ++x) REQUIRE(map.view(x, y) == second.view(x, y));
-    for (auto& t : map.texels) t = format::encode(moments4_of_depth(0.3f));
+    for (auto& t : map.texels) t = format::encode(moments4_from_depth(0.3f));
     const auto constant = map.texels;
     blur<format>(map.view, scratch.view, map.view, weights);
     CHECK(same_bytes(map.texels, constant));

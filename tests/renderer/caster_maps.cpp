@@ -83,7 +83,7 @@ TEST_CASE("caster maps keep the shadows of what is at rest, however soon lists a
     const range_lists& lists = rasterize(world_of(parts), light_above(), world_size, world_size,
                                          {.resolved = true, .backdrops = false, .budget = 8});
     CHECK(lists.counts.early_resolves > 0);
-    std::vector<range_total<float>> totals(lists.first.size() - 1);
+    std::vector<range_summary<float>> totals(lists.first.size() - 1);
     range_map<float> map = lists.map();
     set_totals(map, std::span(totals), range_ids::surfaces);
     map.totals = totals;
@@ -91,7 +91,7 @@ TEST_CASE("caster maps keep the shadows of what is at rest, however soon lists a
     for (int y = 13; y < 51; ++y)
         for (int x = 13; x < 51; ++x) {
             const auto ground_point = static_receiver_begin(0.8f, nobody, 0.f, 1.f);
-            const float shadow = static_shadow(map, float(x) + 0.5f, float(y) + 0.5f, ground_point);
+            const float shadow = static_intensity(map, float(x) + 0.5f, float(y) + 0.5f, ground_point);
             REQUIRE(shadow == doctest::Approx(1).epsilon(1e-5));
             ++below;
         }

@@ -287,7 +287,7 @@ TEST_CASE("the camera's courses are what instants see")
     const moving_scene world = any_scene(7, 8);
     const camera eye = perspective_view_from({2, 5, 6}, {0, 0, 0}, bounds_of(world).corners(), glm::radians(45.0), 1.5);
     constexpr int width = 60, height = 40, samples = 16;
-    const seen_motion analytic = analytic_visibility(world, eye, width, height, 1e-4f);
+    const seen_motion analytic = camera_segments(world, eye, width, height, 1e-4f);
     const seen_motion stochastic = stochastic_visibility(world, eye, width, height, samples);
     int asked = 0, other = 0;
     for (std::size_t pixel = 0; pixel < std::size_t(width * height); ++pixel) {
@@ -317,7 +317,7 @@ TEST_CASE("what is behind the eye or before the near plane is not seen")
     // Level, a little above the ground, in the midst of it.
     const camera eye =
         perspective_view_from({0, 0.5, 0}, {0, 0.5, -5}, bounds_of(world).corners(), glm::radians(60.0), 1);
-    const seen_motion seen = analytic_visibility(world, eye, 64, 64, 0);
+    const seen_motion seen = camera_segments(world, eye, 64, 64, 0);
     for (std::size_t pixel = 0; pixel < 64 * 64; ++pixel) {
         const std::size_t y = pixel / 64;
         if (y < 31) REQUIRE(seen(pixel).empty());

@@ -65,7 +65,7 @@ LANGUAGES = {
     "metal": Language(".metal", "#include <metal_stdlib>\n",
         "kernel void parity_{}(device const float* x [[buffer(0)]], device float* y [[buffer(1)]],\n"
         "                      uint group [[threadgroup_position_in_grid]], uint lane [[thread_index_in_threadgroup]])\n{{",
-        struct="gnomon::{}<float>", call="gnomon::{}"),
+        struct="gnomon::{}", call="gnomon::{}"),
     "essl": Language(".comp", "#version 320 es\n" + GLSL_BUFFERS, GLSL_ENTRY, load="uintBitsToFloat(x[{}])",
         store="y[{}] = floatBitsToUint({})", package="gnomon.glsl", changed=precise),
     "naga": Language(".comp", "#version 310 es\n" + GLSL_BUFFERS, GLSL_ENTRY, load="uintBitsToFloat(x[{}])",

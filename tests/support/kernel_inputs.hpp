@@ -71,10 +71,10 @@ inline constexpr input_family<T> input_families[] = {
     {"moments6", 6, [](auto put, const situation& s, bit_source&) { put(moments6_in<T>(s)); }},
     {"channels4", 4, [](auto put, const situation& s, bit_source&) { put(theta4(moments4_in<T>(s))); }},
     {"channels6", 6, [](auto put, const situation& s, bit_source&) { put(theta6(moments6_in<T>(s))); }},
-    {"covariances6", 12, [](auto put, const situation& s, bit_source&) { put(covariances6_of(moments6_in<T>(s))); }},
+    {"covariances6", 12, [](auto put, const situation& s, bit_source&) { put(covariances6_from_moments(moments6_in<T>(s))); }},
     {"certificate4", 6,
      [](auto put, const situation& s, bit_source& bits) {
-         put(certificate4_fast(any_hankel4<T>(s, bits), T(s.receiver)));
+         put(certificate4_plain(any_hankel4<T>(s, bits), T(s.receiver)));
      }},
     {"interval", 2,
      [](auto put, const situation& s, bit_source& bits) {
@@ -133,7 +133,7 @@ inline constexpr input_family<T> input_families[] = {
          put(s.receiver), put(double(bits.below(4))), put(std::min(begin, end)), put(std::max(begin, end));
          put(bits.chance(0.5) ? 1 : bits.uniform(0, 1)), put(bits.uniform(0, 1));
      }},
-    {"range_total", 4,
+    {"range_summary", 4,
      [](auto put, const situation& s, bit_source& bits) {
          put(s.texel - bits.uniform(0, 1)), put(s.texel), put(bits.uniform(0, 1)), put(double(bits.below(7)) - 2);
      }},
@@ -165,11 +165,11 @@ inline constexpr input_family<T> input_families[] = {
      [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits).triangle.a); }},
     {"sheared_vertex", 4,
      [](auto put, const situation&, bit_source& bits) {
-         put(moving_vertex_sheared(any_seen_triangle<T>(bits).triangle.a, T(bits.uniform(-1, 1)), T(0)));
+         put(moving_vertex_shear(any_seen_triangle<T>(bits).triangle.a, T(bits.uniform(-1, 1)), T(0)));
      }},
     {"moving_edge", 3, [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits).edges.a); }},
     {"moving_edges", 9, [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits).edges); }},
-    {"edge_times", 4,
+    {"edge_intervals", 4,
      [](auto put, const situation&, bit_source& bits) {
          put(moving_edge_inside(any_seen_triangle<T>(bits).edges.b, T(bits.chance(0.5) ? 1 : -1)));
      }},
@@ -177,19 +177,19 @@ inline constexpr input_family<T> input_families[] = {
      [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits)); }},
     {"sample_plane", 3,
      [](auto put, const situation&, bit_source& bits) { put(any_field_and_triangle<T>(bits).field.a.e0); }},
-    {"edge_field", 9,
+    {"edge_equation", 9,
      [](auto put, const situation&, bit_source& bits) { put(any_field_and_triangle<T>(bits).field.b); }},
-    {"moving_field", 27,
+    {"triangle_setup", 27,
      [](auto put, const situation&, bit_source& bits) { put(any_field_and_triangle<T>(bits).field); }},
     {"moving_field_and_triangle", 51,
      [](auto put, const situation&, bit_source& bits) { put(any_field_and_triangle<T>(bits)); }},
-    {"depth_field", 16, [](auto put, const situation&, bit_source& bits) { put(any_depth_field<T>(bits)); }},
+    {"depth_setup", 16, [](auto put, const situation&, bit_source& bits) { put(any_depth_field<T>(bits)); }},
     {"depth_curve", 11, [](auto put, const situation&, bit_source& bits) { put(any_depth_curve<T>(bits)); }},
     {"moving_cubic", 4,
      [](auto put, const situation& s, bit_source& bits) {
          put(depth_over_plane(any_depth_curve<T>(bits), T(s.receiver), T(bits.chance(0.5) ? 1 : -1)));
      }},
-    {"coverage_times", 9,
+    {"coverage_intervals", 9,
      [](auto put, const situation&, bit_source& bits) {
          put(moving_coverage(any_seen_triangle<T>(bits).edges, T(1)));
      }},
@@ -197,7 +197,7 @@ inline constexpr input_family<T> input_families[] = {
     {"part", 1, [](auto put, const situation&, bit_source& bits) { put(double(bits.below(14))); }},
     {"prism", 48,
      [](auto put, const situation&, bit_source& bits) {
-         put(prism_of(any_seen_triangle<T>(bits).triangle, T(bits.chance(0.5))));
+         put(prism_make(any_seen_triangle<T>(bits).triangle, T(bits.chance(0.5))));
      }},
     {"prism_vertex", 5,
      [](auto put, const situation&, bit_source& bits) {

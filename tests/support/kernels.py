@@ -35,7 +35,7 @@ class Headers:
         for header in sorted(headers):
             text = re.sub(r"//.*", "", Path(header).read_text())
             name = re.fullmatch(r".*/(gnomon/.*)", Path(header).as_posix())[1] # the clone may be in a folder gnomon, too
-            for struct, body in re.findall(r"^GNOMON_(?:LIST_)?STRUCT\s+(\w+)\s*\{([^}]*)\}", text, re.MULTILINE):
+            for struct, body in re.findall(r"^GNOMON_(?:LIST_)?STRUCT\((\w+)\)\s*\{([^}]*)\}", text, re.MULTILINE):
                 capacity = re.search(CAPACITY, text, re.MULTILINE)
                 self.structs[struct] = [(type_name(member_type), element)
                                         for member_type, members in re.findall(rf"({TYPE})\s+([\w\s,\[\]]+);", body)

@@ -32,8 +32,8 @@ template <class Format> typename Format::moments filtered_moments(const contact&
         return Format::encode_channels(sum);
     };
     const auto rendered = [](float z) {
-        if constexpr (four) return Format::encode(moments4_of_depth(z));
-        else return Format::encode(moments6_of_depth(z));
+        if constexpr (four) return Format::encode(moments4_from_depth(z));
+        else return Format::encode(moments6_from_depth(z));
     };
     std::array<typename Format::texel, 9> row{}, column{};
     for (std::size_t j = 0; j < 9; ++j) {

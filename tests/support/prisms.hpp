@@ -19,7 +19,7 @@ template <class T> struct seen_prism_triangle {
 
 template <class T> seen_prism_triangle<T> any_seen_prism_triangle(const moving_triangle<T>& m, bit_source& bits)
 {
-    const auto triangle = prism_triangle_of(prism_of(m, T(1)), T(bits.below(14)));
+    const auto triangle = prism_triangle_make(prism_make(m, T(1)), T(bits.below(14)));
     double a = bits.uniform(0, 1), b = bits.uniform(0, 1);
     if (a + b > 1) a = 1 - a, b = 1 - b;
     if (bits.chance(0.25)) a = -a;
@@ -32,7 +32,7 @@ template <class T> prism_pair<T> pair_at(const prism<T>& p, T s_x, T s_y, T divi
 {
     prism_pair<T> pair = prism_pair_begin(T(7));
     for (int k = 0; k < 14; ++k)
-        pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_of(p, T(k)), s_x, s_y, divided));
+        pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_make(p, T(k)), s_x, s_y, divided));
     return pair;
 }
 

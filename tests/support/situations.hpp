@@ -66,11 +66,11 @@ template <class T> hankel4<T> any_hankel4(const situation& s, bit_source& bits)
     const moments4<T> b = moments4_in<T>(s);
     switch (bits.below(4)) {
         case 0:
-            return hankel4_fast(b);
+            return hankel4_plain(b);
         case 1:
             return hankel4_from_half(b);
         case 2:
-            return hankel4_biased(b, T(bias4_raw_b2), T(bias4_raw_b4), T(stored4_float_weight));
+            return hankel4_constant_bias(b, T(bias4_raw_b2), T(bias4_raw_b4), T(stored4_float_weight));
         default:
             return hankel4_from_float(b);
     }
@@ -81,9 +81,9 @@ template <class T> hankel6<T> any_hankel6(const situation& s, bit_source& bits)
     const moments6<T> b = moments6_in<T>(s);
     switch (bits.below(3)) {
         case 0:
-            return hankel6_fast(b);
+            return hankel6_plain(b);
         case 1:
-            return hankel6_biased(b, T(bias6_raw_b2), T(bias6_raw_b4), T(bias6_raw_b6), T(stored6_float_weight));
+            return hankel6_constant_bias(b, T(bias6_raw_b2), T(bias6_raw_b4), T(bias6_raw_b6), T(stored6_float_weight));
         default:
             return hankel6_from_float(b);
     }
@@ -104,20 +104,20 @@ template <class T> seen_triangle<T> any_seen_triangle(bit_source& bits)
 
 /// A moving triangle and its edge functions around some origin.
 template <class T> struct field_and_triangle {
-    moving_field<T> field;
+    triangle_setup<T> field;
     moving_triangle<T> triangle;
 };
 
 template <class T> field_and_triangle<T> any_field_and_triangle(bit_source& bits)
 {
     const moving_triangle<T> m = any_seen_triangle<T>(bits).triangle;
-    return {moving_field_of(m, T(bits.uniform(-1, 1)), T(bits.uniform(-1, 1))), m};
+    return {triangle_setup_make(m, T(bits.uniform(-1, 1)), T(bits.uniform(-1, 1))), m};
 }
 
-template <class T> depth_field<T> any_depth_field(bit_source& bits)
+template <class T> depth_setup<T> any_depth_field(bit_source& bits)
 {
     const field_and_triangle<T> x = any_field_and_triangle<T>(bits);
-    return depth_field_of(x.field, x.triangle);
+    return depth_setup_make(x.field, x.triangle);
 }
 
 /// Depth at a sample near the origin.
@@ -125,7 +125,7 @@ template <class T> depth_curve<T> any_depth_curve(bit_source& bits)
 {
     const field_and_triangle<T> x = any_field_and_triangle<T>(bits);
     const T s_x = T(bits.uniform(-1, 1)), s_y = T(bits.uniform(-1, 1));
-    return moving_depth_curve(depth_field_of(x.field, x.triangle), moving_field_edges(x.field, s_x, s_y), s_x, s_y);
+    return moving_depth_curve(depth_setup_make(x.field, x.triangle), triangle_setup_edges(x.field, s_x, s_y), s_x, s_y);
 }
 
 /// A receiver on its way over some texels, by an orthographic light or by one in perspective, and as it leaves some
@@ -157,7 +157,7 @@ template <class T> seen_receiver<T> any_seen_receiver(const situation& s, bit_so
 /// A full list now and then, of few depths, so that ranges hide and meet one another.
 template <class T> range_list<T> any_range_list(const situation& s, bit_source& bits)
 {
-    range_list<T> list = range_list_of(depth_time_range<T>{});
+    range_list<T> list = range_list_make(depth_time_range<T>{});
     for (std::size_t i = bits.below(16); i > 0; --i) {
         const T z = T(bits.chance(0.2) ? s.texel : s.receiver + bits.uniform(-0.5, 0.5));
         const T other = bits.chance(0.3) ? z : T(bits.uniform(-1, 1));

@@ -1,6 +1,6 @@
 // Errors of a run and the rows that headers state about them. A row stands once, in the comment of the header that it
 // is about,
-//     error, float, hankel4_biased at 3e-7: p99 2e-5, p99.9 1e-4, max 5e-3
+//     error, float, hankel4_constant_bias at 3e-7: p99 2e-5, p99.9 1e-4, max 5e-3
 // and the test reads it there: what the comment claims is what is checked.
 #pragma once
 

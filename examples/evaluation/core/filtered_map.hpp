@@ -22,8 +22,8 @@ namespace gnomon::evaluation {
 template <class Format> typename Format::moments moments_of_depth(float z)
 {
     if constexpr (requires { Format::moments_of_depth(z); }) return Format::moments_of_depth(z);
-    else if constexpr (std::same_as<typename Format::moments, moments4<float>>) return moments4_of_depth(z);
-    else return moments6_of_depth(z);
+    else if constexpr (std::same_as<typename Format::moments, moments4<float>>) return moments4_from_depth(z);
+    else return moments6_from_depth(z);
 }
 
 template <class Format> class filtered_map {

@@ -44,7 +44,7 @@ region seen_region()
             const double weight = s.share / samples_of_surface;
             r.depths.push_back(z);
             r.weights.push_back(weight);
-            r.moments = moments6_add(r.moments, moments6_of_depth(z), weight);
+            r.moments = moments6_add(r.moments, moments6_from_depth(z), weight);
         }
     return r;
 }
@@ -121,8 +121,8 @@ void bounds(const settings& how)
                      {"weights", r.weights},
                      {"bounds",
                       {facts_of(2, two_moments{{b.b1, b.b2}}),
-                       facts_of(4, four_moments{hankel4_fast(moments4<double>{b.b1, b.b2, b.b3, b.b4})}),
-                       facts_of(6, six_moments{hankel6_fast(b)})}}};
+                       facts_of(4, four_moments{hankel4_plain(moments4<double>{b.b1, b.b2, b.b3, b.b4})}),
+                       facts_of(6, six_moments{hankel6_plain(b)})}}};
     renderer::write_file(how.out / "gallery" / "bounds" / "facts.json", facts.dump(1));
 }
 

@@ -126,8 +126,8 @@ struct msm_64_paper : filterable<moments4_unorm16, moments4> {
     template <class Real> static Real intensity(const moments4<Real>& f, Real z_f)
     {
         const auto b = theta4_inverse(f);
-        const auto biased = moments4_biased(b, literal<Real>(bias4_theta_paper_b2), literal<Real>(bias4_theta_paper_b4),
-                                            literal<Real>(6e-5));
+        const auto biased = moments4_add_bias(b, literal<Real>(bias4_theta_paper_b2),
+                                              literal<Real>(bias4_theta_paper_b4), literal<Real>(6e-5));
         return hamburger4_cholesky_intensity(biased, z_f);
     }
 };
@@ -151,7 +151,7 @@ struct msm_64_raised : filterable<moments4_unorm16, moments4> {
 
 // Moments of depth in [0, 1], as moment shadow maps had them before signed depth (Figure 4d).
 struct moments4_unit_float : moments4_float {
-    static moments moments_of_depth(float z) { return moments4_of_depth(0.5f * z + 0.5f); }
+    static moments moments_of_depth(float z) { return moments4_from_depth(0.5f * z + 0.5f); }
 };
 
 struct msm_128_unit : filterable<moments4_unit_float, moments4> {
@@ -169,8 +169,8 @@ struct msm_128_paper : filterable<moments4_float, moments4> {
     static constexpr std::string_view name = "MSM 128 bit (paper)";
     template <class Real> static Real intensity(const moments4<Real>& f, Real z_f)
     {
-        const auto biased = moments4_biased(f, literal<Real>(bias4_raw_paper_b2), literal<Real>(bias4_raw_paper_b4),
-                                            literal<Real>(3e-7));
+        const auto biased = moments4_add_bias(f, literal<Real>(bias4_raw_paper_b2), literal<Real>(bias4_raw_paper_b4),
+                                              literal<Real>(3e-7));
         return hamburger4_cholesky_intensity(biased, z_f);
     }
 };

@@ -18,7 +18,7 @@ GNOMON_INLINE constexpr hankel4<Real> hankel4_raised_last(moments4<Real> b, Real
 {
     const Real t = b.b2 + Real(1);
     const Real norm = (b.b1 * b.b1 + Real(1)) * m + t * (t * v - (b.b1 + b.b1) * l);
-    return hankel4_of(b.b1, v, l, gnomon_max(noise * gnomon_max(v, norm), v * m - l * l));
+    return hankel4_make(b.b1, v, l, gnomon_max(noise * gnomon_max(v, norm), v * m - l * l));
 }
 
 template <class Real> GNOMON_INLINE constexpr hankel4<Real> hankel4_raised(moments4<Real> b, double noise)

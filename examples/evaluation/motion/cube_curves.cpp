@@ -39,17 +39,17 @@ nlohmann::json cube_costs(const cube_case& at, int resolution)
     const auto add = [&](const range_shadow_map& m) {
         row["maps"].push_back(facts_of(m, m.ranges.size(), exact.pairs));
     };
-    const auto add_packed = [&](const packed_shadow_map& m) {
+    const auto add_packed = [&](const compact_shadow_map& m) {
         row["maps"].push_back(facts_of(m, m.spans.begins.size(), exact.pairs));
     };
     add(exact);
     add(covered_ranges(exact));
     const range_shadow_map resolved = resolved_ranges(stage.world, stage.light, resolution);
     add(resolved);
-    add_packed(packed_ranges(resolved));
+    add_packed(compact_ranges(resolved));
     const range_shadow_map casters = caster_ranges(stage.world, stage.light, resolution);
     add(casters);
-    add_packed(packed_ranges(casters));
+    add_packed(compact_ranges(casters));
     add(prism_ranges(stage.world, stage.light, resolution));
     add(covered_prism_ranges(stage.world, stage.light, resolution));
     return row;

@@ -61,7 +61,7 @@ template <int N> struct listed_texels {
     template <int M>
     void add_lists(const std::array<std::span<const depth_time_range<float>>, pack::size>& lists, std::size_t longest)
     {
-        range_list<pack, M> list = range_list_of<pack, M>(range_empty(pack(0.f)));
+        range_list<pack, M> list = range_list_make<pack, M>(range_empty(pack(0.f)));
         for (std::size_t k = 0; k < longest; ++k) {
             std::array<lanes, 5> r;
             for (std::size_t i = 0; i < pack::size; ++i) {

@@ -25,7 +25,7 @@ report_row row_of(const moving_stage& scenery, const seen_motion& seen, const st
     const std::vector<light_receiver> receivers = light_receivers_of(seen, scenery.light, size.map_resolution);
     std::vector<float> found(receivers.size());
     const double spent = least_seconds([&] {
-        for (std::size_t i = 0; i < found.size(); ++i) found[i] = analytic_visibility(map.map(), receivers[i]);
+        for (std::size_t i = 0; i < found.size(); ++i) found[i] = light_visibility(map.map(), receivers[i]);
     });
     return {.scene = scenery.world.open.name,
             .method = map.method + ", receivers analytic",
@@ -59,7 +59,7 @@ report_row trapezoid_row(const motion_sizes& size)
 report_row lit_ramp_row(const motion_sizes& size)
 {
     const moving_stage scenery = lit_ramp(double(size.width) / size.height);
-    const seen_motion seen = analytic_visibility(scenery.world, scenery.eye, size.width, size.height, depth_tolerance);
+    const seen_motion seen = camera_segments(scenery.world, scenery.eye, size.width, size.height, depth_tolerance);
     return row_of(scenery, seen, std::vector<float>(seen.courses.size(), 1.f), size);
 }
 

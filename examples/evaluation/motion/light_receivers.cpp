@@ -42,7 +42,7 @@ light_receiver receiver_of(const seen_course& c, const moving_camera& light, int
              close.place.x,
              close.place.y,
              close.place.w},
-            moving_edge_inside(facing_edge(normal, direction), 1.f)};
+            moving_edge_inside(facing_function(normal, direction), 1.f)};
 }
 
 } // namespace

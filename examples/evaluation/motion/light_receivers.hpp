@@ -16,7 +16,7 @@ namespace gnomon::evaluation {
 // Times of the course itself, from 0 to 1, at which it faces the light; the depths of the path are biased.
 struct light_receiver {
     receiver_path<float> path;
-    edge_times<float> facing;
+    edge_intervals<float> facing;
 };
 
 // Texels around a point that the depth bias spares from shadowing themselves: bilinear filtering reads up to one to

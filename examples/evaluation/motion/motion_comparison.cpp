@@ -52,7 +52,7 @@ class motion_comparison {
                  fmt::format("{}: ray tracing at {} times", listed.title, size.reference_samples));
         const tracer rays(stage_.world);
         reference_ = rays.photograph(stage_.light, stage_.eye, size.width, size.height, size.reference_samples);
-        analytic_ = renderer::analytic_visibility(stage_.world, stage_.eye, size.width, size.height, depth_tolerance);
+        analytic_ = renderer::camera_segments(stage_.world, stage_.eye, size.width, size.height, depth_tolerance);
         stochastic_ = stochastic_visibility(stage_.world, stage_.eye, size.width, size.height, stochastic_samples);
         by_triangles_.biased = light_receivers_of(analytic_, stage_.light, size.map_resolution);
         if (listed.surfaces)
@@ -92,14 +92,14 @@ class motion_comparison {
         add_courses(resolved, "at rest", resting_visibility);
         add_courses(resolved, "sampled", sampled_visibility);
         add_courses(resolved, "semi-analytic", semi_analytic_visibility);
-        add_courses(resolved, "analytic", evaluation::analytic_visibility);
-        add_courses(with_totals(caster_ranges(world, light, resolution)), "analytic", evaluation::analytic_visibility);
+        add_courses(resolved, "analytic", light_visibility);
+        add_courses(with_totals(caster_ranges(world, light, resolution)), "analytic", light_visibility);
         for (const int capacity : {4, 8, 16})
-            add_courses(interval_lists(exact, capacity), "analytic", evaluation::analytic_visibility);
+            add_courses(interval_lists(exact, capacity), "analytic", light_visibility);
         if (listed_.surfaces) {
             add_surfaces(exact, resolved);
-            add_unpictured(by_courses(joined_ranges(world, light, resolution), by_triangles_, "analytic",
-                                      evaluation::analytic_visibility));
+            add_unpictured(
+                by_courses(joined_ranges(world, light, resolution), by_triangles_, "analytic", light_visibility));
         }
         if (listed_.cover_first) add_cover_first(cover_first_ranges(exact));
     }
@@ -192,7 +192,7 @@ class motion_comparison {
         course_receivers by_surfaces = by_triangles_;
         set_ids(by_surfaces.biased, ids), set_ids(by_surfaces.unbiased, ids);
         const auto add_one = [&](const range_shadow_map& map) {
-            add_unpictured(by_courses(map, by_surfaces, "analytic", evaluation::analytic_visibility));
+            add_unpictured(by_courses(map, by_surfaces, "analytic", light_visibility));
         };
         add_one(with_ids(resolved, ids));
         const range_shadow_map renamed = with_ids(exact, ids);

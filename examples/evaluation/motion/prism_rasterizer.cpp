@@ -42,7 +42,7 @@ prism_rasterizer::prism_rasterizer(const moving_scene& world, const moving_camer
             const std::uint32_t mine = number++;
             bool in_front = true;
             for (const moving_vertex<float>& v : {corners.a, corners.b, corners.c}) in_front &= v.w0 > 0 && v.w1 > 0;
-            if (in_front) setups_.push_back({prism_of(corners, 0.f), mine});
+            if (in_front) setups_.push_back({prism_make(corners, 0.f), mine});
         }
     }
 }
@@ -52,7 +52,7 @@ prism_rasterizer::drawn_prism prism_rasterizer::drawn(const setup& s) const
     drawn_prism result{};
     float low = float(resolution_), high = -1;
     for (std::size_t k = 0; k < triangles; ++k) {
-        const prism_triangle<float> v = prism_triangle_of(s.shape, float(k));
+        const prism_triangle<float> v = prism_triangle_make(s.shape, float(k));
         result.scalars[k] = v, result.packs[k] = broadcast(v);
         low = std::min({low, v.a.y, v.b.y, v.c.y}), high = std::max({high, v.a.y, v.b.y, v.c.y});
     }

@@ -93,7 +93,7 @@ template <class Keep> void cover(const range_shadow_map& exact, range_shadow_map
 void add_visible(const range& cover, std::span<const range> list, std::vector<range>& to)
 {
     for (const range& r : list)
-        if (range_cover_hides(cover, r) == 0) to.push_back(r);
+        if (range_cover_occludes(cover, r) == 0) to.push_back(r);
 }
 
 } // namespace
@@ -179,34 +179,34 @@ range_shadow_map cover_first_ranges(const range_shadow_map& exact)
     return result;
 }
 
-packed_shadow_map packed_ranges(const range_shadow_map& resolved)
+compact_shadow_map compact_ranges(const range_shadow_map& resolved)
 {
-    packed_shadow_map result{{resolved.method + ", packed", "10 B spans", resolved.resolution}};
+    compact_shadow_map result{{resolved.method + ", packed", "10 B spans", resolved.resolution}};
     const std::size_t texels = texels_of(resolved.resolution);
     const double spent = least_seconds([&] {
         result.spans.clear();
-        for (std::size_t i = 0; i < texels; ++i) pack_spans(list_of(resolved, i), result.spans);
+        for (std::size_t i = 0; i < texels; ++i) compact_list(list_of(resolved, i), result.spans);
     });
     result.totals = resolved.totals;
     if (!result.totals.empty()) result.format += ", 16 B totals";
     result.build_ms = resolved.build_ms + 1e3 * spent;
     result.pairs = resolved.pairs;
-    result.bytes = result.spans.bytes() + result.totals.size() * sizeof(range_total<float>);
+    result.bytes = result.spans.bytes() + result.totals.size() * sizeof(range_summary<float>);
     return result;
 }
 
-float static_shadow(const packed_shadow_map& map, float x, float y, static_receiver<float> state)
+float static_intensity(const compact_shadow_map& map, float x, float y, static_receiver<float> state)
 {
     const auto size = float(map.resolution);
     for_each_tap({x, y}, [&](float column, float row, float weight) {
         if (!(column >= 0 && row >= 0 && column < size && row < size)) return;
         const std::size_t texel =
             range_map<float>::texel(std::size_t(map.resolution), std::size_t(column), std::size_t(row));
-        state = static_receiver_weigh(state, weight);
+        state = static_receiver_set_weight(state, weight);
         const bool told = !map.totals.empty();
         if (told && receiver_is_in_front(state.depth, map.totals[texel]) > 0) return;
         if (told && static_receiver_is_behind(state, map.totals[texel]) > 0)
-            state = static_receiver_add_total(state, map.totals[texel]);
+            state = static_receiver_add_summary(state, map.totals[texel]);
         else for_each_span(map.spans, texel, [&](const range& r) { state = static_receiver_add_box(state, r); });
     });
     return static_receiver_end(state);

@@ -3,9 +3,10 @@
 // or those of surfaces.
 #pragma once
 
-#include "packed_spans.hpp"
+#include "compact_spans.hpp"
 #include "renderer/scene/moving_scene.hpp"
 
+#include <gnomon/motion/receiver/static_receiver.h>
 #include <gnomon/passes/range/map.hpp>
 
 #include <cstddef>
@@ -33,7 +34,7 @@ struct map_facts {
 struct range_shadow_map : map_facts {
     std::vector<std::uint32_t> first{}; // as in range_map
     std::vector<depth_time_range<float>> ranges{};
-    std::vector<range_total<float>> totals{};            // of each texel, or none
+    std::vector<range_summary<float>> totals{};          // of each texel, or none
     std::vector<depth_time_range<float>> texel_covers{}; // of each texel, empty where a list is asked; or none
     bool resolved = false;                               // lists are in order of time, and none of their ranges overlap
 
@@ -85,15 +86,15 @@ range_shadow_map covered_prism_ranges(const renderer::moving_scene& world, const
 // sum of what all threads have spent. Throws std::invalid_argument for another capacity.
 range_shadow_map interval_lists(const range_shadow_map& exact, int capacity);
 
-// Resolved ranges and their totals in half the memory (packed_spans.hpp).
-struct packed_shadow_map : map_facts {
-    packed_spans spans{};
-    std::vector<range_total<float>> totals{}; // of each texel, or none
+// Resolved ranges and their totals in half the memory (compact_spans.hpp).
+struct compact_shadow_map : map_facts {
+    compact_spans spans{};
+    std::vector<range_summary<float>> totals{}; // of each texel, or none
 };
-packed_shadow_map packed_ranges(const range_shadow_map& resolved);
+compact_shadow_map compact_ranges(const range_shadow_map& resolved);
 
 // The share of a receiver at rest at a place of the map that is shadowed, from the packed lists themselves.
-float static_shadow(const packed_shadow_map& map, float x, float y, static_receiver<float> state);
+float static_intensity(const compact_shadow_map& map, float x, float y, static_receiver<float> state);
 
 std::size_t texels_of(int resolution);
 

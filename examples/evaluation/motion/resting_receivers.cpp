@@ -91,7 +91,7 @@ class resting_comparison {
         add_tent(points_[0], resolved);
         const range_shadow_map casters = with_totals(caster_ranges(world, light, size_.map_resolution));
         for (const resting_points& at : points_) add_ranges(at, casters);
-        const packed_shadow_map packed = packed_ranges(casters);
+        const compact_shadow_map packed = compact_ranges(casters);
         for (const resting_points& at : points_) add_packed(at, packed);
         return std::move(results_);
     }
@@ -164,12 +164,12 @@ class resting_comparison {
 
     void add_ranges(const resting_points& at, const range_shadow_map& map)
     {
-        add_analytic(at, map, [&](const light_receiver& r) { return evaluation::analytic_visibility(map.map(), r); });
+        add_analytic(at, map, [&](const light_receiver& r) { return light_visibility(map.map(), r); });
         std::vector<placed_receiver<float>> placed;
         for (const light_receiver& r : receivers_of(at))
             placed.push_back({r.path.x0 / r.path.w0, r.path.y0 / r.path.w0, whole_exposure(r)});
         std::vector<float> found(placed.size());
-        const double spent = least_seconds([&] { static_shadows<float>(map.map(), placed, found); });
+        const double spent = least_seconds([&] { static_intensities<float>(map.map(), placed, found); });
         for (float& x : found) x = 1 - x;
         add(at,
             {fmt::format("{}, receivers analytic, many at a time", map.method), map.format, map.bytes_per_texel(),
@@ -177,10 +177,10 @@ class resting_comparison {
             found);
     }
 
-    void add_packed(const resting_points& at, const packed_shadow_map& map)
+    void add_packed(const resting_points& at, const compact_shadow_map& map)
     {
         add_analytic(at, map, [&](const light_receiver& r) {
-            return 1 - static_shadow(map, r.path.x0 / r.path.w0, r.path.y0 / r.path.w0, whole_exposure(r));
+            return 1 - static_intensity(map, r.path.x0 / r.path.w0, r.path.y0 / r.path.w0, whole_exposure(r));
         });
     }
 
@@ -195,8 +195,8 @@ class resting_comparison {
         const double spent = least_seconds([&] {
             for (std::size_t i = 0; i < found.size(); ++i) {
                 const receiver_path<float>& p = receivers[i].path;
-                found[i] = 1 - gnomon::static_shadow(map.map(), p.x0 / p.w0, p.y0 / p.w0, whole_exposure(receivers[i]),
-                                                     1, tent);
+                found[i] = 1 - gnomon::static_intensity(map.map(), p.x0 / p.w0, p.y0 / p.w0,
+                                                        whole_exposure(receivers[i]), 1, tent);
             }
         });
         add(at,

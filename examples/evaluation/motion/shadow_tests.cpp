@@ -31,22 +31,22 @@ float path_visibility_in_place(const range_map<float>& map, receiver_path<float>
 {
     const texel_position<float> at = receiver_path_at(path, t);
     path.x0 = path.x1 = at.x, path.y0 = path.y1 = at.y, path.w0 = path.w1 = 1;
-    return 1 - moving_shadow(map, path, path.depth.t0, path.depth.t1);
+    return 1 - moving_intensity(map, path, path.depth.t0, path.depth.t1);
 }
 
 float path_visibility(const range_map<float>& map, const receiver_path<float>& path, int look_ups)
 {
     if (path.depth.z0 != path.depth.z1 || receiver_path_length(path) > 1e-4f)
-        return 1 - moving_shadow(map, path, path.depth.t0, path.depth.t1, look_ups);
+        return 1 - moving_intensity(map, path, path.depth.t0, path.depth.t1, look_ups);
     const texel_position<float> at = receiver_path_at(path, path.depth.t0);
-    return 1 - static_shadow(map, at.x, at.y,
-                             static_receiver_begin(path.depth.z0, path.depth.id, path.depth.t0, path.depth.t1),
-                             look_ups);
+    return 1 - static_intensity(map, at.x, at.y,
+                                static_receiver_begin(path.depth.z0, path.depth.id, path.depth.t0, path.depth.t1),
+                                look_ups);
 }
 
 float path_visibility_sampled(const range_map<float>& map, const receiver_path<float>& path)
 {
-    return 1 - sampled_shadow(map, path, 0.f, most_samples);
+    return 1 - sampled_intensity(map, path, 0.f, most_samples);
 }
 
 bool in_one_texel(const receiver_path<float>& path)
@@ -58,7 +58,7 @@ bool in_one_texel(const receiver_path<float>& path)
 
 bool faces_at(const light_receiver& r, float t)
 {
-    const float passed = range_passed(r.path.depth, t);
+    const float passed = range_elapsed(r.path.depth, t);
     return r.facing.begin <= passed && passed <= r.facing.end &&
            !(r.facing.gap_begin < passed && passed < r.facing.gap_end);
 }
@@ -67,7 +67,7 @@ bool faces_at(const light_receiver& r, float t)
 
 float visibility_at(const range_map<float>& map, const light_receiver& r, float t)
 {
-    return faces_at(r, t) ? 1 - shadow_at(map, r.path, t, 0.f) : 0;
+    return faces_at(r, t) ? 1 - intensity_at(map, r.path, t, 0.f) : 0;
 }
 
 float cover_first_visibility_at(const range_shadow_map& map, const light_receiver& r, float t)
@@ -111,7 +111,7 @@ float semi_analytic_visibility(const range_map<float>& map, const light_receiver
     });
 }
 
-float analytic_visibility(const range_map<float>& map, const light_receiver& r)
+float light_visibility(const range_map<float>& map, const light_receiver& r)
 {
     return while_facing(r, [&](const receiver_path<float>& path) { return path_visibility(map, path, 1); });
 }

@@ -24,7 +24,7 @@ float resting_visibility(const range_map<float>& map, const light_receiver& r);
 float semi_analytic_visibility(const range_map<float>& map, const light_receiver& r);
 
 // In closed form along the way. The lists are resolved.
-float analytic_visibility(const range_map<float>& map, const light_receiver& r);
+float light_visibility(const range_map<float>& map, const light_receiver& r);
 
 // The same by percentage-closer filtering of 3 x 3 bilinear look-ups.
 float wide_visibility(const range_map<float>& map, const light_receiver& r);

@@ -25,7 +25,7 @@ class wide_comparison {
     explicit wide_comparison(const motion_sizes& size)
         : stage_(crossed_quads(double(size.width) / size.height)),
           size_(size),
-          seen_(renderer::analytic_visibility(stage_.world, stage_.eye, size.width, size.height, depth_tolerance)),
+          seen_(renderer::camera_segments(stage_.world, stage_.eye, size.width, size.height, depth_tolerance)),
           reference_(size.width, size.height, 0)
     {
         image<float> shares(size.width, size.height, 0);

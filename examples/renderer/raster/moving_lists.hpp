@@ -167,13 +167,13 @@ class texel_lists {
         if (count_ >= rows_.size()) rows_.resize(count_ + 1);
         if (count_ >= used_.size()) used_.resize(rows_.size());
         used_[count_] = bits_of(exists);
-        rows_[count_++].set(range_kept(exists, r));
+        rows_[count_++].set(range_keep_if(exists, r));
     }
 
     [[gnu::noinline]] void add_resolved(lane_mask exists, const range_lanes& came)
     {
         if (backdrops_) return add_seen(exists, came);
-        const range_lanes listed = backdrop_.add(range_kept(exists, came));
+        const range_lanes listed = backdrop_.add(range_keep_if(exists, came));
         add_seen(listed.t0 < listed.t1, listed);
     }
 

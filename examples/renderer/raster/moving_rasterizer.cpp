@@ -30,7 +30,7 @@ constexpr std::size_t long_lists = 256 * texel_pack::size; // ranges of a pack
 
 // What a tile needs, and what becomes of it.
 struct tile_lists {
-    tile_members members;
+    tile_bins members;
     texel_lists texels; // that are worked at
     range_counts counts;
     stack<depth_time_range<float>> lists; // in the order of texels
@@ -39,7 +39,7 @@ struct tile_lists {
 
 // Where a triangle is seen by samples, and what becomes of that. Large things go by value to functions that are called
 // rarely: they need no memory elsewhere.
-struct sighting {
+struct tile_query {
     const tile_triangle& triangle;
     const moving_samples& samples;
     float tolerance;
@@ -47,7 +47,7 @@ struct sighting {
 };
 
 // Ranges whose depth is further from its line than the tolerance, in pieces (Palmer 2011, chapter 5).
-[[gnu::noinline]] void add_pieces(const sighting& at, xsimd::batch_bool<float> bent, depth_curve<texel_pack> curve,
+[[gnu::noinline]] void add_pieces(const tile_query& at, xsimd::batch_bool<float> bent, depth_curve<texel_pack> curve,
                                   texel_pack opening, texel_pack closing)
 {
     texel_pack passed = gnomon_select(bent, texel_pack(0.f), texel_pack(1.f));
@@ -62,7 +62,7 @@ struct sighting {
 
 // A range of those lanes that have it, in pieces where its depth bends.
 template <class Sight>
-GNOMON_INLINE void add_range(const sighting& at, const Sight& sight, const xsimd::batch_bool<float>& exists,
+GNOMON_INLINE void add_range(const tile_query& at, const Sight& sight, const xsimd::batch_bool<float>& exists,
                              const texel_pack& opening, const texel_pack& closing)
 {
     const auto id = float(at.triangle.setup().number);
@@ -78,7 +78,7 @@ GNOMON_INLINE void add_range(const sighting& at, const Sight& sight, const xsimd
 
 // Adds the parts of an interval in which a triangle that passes the near or the far plane is between them.
 template <class Sight>
-[[gnu::noinline]] std::uint64_t add_between_planes(const sighting& at, Sight sight, xsimd::batch_bool<float> exists,
+[[gnu::noinline]] std::uint64_t add_between_planes(const tile_query& at, Sight sight, xsimd::batch_bool<float> exists,
                                                    texel_pack opening, texel_pack closing, float facing)
 {
     // Depths at or beyond a plane are limited to it.
@@ -90,13 +90,13 @@ template <class Sight>
         add_range(at, sight, exists, opening, closing);
         return bits_of(exists);
     }
-    const edge_times<texel_pack> beyond = depth_times_beyond(sight.curve, texel_pack(-1.f), texel_pack(facing)),
-                                 before = depth_times_before(sight.curve, one, texel_pack(facing));
+    const edge_intervals<texel_pack> beyond = depth_intervals_beyond(sight.curve, texel_pack(-1.f), texel_pack(facing)),
+                                     before = depth_intervals_before(sight.curve, one, texel_pack(facing));
     std::uint64_t seen = 0;
     for (const float i : {0.f, 1.f})
         for (const float k : {0.f, 1.f}) {
-            linear_times<texel_pack> part = edge_times_part(beyond, texel_pack(i), opening, closing);
-            part = edge_times_part(before, texel_pack(k), part.begin, part.end);
+            linear_interval<texel_pack> part = edge_intervals_part(beyond, texel_pack(i), opening, closing);
+            part = edge_intervals_part(before, texel_pack(k), part.begin, part.end);
             const auto there = exists && part.begin < part.end;
             if (!gnomon_any(there)) continue;
             add_range(at, sight, there, part.begin, part.end);
@@ -107,7 +107,7 @@ template <class Sight>
 
 // Adds an interval of those lanes that have it. Returns which are in the picture, a bit for each.
 template <class Sight>
-GNOMON_INLINE std::uint64_t add_interval(const sighting& at, const Sight& sight, xsimd::batch_bool<float> exists,
+GNOMON_INLINE std::uint64_t add_interval(const tile_query& at, const Sight& sight, xsimd::batch_bool<float> exists,
                                          const texel_pack& opening, const texel_pack& closing, float facing)
 {
     if (!at.triangle.whole()) exists = exists && at.triangle.contains(at.samples);
@@ -116,8 +116,8 @@ GNOMON_INLINE std::uint64_t add_interval(const sighting& at, const Sight& sight,
     return bits_of(exists);
 }
 
-[[gnu::noinline]] std::uint64_t add_further_intervals(const sighting& at, curved_sight sight,
-                                                      coverage_times<texel_pack> times, float facing)
+[[gnu::noinline]] std::uint64_t add_further_intervals(const tile_query& at, quadratic_coverage sight,
+                                                      coverage_intervals<texel_pack> times, float facing)
 {
     return add_interval(at, sight, times.count > texel_pack(1.f), times.begin1, times.end1, facing) |
            add_interval(at, sight, times.count > texel_pack(2.f), times.begin2, times.end2, facing) |
@@ -125,9 +125,9 @@ GNOMON_INLINE std::uint64_t add_interval(const sighting& at, const Sight& sight,
 }
 
 // Of one facing. Returns how many texels it covers.
-GNOMON_INLINE std::size_t add_facing(const sighting& at, const curved_sight& sight, float facing)
+GNOMON_INLINE std::size_t add_facing(const tile_query& at, const quadratic_coverage& sight, float facing)
 {
-    const coverage_times<texel_pack> times = sight.covered(facing);
+    const coverage_intervals<texel_pack> times = sight.covered(facing);
     const auto covered = times.count > texel_pack(0.f);
     if (!gnomon_any(covered)) return 0;
     std::uint64_t seen = add_interval(at, sight, covered, times.begin0, times.end0, facing);
@@ -135,21 +135,21 @@ GNOMON_INLINE std::size_t add_facing(const sighting& at, const curved_sight& sig
     return std::size_t(std::popcount(seen));
 }
 
-GNOMON_INLINE std::size_t add_facing(const sighting& at, const linear_sight& sight, float facing)
+GNOMON_INLINE std::size_t add_facing(const tile_query& at, const linear_tile_coverage& sight, float facing)
 {
-    const linear_times<texel_pack> times = sight.covered(facing);
+    const linear_interval<texel_pack> times = sight.covered(facing);
     const auto covered = times.begin < times.end;
     if (!gnomon_any(covered)) return 0;
     return std::size_t(std::popcount(add_interval(at, sight, covered, times.begin, times.end, facing)));
 }
 
-[[gnu::noinline]] std::size_t add_turned(const sighting& at)
+[[gnu::noinline]] std::size_t add_turned(const tile_query& at)
 {
     if (at.triangle.setup().linear) return add_facing(at, at.triangle.linear(at.samples, -1), -1);
     return add_facing(at, at.triangle.curved(at.samples, -1), -1);
 }
 
-[[gnu::noinline]] std::size_t add_curved(const sighting& at)
+[[gnu::noinline]] std::size_t add_curved(const tile_query& at)
 {
     return add_facing(at, at.triangle.curved(at.samples, 1), 1);
 }
@@ -183,7 +183,7 @@ void rasterize_tile(const tiled_triangles& scenery, std::size_t tile, const rang
         std::size_t budget = how.resolved ? std::min(how.budget, long_lists) : how.budget;
         to.texels.clear(how.resolved, how.backdrops);
         to.members.for_each(i / moving_samples::packs_per_block, [&](const tile_triangle& triangle) {
-            const sighting at{triangle, samples, how.depth_tolerance, to.texels};
+            const tile_query at{triangle, samples, how.depth_tolerance, to.texels};
             to.counts.tested += texel_pack::size;
             const moving_setup& s = triangle.setup();
             if (s.positive)
@@ -205,7 +205,7 @@ void sample_instants(const tile_triangle& triangle, const moving_samples& at, co
                      std::vector<depth_time_range<float>>& nearest)
 {
     const moving_setup& s = triangle.setup();
-    const curved_sight sight = triangle.curved(at, 1);
+    const quadratic_coverage sight = triangle.curved(at, 1);
     const moving_edges<texel_pack> negative = s.negative ? triangle.curved(at, -1).edges : sight.edges;
     const auto instant = [&](std::size_t lane, int k) -> depth_time_range<float>* {
         const glm::ivec2 place = at.place(lane);
@@ -316,7 +316,7 @@ std::vector<depth_time_range<float>> rasterize_instants(const moving_scene& worl
         result[i] = {t, t, 1, 1, 0};
     }
     tbb::parallel_for(std::size_t(0), scenery.tiles(), [&](std::size_t tile) {
-        tile_members members;
+        tile_bins members;
         members.assign(scenery, tile);
         for (std::size_t i = 0; i < packs_per_tile; ++i)
             members.for_each(i / moving_samples::packs_per_block, [&, at = moving_samples(i)](const tile_triangle& t) {

@@ -45,7 +45,7 @@ struct moving_view {
 void set_facing(moving_setup& s, faces visible)
 {
     const moving_vertex<double>& a = s.corners.a;
-    const edge_field<double> across = edge_field_of(s.corners.b, s.corners.c);
+    const edge_equation<double> across = edge_equation_make(s.corners.b, s.corners.c);
     const auto open = [&](const sample_plane<double>& p) { return p.x * a.x0 + p.y * a.y0 + p.c * a.w0; };
     const auto close = [&](const sample_plane<double>& p) { return p.x * a.x1 + p.y * a.y1 + p.c * a.w1; };
     const auto [least, most] = std::minmax({open(across.e0), close(across.e0) + 2 * open(across.e1),
@@ -89,8 +89,8 @@ void set_linear(moving_setup& s, const moving_view& from)
     moving_vertex<double>&a = s.corners.a, &b = s.corners.b, &c = s.corners.c;
     if (!s.before_eye) return;
     const double tolerance = rounding * std::max(from.size.x, from.size.y);
-    s.linear_edges = {moving_edge_bend(b, c) <= tolerance, moving_edge_bend(c, a) <= tolerance,
-                      moving_edge_bend(a, b) <= tolerance};
+    s.linear_edges = {moving_edge_nonlinearity(b, c) <= tolerance, moving_edge_nonlinearity(c, a) <= tolerance,
+                      moving_edge_nonlinearity(a, b) <= tolerance};
     const auto [least, most] = std::minmax({a.z1 - a.z0, b.z1 - b.z0, c.z1 - c.z0});
     s.linear = glm::all(s.linear_edges) && most - least <= rounding;
     if (!s.linear) return;
@@ -144,7 +144,7 @@ template <class Visit> void for_each_tile(const moving_setup& s, const Visit& vi
         return;
     }
     const glm::dvec2 origin = double(moving_tile_size) * (glm::dvec2(low) + 0.5 * glm::dvec2(extent));
-    const auto field = numbers_as<float>(moving_field_of(s.corners, origin.x, origin.y));
+    const auto field = numbers_as<float>(triangle_setup_make(s.corners, origin.x, origin.y));
     const edge_errors errors(field, s.linear_edges, 0.5f * float(moving_tile_size) * glm::vec2(extent));
     const touched_cells touched(field, errors, s, 0.5f * float(moving_tile_size) + tile_triangle::margin);
     const auto tile = [&](int i) { return low + glm::ivec2(i % extent.x, i / extent.x); };
@@ -209,24 +209,24 @@ void tiled_triangles::sort_into_tiles()
 
 tile_triangle::tile_triangle(const moving_setup& s, const moving_tile& where)
     : tile_triangle(s, where,
-                    moving_field_of(s.corners, double(where.corner.x) + 0.5 * moving_tile_size,
-                                    double(where.corner.y) + 0.5 * moving_tile_size))
+                    triangle_setup_make(s.corners, double(where.corner.x) + 0.5 * moving_tile_size,
+                                        double(where.corner.y) + 0.5 * moving_tile_size))
 {}
 
-tile_triangle::tile_triangle(const moving_setup& s, const moving_tile& where, const moving_field<double>& field)
+tile_triangle::tile_triangle(const moving_setup& s, const moving_tile& where, const triangle_setup<double>& field)
     : setup_(&s),
       last_(glm::min(s.last - where.corner, where.size - 1)),
       low_(glm::max(s.first - where.corner, 0) / moving_block_size),
       high_(last_ / moving_block_size),
       whole_(where.size == glm::ivec2(moving_tile_size)),
-      depths_(numbers_as<float>(depth_field_of(field, s.corners)))
+      depths_(numbers_as<float>(depth_setup_make(field, s.corners)))
 {
     wide_ = numbers_as<float>(field);
     errors_ = {wide_, s.linear_edges, glm::vec2(0.5f * float(moving_tile_size))};
     wide_ = widened(wide_, errors_, 1);
 }
 
-void tile_members::assign(const tiled_triangles& scenery, std::size_t tile, bool front_to_back)
+void tile_bins::assign(const tiled_triangles& scenery, std::size_t tile, bool front_to_back)
 {
     triangles_.clear();
     touching_.clear();

@@ -108,15 +108,15 @@ Struct<To, To> numbers_as(const Struct<From, From>& x)
 
 // The same in every lane; member by member, which compilers keep in registers.
 GNOMON_INLINE sample_plane<texel_pack> in_lanes(const sample_plane<float>& p) { return {p.x, p.y, p.c}; }
-GNOMON_INLINE edge_field<texel_pack> in_lanes(const edge_field<float>& f)
+GNOMON_INLINE edge_equation<texel_pack> in_lanes(const edge_equation<float>& f)
 {
     return {in_lanes(f.e0), in_lanes(f.e1), in_lanes(f.e2)};
 }
-GNOMON_INLINE moving_field<texel_pack> in_lanes(const moving_field<float>& f)
+GNOMON_INLINE triangle_setup<texel_pack> in_lanes(const triangle_setup<float>& f)
 {
     return {in_lanes(f.a), in_lanes(f.b), in_lanes(f.c)};
 }
-GNOMON_INLINE depth_field<texel_pack> in_lanes(const depth_field<float>& d)
+GNOMON_INLINE depth_setup<texel_pack> in_lanes(const depth_setup<float>& d)
 {
     return {in_lanes(d.n0), in_lanes(d.n1), in_lanes(d.n2), in_lanes(d.n3), d.z0, d.z1, d.least, d.most};
 }
@@ -134,10 +134,10 @@ struct edge_errors {
     edge_errors() = default;
 
     // Of the samples within h of the field's origin.
-    edge_errors(const moving_field<float>& field, const glm::bvec3& linear, const glm::vec2& h)
+    edge_errors(const triangle_setup<float>& field, const glm::bvec3& linear, const glm::vec2& h)
     {
-        const auto error = [&](const edge_field<float>& f, bool is_linear) {
-            return is_linear ? linear_field_error(f, h.x, h.y) : edge_field_error(f, h.x, h.y);
+        const auto error = [&](const edge_equation<float>& f, bool is_linear) {
+            return is_linear ? linear_edge_error(f, h.x, h.y) : edge_equation_error(f, h.x, h.y);
         };
         a = error(field.a, linear.x), b = error(field.b, linear.y), c = error(field.c, linear.z);
     }
@@ -146,32 +146,32 @@ struct edge_errors {
 };
 
 // By its errors where times is 1, to the other side where it is -1.
-GNOMON_INLINE moving_field<float> widened(const moving_field<float>& f, const edge_errors& e, float times)
+GNOMON_INLINE triangle_setup<float> widened(const triangle_setup<float>& f, const edge_errors& e, float times)
 {
-    return {edge_field_widened(f.a, e.a, times), edge_field_widened(f.b, e.b, times),
-            edge_field_widened(f.c, e.c, times)};
+    return {edge_equation_widen(f.a, e.a, times), edge_equation_widen(f.b, e.b, times),
+            edge_equation_widen(f.c, e.c, times)};
 }
 
 // Which cells, the samples within reach of their middles, a triangle covers at some time.
 class touched_cells {
   public:
-    touched_cells(const moving_field<float>& field, const edge_errors& errors, const moving_setup& s, float reach)
+    touched_cells(const triangle_setup<float>& field, const edge_errors& errors, const moving_setup& s, float reach)
         : setup_(s)
     {
-        if (s.positive) positive_ = widened(moving_field_around(field, reach, reach, 1.f), errors, 1);
-        if (s.negative) negative_ = widened(moving_field_around(field, reach, reach, -1.f), errors, -1);
+        if (s.positive) positive_ = widened(triangle_setup_around(field, reach, reach, 1.f), errors, 1);
+        if (s.negative) negative_ = widened(triangle_setup_around(field, reach, reach, -1.f), errors, -1);
     }
 
     // A bit for each lane.
     std::uint64_t operator()(const texel_pack& middle_x, const texel_pack& middle_y) const
     {
-        const auto touched = [&](const moving_field<float>& around, float facing) {
+        const auto touched = [&](const triangle_setup<float>& around, float facing) {
             if (setup_.linear) {
-                const auto edges = linear_field_edges(in_lanes(around), middle_x, middle_y);
+                const auto edges = triangle_setup_edges_linear(in_lanes(around), middle_x, middle_y);
                 const auto times = linear_coverage(facing < 0 ? turned(edges) : edges);
                 return bits_of(times.begin < times.end);
             }
-            const auto edges = moving_field_edges(in_lanes(around), middle_x, middle_y);
+            const auto edges = triangle_setup_edges(in_lanes(around), middle_x, middle_y);
             return bits_of(moving_coverage(edges, texel_pack(facing)).count > texel_pack(0.f));
         };
         return (setup_.positive ? touched(positive_, 1) : 0) | (setup_.negative ? touched(negative_, -1) : 0);
@@ -179,11 +179,11 @@ class touched_cells {
 
   private:
     const moving_setup& setup_;
-    moving_field<float> positive_, negative_; // of the facings that it has
+    triangle_setup<float> positive_, negative_; // of the facings that it has
 };
 
 // Where things of some size, in rows of some length, are from the middle of a tile, along x or y.
-template <int Count, int Row, int Size, bool Y> constexpr auto moving_places()
+template <int Count, int Row, int Size, bool Y> constexpr auto tile_offsets()
 {
     std::array<float, std::size_t(Count)> result{};
     for (int i = 0; i < Count; ++i)
@@ -206,8 +206,8 @@ struct moving_samples {
         : block(int(number / packs_per_block) % moving_blocks, int(number / packs_per_block) / moving_blocks),
           begin(int(number % packs_per_block * texel_pack::size))
     {
-        static constexpr auto first_x = moving_places<per_block, moving_block_size, 1, false>(),
-                              first_y = moving_places<per_block, moving_block_size, 1, true>();
+        static constexpr auto first_x = tile_offsets<per_block, moving_block_size, 1, false>(),
+                              first_y = tile_offsets<per_block, moving_block_size, 1, true>();
         const glm::vec2 corner(block * moving_block_size);
         x = texel_pack::load_unaligned(&first_x[std::size_t(begin)]) + texel_pack(corner.x);
         y = texel_pack::load_unaligned(&first_y[std::size_t(begin)]) + texel_pack(corner.y);
@@ -226,21 +226,21 @@ struct range_pack {
 };
 
 // What of a triangle a pack of samples sees.
-struct curved_sight {
+struct quadratic_coverage {
     const moving_setup& of;
     moving_edges<texel_pack> edges; // widened
     depth_curve<texel_pack> curve;
 
-    GNOMON_INLINE coverage_times<texel_pack> covered(float facing) const
+    GNOMON_INLINE coverage_intervals<texel_pack> covered(float facing) const
     {
         const auto inside = [&](const moving_edge<texel_pack>& e, bool linear) {
             if (!linear) return moving_edge_inside(e, texel_pack(facing));
             const texel_pack side(facing), none(static_cast<float>(coverage_none));
-            const linear_times<texel_pack> times = linear_edge_inside(side * e.e0, side * e.e2);
-            return edge_times<texel_pack>{times.begin, times.end, none, none};
+            const linear_interval<texel_pack> times = linear_edge_inside(side * e.e0, side * e.e2);
+            return edge_intervals<texel_pack>{times.begin, times.end, none, none};
         };
-        return edge_times_together(inside(edges.a, of.linear_edges.x), inside(edges.b, of.linear_edges.y),
-                                   inside(edges.c, of.linear_edges.z));
+        return intersect_edge_intervals(inside(edges.a, of.linear_edges.x), inside(edges.b, of.linear_edges.y),
+                                        inside(edges.c, of.linear_edges.z));
     }
     GNOMON_INLINE texel_pack depth(const texel_pack& t) const { return depth_curve_at(curve, t); }
     GNOMON_INLINE depth_line<texel_pack> line(const texel_pack& begin, const texel_pack& end) const
@@ -250,11 +250,11 @@ struct curved_sight {
 };
 
 // Of one that is linear in time.
-struct linear_sight {
+struct linear_tile_coverage {
     moving_edges<texel_pack> edges; // widened
     depth_curve<texel_pack> curve;
 
-    GNOMON_INLINE linear_times<texel_pack> covered(float facing) const
+    GNOMON_INLINE linear_interval<texel_pack> covered(float facing) const
     {
         return linear_coverage(facing < 0 ? turned(edges) : edges);
     }
@@ -276,8 +276,8 @@ class tile_triangle {
     std::uint64_t blocks() const
     {
         constexpr int count = moving_blocks * moving_blocks;
-        static constexpr auto middle_x = moving_places<count, moving_blocks, moving_block_size, false>(),
-                              middle_y = moving_places<count, moving_blocks, moving_block_size, true>();
+        static constexpr auto middle_x = tile_offsets<count, moving_blocks, moving_block_size, false>(),
+                              middle_y = tile_offsets<count, moving_blocks, moving_block_size, true>();
         const auto number = [](const glm::ivec2& block) { return std::size_t(block.y * moving_blocks + block.x); };
         const std::uint64_t ends = std::uint64_t(1) << number(low_) | std::uint64_t(1) << number(high_);
         if (high_.x - low_.x + high_.y - low_.y < 2) return ends; // it reaches into both
@@ -292,16 +292,16 @@ class tile_triangle {
         return blocks & columns * 0x0101010101010101;
     }
 
-    GNOMON_INLINE curved_sight curved(const moving_samples& s, float facing) const
+    GNOMON_INLINE quadratic_coverage curved(const moving_samples& s, float facing) const
     {
-        const moving_edges<texel_pack> edges = facing < 0 ? moving_field_edges(in_lanes(negative()), s.x, s.y)
-                                                          : moving_field_edges(in_lanes(wide_), s.x, s.y);
+        const moving_edges<texel_pack> edges = facing < 0 ? triangle_setup_edges(in_lanes(negative()), s.x, s.y)
+                                                          : triangle_setup_edges(in_lanes(wide_), s.x, s.y);
         return {*setup_, edges, curve(s, edges, facing)};
     }
-    GNOMON_INLINE linear_sight linear(const moving_samples& s, float facing) const
+    GNOMON_INLINE linear_tile_coverage linear(const moving_samples& s, float facing) const
     {
-        const moving_edges<texel_pack> edges = facing < 0 ? linear_field_edges(in_lanes(negative()), s.x, s.y)
-                                                          : linear_field_edges(in_lanes(wide_), s.x, s.y);
+        const moving_edges<texel_pack> edges = facing < 0 ? triangle_setup_edges_linear(in_lanes(negative()), s.x, s.y)
+                                                          : triangle_setup_edges_linear(in_lanes(wide_), s.x, s.y);
         return {edges, curve(s, edges, facing)};
     }
 
@@ -320,10 +320,10 @@ class tile_triangle {
     static constexpr float margin = 0.05f;
 
   private:
-    tile_triangle(const moving_setup& s, const moving_tile& where, const moving_field<double>& field);
+    tile_triangle(const moving_setup& s, const moving_tile& where, const triangle_setup<double>& field);
 
     // The field widened for the facing -1.
-    moving_field<float> negative() const { return widened(wide_, errors_, -2); }
+    triangle_setup<float> negative() const { return widened(wide_, errors_, -2); }
 
     // From edges that are widened.
     GNOMON_INLINE depth_curve<texel_pack> curve(const moving_samples& s, const moving_edges<texel_pack>& edges,
@@ -338,13 +338,13 @@ class tile_triangle {
     const moving_setup* setup_;
     glm::ivec2 last_, low_, high_; // texel, blocks
     bool whole_;
-    depth_field<float> depths_;
+    depth_setup<float> depths_;
     edge_errors errors_;
-    moving_field<float> wide_; // widened for the facing 1
+    triangle_setup<float> wide_; // widened for the facing 1
 };
 
 // The triangles of a tile, by the blocks that they touch.
-class tile_members {
+class tile_bins {
   public:
     void assign(const tiled_triangles& scenery, std::size_t tile, bool front_to_back = false);
 

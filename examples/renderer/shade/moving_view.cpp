@@ -70,7 +70,7 @@ float sunlight(const camera& light, const glm::vec3& p, const glm::vec3& n)
 
 } // namespace
 
-seen_motion analytic_visibility(const moving_scene& world, const camera& eye, int width, int height, float tolerance)
+seen_motion camera_segments(const moving_scene& world, const camera& eye, int width, int height, float tolerance)
 {
     range_rasterizer rasterize;
     const range_lists& lists = rasterize(world, {eye}, width, height, {.resolved = true, .depth_tolerance = tolerance});

@@ -37,7 +37,7 @@ struct seen_motion {
 };
 
 // Courses are cut where depth departs by more than the tolerance from a line, so that positions do not either.
-seen_motion analytic_visibility(const moving_scene& world, const camera& eye, int width, int height, float tolerance);
+seen_motion camera_segments(const moving_scene& world, const camera& eye, int width, int height, float tolerance);
 
 // At as many times for each pixel, one in every stratum of the shutter interval, its own ones.
 seen_motion stochastic_visibility(const moving_scene& world, const camera& eye, int width, int height, int samples);

@@ -18,7 +18,7 @@ namespace gnomon::renderer {
 inline constexpr int packet = 16;
 
 // A moment in part i of n, chosen by the finalizer of SplitMix64.
-inline float moment(std::size_t owner, int i, int n)
+inline float stratified_time(std::size_t owner, int i, int n)
 {
     std::uint64_t bits = (static_cast<std::uint64_t>(owner) << 24) + static_cast<std::uint64_t>(i) + 1;
     bits *= 0x9e3779b97f4a7c15u;

@@ -73,7 +73,7 @@ struct corners {
 
 void check_samples(int samples)
 {
-    if (samples < 1) throw std::invalid_argument(fmt::format("tracer: {} moments, at least one expected", samples));
+    if (samples < 1) throw std::invalid_argument(fmt::format("tracer: {} times, at least one expected", samples));
 }
 
 void check_room(std::size_t receivers, std::size_t results)
@@ -241,19 +241,19 @@ void tracer::mean_visibility(const moving_camera& light, std::span<const receive
         for (std::size_t r = range.begin(); r < range.end(); ++r) {
             const receiver_course& at = receivers[r];
             const bool one_is_all = at.open == at.closing && state_->always_alike(at.open, light);
-            const int moments = one_is_all ? 1 : samples;
+            const int times = one_is_all ? 1 : samples;
             int lit = 0;
-            for (int first = 0; first < moments; first += packet) {
+            for (int first = 0; first < times; first += packet) {
                 alignas(64) mask valid{};
-                for (int i = 0; i < std::min(packet, moments - first); ++i) {
-                    const float time = moment(r, first + i, moments);
+                for (int i = 0; i < std::min(packet, times - first); ++i) {
+                    const float time = stratified_time(r, first + i, times);
                     if (state_->aim(rays, i, between(at, time), light, time) > 0)
                         valid[static_cast<std::size_t>(i)] = -1;
                 }
                 state_->trace(valid, rays);
                 for (int i = 0; i < packet; ++i) lit += valid[static_cast<std::size_t>(i)] && !(rays.tfar[i] < 0);
             }
-            result[r] = static_cast<float>(lit) / static_cast<float>(moments);
+            result[r] = static_cast<float>(lit) / static_cast<float>(times);
         }
     });
 }
@@ -292,17 +292,17 @@ reference_picture tracer::photograph(const moving_camera& light, const camera& e
         const bool one_hit = state_->always_alike(ray);
         const hit only = one_hit ? first_hit(centre, 0) : hit{};
         const bool one_is_all = one_hit && (!only.valid() || state_->always_alike({only.position, only.normal}, light));
-        const int moments = one_is_all ? 1 : samples;
+        const int times = one_is_all ? 1 : samples;
         alignas(64) RTCRayHit16 view{};
         alignas(64) RTCRay16 rays{};
         glm::dvec3 colour(0);
         int covered = 0, lit = 0;
-        for (int first = 0; first < moments; first += packet) {
+        for (int first = 0; first < times; first += packet) {
             alignas(64) mask looking{}, facing{};
             std::array<hit, packet> seen{};
             std::array<float, packet> cosines{};
-            for (int i = 0; i < std::min(packet, moments - first); ++i) {
-                set_ray(view.ray, i, ray, moment(pixel, first + i, moments));
+            for (int i = 0; i < std::min(packet, times - first); ++i) {
+                set_ray(view.ray, i, ray, stratified_time(pixel, first + i, times));
                 view.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
                 looking[static_cast<std::size_t>(i)] = -1;
             }
@@ -324,9 +324,9 @@ reference_picture tracer::photograph(const moving_camera& light, const camera& e
                 colour += state_->colour(seen[i], sunny ? cosines[i] : 0);
             }
         }
-        result.coverage(x, y) = static_cast<float>(covered) / static_cast<float>(moments);
+        result.coverage(x, y) = static_cast<float>(covered) / static_cast<float>(times);
         if (covered > 0) result.visibility(x, y) = static_cast<float>(lit) / static_cast<float>(covered);
-        result.colour(x, y) = glm::vec3(colour / static_cast<double>(moments));
+        result.colour(x, y) = glm::vec3(colour / static_cast<double>(times));
     };
     tbb::parallel_for(0, height, [&](int y) {
         for (int x = 0; x < width; ++x) expose(x, y);

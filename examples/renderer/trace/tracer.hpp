@@ -40,9 +40,9 @@ struct hit {
 
 // The means of what a pixel sees while the shutter is open.
 struct reference_picture {
-    image<float> visibility; // of the light, over the moments at which there is a surface; 1 where there never is
-    image<float> coverage;   // the share of these moments
-    picture colour;          // over all moments, shaded by the triangles' own normals
+    image<float> visibility; // of the light, over the times at which there is a surface; 1 where there never is
+    image<float> coverage;   // the share of these times
+    picture colour;          // over all times, shaded by the triangles' own normals
 };
 
 class tracer {
@@ -61,7 +61,7 @@ class tracer {
     void visibility(const moving_camera& light, std::span<const receiver> receivers, std::span<const float> times,
                     std::span<float> result) const;
 
-    // The share of `samples` moments, one in each of as many equal parts of [0, 1], at which a receiver sees the light.
+    // The share of `samples` times, one in each of as many equal parts of [0, 1], at which a receiver sees the light.
     // Where in its part a moment lies depends on the index of the receiver and on nothing else. While it faces away
     // from the light, a receiver does not see it. Parallel over receivers.
     void mean_visibility(const moving_camera& light, std::span<const receiver_course> receivers, int samples,
@@ -76,7 +76,7 @@ class tracer {
     // How far along the normal a ray starts: a few roundings of the scene's diagonal.
     float offset() const;
 
-    // What a camera at rest sees through the centre of each pixel at `samples` moments, one in each of as many equal
+    // What a camera at rest sees through the centre of each pixel at `samples` times, one in each of as many equal
     // parts of [0, 1], chosen by the index of the pixel. Parallel over pixels.
     reference_picture photograph(const moving_camera& light, const camera& eye, int width, int height,
                                  int samples) const;

@@ -2,7 +2,7 @@
 // Members keep their order: b1 is the first coefficient. An Eigen array is no Real, by design: expressions are
 // evaluated here, at the edge.
 //
-//     Eigen::Vector4d v = gnomon::to_eigen(gnomon::moments4_of_depth(0.5));
+//     Eigen::Vector4d v = gnomon::to_eigen(gnomon::moments4_from_depth(0.5));
 //     auto b = gnomon::from_eigen<gnomon::moments4<double>>(0.5 * (v + w));
 #ifndef GNOMON_ADAPTERS_EIGEN_HPP
 #define GNOMON_ADAPTERS_EIGEN_HPP

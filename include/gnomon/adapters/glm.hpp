@@ -1,7 +1,7 @@
 // GLM vectors to and from the library's structs of two to four equal numbers: moments4, variance_moments,
 // exponential_variance_moments, ... Members keep their order: b1 is x. Kernels take the structs; GLM stays at the edge.
 //
-//     glm::vec4 v = gnomon::to_glm(gnomon::moments4_of_depth(0.5f));
+//     glm::vec4 v = gnomon::to_glm(gnomon::moments4_from_depth(0.5f));
 //     auto b = gnomon::from_glm<gnomon::moments4<float>>(v);
 #ifndef GNOMON_ADAPTERS_GLM_HPP
 #define GNOMON_ADAPTERS_GLM_HPP

@@ -1,6 +1,6 @@
 // Algorithm 1 of Peters et al. 2017 as the paper has it, for four and for six moments: the comparator that hamburger4.h
 // and hamburger6.h are measured against, not a route to use. Both take moments that are biased already (bias.h:
-// moments4_biased, moments6_biased), and both keep the paper's steps:
+// moments4_add_bias, moments6_add_bias), and both keep the paper's steps:
 //     2  solve B q = (1, z_f, ..., z_f^(m/2)) by the square-root-free Cholesky decomposition B = L D L^T (5.4.1)
 //     3  the other depths are the roots of q_0 + q_1 z + ...: a quadratic, or a cubic in closed form after Blinn 2007
 //     (5.4.1) 4  the weights solve a Vandermonde system; their sum below z_f is E[u(z)] for the polynomial u that is 1
@@ -48,7 +48,7 @@ GNOMON_KERNEL Real hamburger4_cholesky_intensity(GNOMON_T(moments4) b, Real z_f)
 }
 
 /// The three real roots of a cubic, in no order.
-GNOMON_STRUCT cubic_roots { Real z1, z2, z3; };
+GNOMON_STRUCT(cubic_roots) { Real z1, z2, z3; };
 
 /// The roots of z^3 + c2 z^2 + c1 z + c0, three real ones; NaN where two are complex. One of the two branches of Blinn
 /// 2007, "How to solve a cubic equation, part 5", as the paper advises.
@@ -100,7 +100,7 @@ GNOMON_KERNEL Real hamburger6_cholesky_intensity(GNOMON_T(moments6) b, Real z_f)
     Real q0 = Real(1) - (q1 * b.b1 + q2 * b.b2 + q3 * b.b3);
 
     Real inverse_q3 = Real(1) / q3;
-    GNOMON_T(cubic_roots) z = cubic_roots_blinn(q2 * inverse_q3, q1 * inverse_q3, q0 * inverse_q3);
+    cubic_roots z = cubic_roots_blinn(q2 * inverse_q3, q1 * inverse_q3, q0 * inverse_q3);
 
     // The Newton form of u by divided differences, then its coefficients, and E[u(z)].
     Real v1 = gnomon_select(z.z1 < z_f, Real(1), Real(0));

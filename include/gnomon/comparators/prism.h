@@ -22,10 +22,10 @@
 // deform, 10 to 13 in 100 are there at wrong times for more than 5% of the shutter
 // (tests/comparators/prism_ranges.cpp). So this is what to compare moving_triangle.h with, which is exact and the
 // default. One triangle and texel at a time:
-//     prism p = prism_of(m, divided);
+//     prism p = prism_make(m, divided);
 //     prism_pair pair = prism_pair_begin(id);
 //     for (k = 0; k < 14; ++k)
-//         pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_of(p, k), s_x, s_y, divided));
+//         pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_make(p, k), s_x, s_y, divided));
 //     prism_ranges ranges = prism_pair_end(pair);
 #ifndef GNOMON_COMPARATORS_PRISM_H
 #define GNOMON_COMPARATORS_PRISM_H
@@ -34,36 +34,36 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// On the screen, with depth and time, and 1 / w, which is 1 in orthographic views.
-GNOMON_STRUCT prism_vertex { Real x, y, z, t, inverse_w; };
+GNOMON_STRUCT(prism_vertex) { Real x, y, z, t, inverse_w; };
 
-GNOMON_STRUCT prism_triangle { GNOMON_T(prism_vertex) a, b, c; };
+GNOMON_STRUCT(prism_triangle) { GNOMON_T(prism_vertex) a, b, c; };
 
 /// The vertex in the middle of what an edge sweeps, and whether the edge's two places cross there, 1, or not, 0.
-GNOMON_STRUCT prism_side
+GNOMON_STRUCT(prism_side)
 {
     GNOMON_T(prism_vertex) centre;
     Real crosses;
 };
 
 /// Corners at shutter open, 0, and close, 1, and the sides of the three edges.
-GNOMON_STRUCT prism
+GNOMON_STRUCT(prism)
 {
     GNOMON_T(prism_vertex) a0, b0, c0, a1, b1, c1;
     GNOMON_T(prism_side) ab, bc, ca;
 };
 
 /// Covered is 1 or 0; time in [0, 1], depth in [-1, 1].
-GNOMON_STRUCT prism_fragment { Real covered, time, depth; };
+GNOMON_STRUCT(prism_fragment) { Real covered, time, depth; };
 
 /// The fragments of one triangle id in one texel: how many, the earliest and the latest, and the four nearest in order.
-GNOMON_STRUCT prism_pair
+GNOMON_STRUCT(prism_pair)
 {
     Real id, count;
     GNOMON_T(prism_fragment) earliest, latest, first, second, third, fourth;
 };
 
 /// As many ranges as count says, 0 to 2; the others are empty.
-GNOMON_STRUCT prism_ranges
+GNOMON_STRUCT(prism_ranges)
 {
     GNOMON_T(depth_time_range) first, second;
     Real count;
@@ -73,7 +73,7 @@ GNOMON_CONSTANT(prism_no_depth, 2.0); // behind every fragment
 
 /// A point of clip space at time t, on the screen. Divided as for moving_depth_at. Where w <= 0 or NaN no fragment
 /// comes of it.
-GNOMON_KERNEL GNOMON_T(prism_vertex) prism_vertex_of(Real x, Real y, Real z, Real w, Real t, GNOMON_SETTING divided)
+GNOMON_KERNEL GNOMON_T(prism_vertex) prism_vertex_make(Real x, Real y, Real z, Real w, Real t, GNOMON_SETTING divided)
 {
     Real divisor = gnomon_max(w, Real(0));
     GNOMON_T(prism_vertex) r;
@@ -88,13 +88,13 @@ GNOMON_KERNEL GNOMON_T(prism_vertex) prism_vertex_of(Real x, Real y, Real z, Rea
 /// Where a vertex is at shutter open.
 GNOMON_KERNEL GNOMON_T(prism_vertex) prism_vertex_open(GNOMON_T(moving_vertex) v, GNOMON_SETTING divided)
 {
-    return prism_vertex_of(v.x0, v.y0, v.z0, v.w0, Real(0), divided);
+    return prism_vertex_make(v.x0, v.y0, v.z0, v.w0, Real(0), divided);
 }
 
 /// Where a vertex is at shutter close.
 GNOMON_KERNEL GNOMON_T(prism_vertex) prism_vertex_close(GNOMON_T(moving_vertex) v, GNOMON_SETTING divided)
 {
-    return prism_vertex_of(v.x1, v.y1, v.z1, v.w1, Real(1), divided);
+    return prism_vertex_make(v.x1, v.y1, v.z1, v.w1, Real(1), divided);
 }
 
 /// What a vertex weighs in depth, beside the screen's weight: as much as in time, or 1 where depth is divided.
@@ -120,13 +120,13 @@ GNOMON_KERNEL GNOMON_T(prism_vertex) prism_vertex_between(GNOMON_T(prism_vertex)
 }
 
 /// What the edge from a to b sweeps; exchanging a and b leaves a centre without a crossing the same bit for bit.
-GNOMON_KERNEL GNOMON_T(prism_side) prism_side_of(GNOMON_T(moving_vertex) a, GNOMON_T(moving_vertex) b,
-                                                 GNOMON_SETTING divided)
+GNOMON_KERNEL GNOMON_T(prism_side) prism_side_make(GNOMON_T(moving_vertex) a, GNOMON_T(moving_vertex) b,
+                                                   GNOMON_SETTING divided)
 {
-    GNOMON_T(prism_vertex) a0 = prism_vertex_open(a, divided);
-    GNOMON_T(prism_vertex) b0 = prism_vertex_open(b, divided);
-    GNOMON_T(prism_vertex) a1 = prism_vertex_close(a, divided);
-    GNOMON_T(prism_vertex) b1 = prism_vertex_close(b, divided);
+    prism_vertex a0 = prism_vertex_open(a, divided);
+    prism_vertex b0 = prism_vertex_open(b, divided);
+    prism_vertex a1 = prism_vertex_close(a, divided);
+    prism_vertex b1 = prism_vertex_close(b, divided);
     Real open_x = b0.x - a0.x;
     Real open_y = b0.y - a0.y;
     Real close_x = b1.x - a1.x;
@@ -143,9 +143,9 @@ GNOMON_KERNEL GNOMON_T(prism_side) prism_side_of(GNOMON_T(moving_vertex) a, GNOM
     Real y = Real(0.25) * ((a.y0 + b.y0) + (a.y1 + b.y1));
     Real z = Real(0.25) * ((a.z0 + b.z0) + (a.z1 + b.z1));
     Real w = Real(0.25) * ((a.w0 + b.w0) + (a.w1 + b.w1));
-    GNOMON_T(prism_vertex) middle = prism_vertex_of(x, y, z, w, Real(0.5), divided);
-    GNOMON_T(prism_vertex) open = prism_vertex_between(a0, b0, s, divided);
-    GNOMON_T(prism_vertex) close = prism_vertex_between(a1, b1, u, divided);
+    prism_vertex middle = prism_vertex_make(x, y, z, w, Real(0.5), divided);
+    prism_vertex open = prism_vertex_between(a0, b0, s, divided);
+    prism_vertex close = prism_vertex_between(a1, b1, u, divided);
     GNOMON_T(prism_side) r;
     r.centre.x = gnomon_select(crosses, open.x, middle.x);
     r.centre.y = gnomon_select(crosses, open.y, middle.y);
@@ -157,7 +157,7 @@ GNOMON_KERNEL GNOMON_T(prism_side) prism_side_of(GNOMON_T(moving_vertex) a, GNOM
 }
 
 /// The whole of a moving triangle. Domain: all w > 0 at both ends, else parts of it are missing.
-GNOMON_KERNEL GNOMON_T(prism) prism_of(GNOMON_T(moving_triangle) m, GNOMON_SETTING divided)
+GNOMON_KERNEL GNOMON_T(prism) prism_make(GNOMON_T(moving_triangle) m, GNOMON_SETTING divided)
 {
     GNOMON_T(prism) p;
     p.a0 = prism_vertex_open(m.a, divided);
@@ -166,9 +166,9 @@ GNOMON_KERNEL GNOMON_T(prism) prism_of(GNOMON_T(moving_triangle) m, GNOMON_SETTI
     p.a1 = prism_vertex_close(m.a, divided);
     p.b1 = prism_vertex_close(m.b, divided);
     p.c1 = prism_vertex_close(m.c, divided);
-    p.ab = prism_side_of(m.a, m.b, divided);
-    p.bc = prism_side_of(m.b, m.c, divided);
-    p.ca = prism_side_of(m.c, m.a, divided);
+    p.ab = prism_side_make(m.a, m.b, divided);
+    p.bc = prism_side_make(m.b, m.c, divided);
+    p.ca = prism_side_make(m.c, m.a, divided);
     return p;
 }
 
@@ -189,14 +189,14 @@ GNOMON_KERNEL GNOMON_T(prism_vertex) prism_choice(Real k, GNOMON_T(prism_vertex)
 
 /// Triangle k of the 14: 0 to 3, 4 to 7, 8 to 11 around the centres of the sides, 12 and 13 the caps. Triangles 0 and 2
 /// of a side that crosses are points, as is any other k. Winding is not kept.
-GNOMON_KERNEL GNOMON_T(prism_triangle) prism_triangle_of(GNOMON_T(prism) p, Real k)
+GNOMON_KERNEL GNOMON_T(prism_triangle) prism_triangle_make(GNOMON_T(prism) p, Real k)
 {
     Real side = gnomon_select(k < Real(3.5), Real(0), gnomon_select(k < Real(7.5), Real(1), Real(2)));
     Real i = k - Real(4) * side;
-    GNOMON_T(prism_vertex) from0 = prism_choice(side, p.a0, p.b0, p.c0);
-    GNOMON_T(prism_vertex) to0 = prism_choice(side, p.b0, p.c0, p.a0);
-    GNOMON_T(prism_vertex) to1 = prism_choice(side, p.b1, p.c1, p.a1);
-    GNOMON_T(prism_vertex) from1 = prism_choice(side, p.a1, p.b1, p.c1);
+    prism_vertex from0 = prism_choice(side, p.a0, p.b0, p.c0);
+    prism_vertex to0 = prism_choice(side, p.b0, p.c0, p.a0);
+    prism_vertex to1 = prism_choice(side, p.b1, p.c1, p.a1);
+    prism_vertex from1 = prism_choice(side, p.a1, p.b1, p.c1);
     Real crosses =
         gnomon_select(side < Real(0.5), p.ab.crosses, gnomon_select(side < Real(1.5), p.bc.crosses, p.ca.crosses));
 
@@ -323,7 +323,7 @@ GNOMON_KERNEL GNOMON_T(prism_pair) prism_pair_add(GNOMON_T(prism_pair) state, GN
     f.depth = gnomon_select(some, f.depth, GNOMON_LITERAL(prism_no_depth));
     f.time = gnomon_select(some, f.time, Real(1));
     Real before = prism_fragment_before(f, state.first);
-    GNOMON_T(prism_fragment) next = prism_fragment_choice(before, state.first, f);
+    prism_fragment next = prism_fragment_choice(before, state.first, f);
     state.first = prism_fragment_choice(before, f, state.first);
     before = prism_fragment_before(next, state.second);
     f = prism_fragment_choice(before, state.second, next);
@@ -351,9 +351,9 @@ GNOMON_KERNEL GNOMON_T(prism_ranges) prism_pair_end(GNOMON_T(prism_pair) state)
 {
     GNOMON_MASK some = Real(1) < state.count;
     GNOMON_MASK two = state.count == Real(4);
-    GNOMON_T(depth_time_range) whole = prism_range_between(state.earliest, state.latest, state.id);
-    GNOMON_T(depth_time_range) front = prism_range_between(state.first, state.second, state.id);
-    GNOMON_T(depth_time_range) rear = prism_range_between(state.third, state.fourth, state.id);
+    depth_time_range whole = prism_range_between(state.earliest, state.latest, state.id);
+    depth_time_range front = prism_range_between(state.first, state.second, state.id);
+    depth_time_range rear = prism_range_between(state.third, state.fourth, state.id);
     GNOMON_T(prism_ranges) r;
     r.first = range_select(some, range_select(two, front, whole), range_empty(state.id));
     r.second = range_select(two, rear, range_empty(state.id));

@@ -19,11 +19,11 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// Time in [0, 1], depth in [-1, 1] and a triangle's id, a whole number from 0.
-GNOMON_STRUCT timed_fragment { Real t, z, id; };
+GNOMON_STRUCT(timed_fragment) { Real t, z, id; };
 
 /// The nearest fragment; how many there are of its id, their farthest depth, and whether one is at the other end of the
 /// shutter (1 or 0); nearest depth of all others.
-GNOMON_STRUCT fragment_cover
+GNOMON_STRUCT(fragment_cover)
 {
     GNOMON_T(timed_fragment) nearest;
     Real count, far_depth, ends, front;
@@ -85,8 +85,8 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) fragment_cover_end(GNOMON_T(fragment_co
     GNOMON_MASK alone = state.count == Real(2) && state.far_depth <= state.front;
     GNOMON_MASK known = Real(0) <= state.nearest.id && Real(-1) <= state.nearest.z;
     GNOMON_MASK covers = known && Real(0) < state.ends && alone;
-    GNOMON_T(timed_fragment) n = state.nearest;
-    GNOMON_T(depth_time_range) cover = range_between(n.t, n.z, Real(1) - n.t, state.far_depth, n.id);
+    timed_fragment n = state.nearest;
+    depth_time_range cover = range_between(n.t, n.z, Real(1) - n.t, state.far_depth, n.id);
     return range_select(covers, cover, range_empty(Real(-1)));
 }
 

@@ -20,17 +20,17 @@ GNOMON_NAMESPACE_BEGIN
 /// offset is taken off z_f, so that a surface in its own map lies where the series has come down to 0: the first zero
 /// is at 1.926 / (pi terms span), where the sine integral is pi / 2. span in (0, 1]: the part of a half period that
 /// depths in [-1, 1] fill. Below 1 it keeps a near receiver before a far texel from reaching the next edge of the wave.
-GNOMON_STRUCT convolution_settings { Real terms, damping, offset, span; };
+GNOMON_STRUCT(convolution_settings) { Real terms, damping, offset, span; };
 
 /// Cosine and sine of a_k z, and of the step from one term to the next.
-GNOMON_STRUCT convolution_phase { Real cosine, sine, step_cosine, step_sine; };
+GNOMON_STRUCT(convolution_phase) { Real cosine, sine, step_cosine, step_sine; };
 
 /// The first term at z, not clamped.
 GNOMON_KERNEL GNOMON_T(convolution_phase) convolution_phase_at(Real z, GNOMON_SETTING span)
 {
     Real angle = GNOMON_LITERAL(trigonometry_half_pi) * span * z;
-    GNOMON_T(cosine_sine) first = polynomial_cosine_sine(angle);
-    GNOMON_T(cosine_sine) step = polynomial_cosine_sine(Real(2) * angle);
+    cosine_sine first = polynomial_cosine_sine(angle);
+    cosine_sine step = polynomial_cosine_sine(Real(2) * angle);
     GNOMON_T(convolution_phase) r;
     r.cosine = first.cosine;
     r.sine = first.sine;
@@ -48,7 +48,7 @@ GNOMON_KERNEL GNOMON_T(convolution_phase) convolution_encode(Real z, GNOMON_T(co
 /// The next term, by rotation. Error of both values of term k: 8 k 2^-p.
 GNOMON_KERNEL GNOMON_T(convolution_phase) convolution_next(GNOMON_T(convolution_phase) phase)
 {
-    GNOMON_T(convolution_phase) r = phase;
+    convolution_phase r = phase;
     r.cosine = phase.cosine * phase.step_cosine - phase.sine * phase.step_sine;
     r.sine = phase.sine * phase.step_cosine + phase.cosine * phase.step_sine;
     return r;
@@ -63,7 +63,7 @@ GNOMON_KERNEL Real convolution_weight(Real k, GNOMON_T(convolution_settings) set
 }
 
 /// The receiver's phase at the next term, and the sum so far.
-GNOMON_STRUCT convolution_sum
+GNOMON_STRUCT(convolution_sum)
 {
     GNOMON_T(convolution_phase) receiver;
     Real intensity;

@@ -6,11 +6,11 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// E[exp(c z)].
-GNOMON_STRUCT exponential_moment { Real warped; };
+GNOMON_STRUCT(exponential_moment) { Real warped; };
 
 /// The exponent c > 0: the larger, the less light leaks just behind an occluder. In float c <= 44 keeps every product
 /// finite.
-GNOMON_STRUCT exponential_settings { Real exponent; };
+GNOMON_STRUCT(exponential_settings) { Real exponent; };
 
 /// The texel of a depth z in [-1, 1]. Relative error: (c + 2) 2^-p, mostly from rounding c z.
 GNOMON_KERNEL GNOMON_T(exponential_moment) exponential_encode(Real z, GNOMON_T(exponential_settings) settings)

@@ -8,12 +8,12 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// First and second moment of either warped depth.
-GNOMON_STRUCT exponential_variance_moments { Real positive, positive_square, negative, negative_square; };
+GNOMON_STRUCT(exponential_variance_moments) { Real positive, positive_square, negative, negative_square; };
 
 /// The exponents c+ and c-, and the minimum variance of the depth, before the warp. The paper has c+ = c- = 5.54 for
 /// half floats, whose range exp(2 c) fills, and c+ = 40, c- = 5.54 for floats. In float exponents of at most 40
 /// keep every product finite.
-GNOMON_STRUCT exponential_variance_settings { Real positive_exponent, negative_exponent, minimum_variance; };
+GNOMON_STRUCT(exponential_variance_settings) { Real positive_exponent, negative_exponent, minimum_variance; };
 
 /// The texel of a depth z in [-1, 1]. Relative error of each value: (2 c + 4) 2^-p.
 GNOMON_KERNEL GNOMON_T(exponential_variance_moments) exponential_variance_encode(
@@ -53,7 +53,7 @@ GNOMON_KERNEL Real exponential_variance_intensity(GNOMON_T(exponential_variance_
     GNOMON_T(variance_moments) negative;
     negative.mean = filtered.negative;
     negative.square = filtered.negative_square;
-    GNOMON_T(exponential_variance_moments) receiver = exponential_variance_encode(z_f, settings);
+    exponential_variance_moments receiver = exponential_variance_encode(z_f, settings);
     return gnomon_max(
         exponential_variance_side(positive, receiver.positive, settings.positive_exponent, settings.minimum_variance),
         exponential_variance_side(negative, receiver.negative, settings.negative_exponent, settings.minimum_variance));

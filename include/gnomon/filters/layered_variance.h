@@ -12,7 +12,7 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// A layer holds depths within 1 / scale of its centre; the minimum variance is that of the stretched depth.
-GNOMON_STRUCT layered_variance_settings { Real centre, scale, minimum_variance; };
+GNOMON_STRUCT(layered_variance_settings) { Real centre, scale, minimum_variance; };
 
 /// The layer's own depth of a depth z, in [-1, 1].
 GNOMON_KERNEL Real layered_variance_depth(Real z, GNOMON_T(layered_variance_settings) settings)
@@ -26,7 +26,7 @@ GNOMON_KERNEL GNOMON_T(variance_moments) layered_variance_encode(Real z, GNOMON_
     return variance_encode(layered_variance_depth(z, settings));
 }
 
-GNOMON_STRUCT layered_variance { Real receiver, intensity; };
+GNOMON_STRUCT(layered_variance) { Real receiver, intensity; };
 
 /// No layer yet.
 GNOMON_KERNEL GNOMON_T(layered_variance) layered_variance_begin(Real z_f)

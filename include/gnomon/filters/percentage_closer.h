@@ -10,7 +10,7 @@
 #include "../numerics/select.h"
 GNOMON_NAMESPACE_BEGIN
 
-GNOMON_STRUCT percentage_closer { Real receiver, shadowed; };
+GNOMON_STRUCT(percentage_closer) { Real receiver, shadowed; };
 
 /// No texel yet. Any z_f; whatever needs a depth bias takes it off z_f first.
 GNOMON_KERNEL GNOMON_T(percentage_closer) percentage_closer_begin(Real z_f)

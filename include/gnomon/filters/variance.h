@@ -7,10 +7,10 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// E[z] and E[z^2]: a linear combination of texels is one of these again.
-GNOMON_STRUCT variance_moments { Real mean, square; };
+GNOMON_STRUCT(variance_moments) { Real mean, square; };
 
 /// minimum_variance hides the rounding of the stored moments from the inequality: see storage/filters_formats.hpp. At least 0.
-GNOMON_STRUCT variance_settings { Real minimum_variance; };
+GNOMON_STRUCT(variance_settings) { Real minimum_variance; };
 
 /// The texel of a depth z in [-1, 1].
 GNOMON_KERNEL GNOMON_T(variance_moments) variance_encode(Real z)

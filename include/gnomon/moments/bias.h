@@ -9,8 +9,8 @@
 // tests/derivations, beside the paper's, which have the largest Euclidean distance. Odd entries are zero by symmetry.
 //
 // Two ways to apply it:
-//   interpolated  moments4_biased and then hankel4_fast, as the paper does: for UNORM and half floats.
-//   kept apart    hankel4_biased: the same mixture without rounding it away; 100 times less error in float.
+//   interpolated  moments4_add_bias and then hankel4_plain, as the paper does: for UNORM and half floats.
+//   kept apart    hankel4_constant_bias: the same mixture without rounding it away; 100 times less error in float.
 // A bias that depends on the moments, raised pivots, was the default once and darkened lit surfaces by up to 0.79; a
 // certificate (certified4.h) leaks less than a constant bias and never does (docs/decisions/2-bias.md).
 #ifndef GNOMON_MOMENTS_BIAS_H
@@ -44,8 +44,8 @@ GNOMON_CONSTANT(bias6_paper_b4, 0.489);
 GNOMON_CONSTANT(bias6_paper_b6, 0.47869382);
 
 /// (1 - alpha) b + alpha b*, by interpolation.
-GNOMON_KERNEL GNOMON_T(moments4) moments4_biased(GNOMON_T(moments4) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4,
-                                                 GNOMON_SETTING alpha)
+GNOMON_KERNEL GNOMON_T(moments4) moments4_add_bias(GNOMON_T(moments4) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4,
+                                                   GNOMON_SETTING alpha)
 {
     Real keep = Real(1) - alpha;
     b.b1 = keep * b.b1;
@@ -56,8 +56,8 @@ GNOMON_KERNEL GNOMON_T(moments4) moments4_biased(GNOMON_T(moments4) b, GNOMON_SE
 }
 
 /// (1 - alpha) b + alpha b*, by interpolation.
-GNOMON_KERNEL GNOMON_T(moments6) moments6_biased(GNOMON_T(moments6) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4,
-                                                 GNOMON_SETTING bias6, GNOMON_SETTING alpha)
+GNOMON_KERNEL GNOMON_T(moments6) moments6_add_bias(GNOMON_T(moments6) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4,
+                                                   GNOMON_SETTING bias6, GNOMON_SETTING alpha)
 {
     Real keep = Real(1) - alpha;
     b.b1 = keep * b.b1;

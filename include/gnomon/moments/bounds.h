@@ -6,7 +6,7 @@ GNOMON_NAMESPACE_BEGIN
 
 /// Bounds on the shadow intensity: lower <= Z(z < z_f) and Z(z <= z_f) <= upper = lower + weight, where weight is the
 /// largest that z_f itself can have. All in [0, 1]; all 0 where a moment or the receiver was NaN.
-GNOMON_STRUCT hamburger_bounds { Real lower, upper, weight; };
+GNOMON_STRUCT(hamburger_bounds) { Real lower, upper, weight; };
 
 /// Shadow intensity lower + (1 - overestimation) weight (Peters et al. 2017, 5.3.1: overestimation beta multiplies
 /// visibility). 1 never darkens a lit surface, 1/2 halves the worst error, as for single scattering. Domain [0, 1],

@@ -21,7 +21,7 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// p(z) = top - (s0 + s1 z + s2 z^2 + s3 z^3 + s4 z^4), top = 0 or 1, or far below where nothing is certified.
-GNOMON_STRUCT certificate4 { Real top, s0, s1, s2, s3, s4; };
+GNOMON_STRUCT(certificate4) { Real top, s0, s1, s2, s3, s4; };
 
 GNOMON_CONSTANT(certificate4_nothing, -1267650600228229401496703205376.0); // -2^100
 
@@ -48,7 +48,7 @@ GNOMON_KERNEL GNOMON_T(certificate4) certificate4_about(Real z_f, Real n0, Real 
 
 /// The certificate for a receiver z_f in [-1, 1], from a positive definite matrix. The two quotients wait for no root:
 /// right for biased moments of 16-bit storage, whose bias keeps nodes so far apart that b + r and b - r may cancel.
-GNOMON_KERNEL GNOMON_T(certificate4) certificate4_fast(GNOMON_T(hankel4) h, Real z_f)
+GNOMON_KERNEL GNOMON_T(certificate4) certificate4_plain(GNOMON_T(hankel4) h, Real z_f)
 {
     Real u = z_f - h.mean;
     Real vu = h.variance * u;
@@ -73,7 +73,7 @@ GNOMON_KERNEL GNOMON_T(certificate4) certificate4_fast(GNOMON_T(hankel4) h, Real
     Real n2 = gnomon_select(between, c, g) * gnomon_select(between, (c - k) - k, g);
     Real t0 = gnomon_select(between, Real(1) + d, Real(1));
     Real t1 = gnomon_select(between, k, c);
-    GNOMON_T(certificate4) p = certificate4_about(z_f, n0, t0, t1, n1, n2);
+    certificate4 p = certificate4_about(z_f, n0, t0, t1, n1, n2);
     p.top = gnomon_select(between || (Real(0) < b), n0, GNOMON_LITERAL(certificate4_nothing));
     return p;
 }
@@ -105,21 +105,21 @@ GNOMON_KERNEL Real certificate4_theta_mean(GNOMON_T(certificate4) p, GNOMON_T(mo
 /// noise; h is the matrix of b with a bias. Plain arithmetic: for moments from 16-bit storage.
 GNOMON_KERNEL Real certified4_lower(GNOMON_T(hankel4) h, GNOMON_T(moments4) b, GNOMON_T(moments4) noise, Real z_f)
 {
-    GNOMON_T(certificate4) p = certificate4_fast(h, clamp_or_nan(z_f, Real(-1), Real(1)));
+    certificate4 p = certificate4_plain(h, clamp_or_nan(z_f, Real(-1), Real(1)));
     return saturate_or_zero(certificate4_mean(p, b, noise));
 }
 
 /// The same from channels c of theta4, each off by at most noise; h is the matrix of their moments with a bias.
 GNOMON_KERNEL Real certified4_theta_lower(GNOMON_T(hankel4) h, GNOMON_T(moments4) c, GNOMON_SETTING noise, Real z_f)
 {
-    GNOMON_T(certificate4) p = certificate4_fast(h, clamp_or_nan(z_f, Real(-1), Real(1)));
+    certificate4 p = certificate4_plain(h, clamp_or_nan(z_f, Real(-1), Real(1)));
     return saturate_or_zero(certificate4_theta_mean(p, c, noise));
 }
 
 GNOMON_CONSTANT(certified4_scale, 137438953472.0); // 2^37
 
 /// The same for moments stored as floats, whose mean of p float arithmetic cannot give: from the mean of the biased
-/// moments, in h by hankel4_biased with these settings, which is the weight of the node before z_f or 1 less that of
+/// moments, in h by hankel4_constant_bias with these settings, which is the weight of the node before z_f or 1 less that of
 /// z_f, less what the bias has added. 0 where rounding left h at its floor.
 GNOMON_KERNEL Real certified4_apart_lower(GNOMON_T(hankel4) h, GNOMON_T(moments4) noise, GNOMON_SETTING bias2,
                                           GNOMON_SETTING bias4, GNOMON_SETTING alpha, Real z_f)
@@ -152,7 +152,7 @@ GNOMON_KERNEL Real certified4_apart_lower(GNOMON_T(hankel4) h, GNOMON_T(moments4
     Real n2 = gnomon_select(between, c, g) * gnomon_select(between, (c - g) - g, g);
     Real t0 = gnomon_select(between, Real(0.5) + b * inverse, Real(1));
     Real t1 = gnomon_select(between, g, c);
-    GNOMON_T(certificate4) p = certificate4_about(z, n0, t0, t1, n1, n2);
+    certificate4 p = certificate4_about(z, n0, t0, t1, n1, n2);
     Real share = gnomon_select(between, Real(0.5) * (e * (r + b)) - w * (a * u), e);
     Real mean = share / (w * gnomon_select(between, r, Real(1)));
     Real added = alpha * ((p.top - p.s0) - (bias2 * p.s2 + bias4 * p.s4));

@@ -21,7 +21,7 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// The canonical distribution: a node at the receiver and two more, depth1 <= depth2; weights in [0, 1] sum to 1.
-GNOMON_STRUCT distribution3 { Real depth0, depth1, depth2, weight0, weight1, weight2; };
+GNOMON_STRUCT(distribution3) { Real depth0, depth1, depth2, weight0, weight1, weight2; };
 
 GNOMON_CONSTANT(hamburger4_scale, 72057594037927936.0);     // 2^56
 GNOMON_CONSTANT(hamburger4_lower_scale, 281474976710656.0); // 2^48
@@ -40,7 +40,7 @@ GNOMON_KERNEL Real hamburger4_weight(GNOMON_T(hankel4) h, Real x, Real q)
 }
 
 /// The coefficients of a x^2 + 2 b x + c with the two other nodes, less the mean, as roots; q = Q(u).
-GNOMON_STRUCT hamburger4_quadratic { Real a, b, c; };
+GNOMON_STRUCT(hamburger4_quadratic) { Real a, b, c; };
 
 GNOMON_KERNEL GNOMON_T(hamburger4_quadratic) hamburger4_other_nodes(GNOMON_T(hankel4) h, Real u, Real q)
 {
@@ -55,9 +55,9 @@ GNOMON_KERNEL GNOMON_T(hamburger4_quadratic) hamburger4_other_nodes(GNOMON_T(han
 }
 
 /// Lower bound and w_f as numerators over one denominator each: lower = share / total, w_f = receiver / whole.
-GNOMON_STRUCT hamburger4_fractions { Real share, total, receiver, whole; };
+GNOMON_STRUCT(hamburger4_fractions) { Real share, total, receiver, whole; };
 
-GNOMON_KERNEL GNOMON_T(hamburger4_fractions) hamburger4_weigh(GNOMON_T(hankel4) h, Real z_f)
+GNOMON_KERNEL GNOMON_T(hamburger4_fractions) hamburger4_fractions_at(GNOMON_T(hankel4) h, Real z_f)
 {
     Real u = clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean;
     Real q = hamburger4_q(h, u);
@@ -83,7 +83,7 @@ GNOMON_KERNEL GNOMON_T(hamburger4_fractions) hamburger4_weigh(GNOMON_T(hankel4) 
 /// (paper, 2.2.1). z_f in [-1, 1], clamped. A NaN anywhere gives 0, lit. Against the moment problem solved in 120
 /// digits (tests/moments/hamburger_oracle.cpp),
 ///     error, double, no bias, three depths and more: p99 1e-13, p99.9 2e-12
-///     error, float, hankel4_biased at 3e-7: p99 3e-5, p99.9 1e-4, max 5e-4
+///     error, float, hankel4_constant_bias at 3e-7: p99 3e-5, p99.9 1e-4, max 5e-4
 /// and against the same in double, maxima by climbing (tests/moments/honest_four.cpp),
 ///     error, float, hankel4_from_float: p99 3e-5, p99.9 1e-4, max 5e-4
 ///     error, float, hankel4_from_float_filtered: p99 2e-5, p99.9 5e-5, max 1e-4
@@ -93,14 +93,14 @@ GNOMON_KERNEL GNOMON_T(hamburger4_fractions) hamburger4_weigh(GNOMON_T(hankel4) 
 ///     error, float, hankel4_from_unorm16_filtered: p99 2e-4, p99.9 6e-4, max 4e-3
 GNOMON_KERNEL Real hamburger4_lower(GNOMON_T(hankel4) h, Real z_f)
 {
-    GNOMON_T(hamburger4_fractions) f = hamburger4_weigh(h, z_f);
+    hamburger4_fractions f = hamburger4_fractions_at(h, z_f);
     return saturate_or_zero(f.share / f.total);
 }
 
 /// Both bounds and the weight of the receiver; one division more than the lower bound.
 GNOMON_KERNEL GNOMON_T(hamburger_bounds) hamburger4_bounds(GNOMON_T(hankel4) h, Real z_f)
 {
-    GNOMON_T(hamburger4_fractions) f = hamburger4_weigh(h, z_f);
+    hamburger4_fractions f = hamburger4_fractions_at(h, z_f);
     GNOMON_T(hamburger_bounds) r;
     r.lower = saturate_or_zero(f.share / f.total);
     r.weight = gnomon_min(saturate_or_zero(f.receiver / f.whole), Real(1) - r.lower);
@@ -115,8 +115,8 @@ GNOMON_KERNEL GNOMON_T(distribution3) hamburger4_distribution(GNOMON_T(hankel4) 
     Real z = clamp_or_nan(z_f, Real(-1), Real(1));
     Real u = z - h.mean;
     Real q = hamburger4_q(h, u);
-    GNOMON_T(hamburger4_quadratic) p = hamburger4_other_nodes(h, u, q);
-    GNOMON_T(quadratic_result) x = quadratic_roots(p.a, p.b, p.c);
+    hamburger4_quadratic p = hamburger4_other_nodes(h, u, q);
+    quadratic_result x = quadratic_roots(p.a, p.b, p.c);
     Real x1 = clamp_or_nan(x.first, Real(-1024), Real(1024));
     Real x2 = clamp_or_nan(x.second, Real(-1024), Real(1024));
     Real w0 = hamburger4_weight(h, u, q);

@@ -20,10 +20,10 @@ GNOMON_NAMESPACE_BEGIN
 
 /// The canonical distribution: a node at the receiver and three more, depth1 <= depth2 <= depth3; weights in [0, 1] sum
 /// to 1.
-GNOMON_STRUCT distribution4 { Real depth0, depth1, depth2, depth3, weight0, weight1, weight2, weight3; };
+GNOMON_STRUCT(distribution4) { Real depth0, depth1, depth2, depth3, weight0, weight1, weight2, weight3; };
 
 /// P_1, P_2, P_3 at one depth, by its distance u from the mean.
-GNOMON_STRUCT polynomials6 { Real p1, p2, p3; };
+GNOMON_STRUCT(polynomials6) { Real p1, p2, p3; };
 
 GNOMON_KERNEL GNOMON_T(polynomials6) hamburger6_polynomials(GNOMON_T(hankel6) h, Real u)
 {
@@ -41,7 +41,7 @@ GNOMON_KERNEL Real hamburger6_kernel(GNOMON_T(hankel6) h, GNOMON_T(polynomials6)
 }
 
 /// P_2', P_3' and P_3'' / 2 at the same depth.
-GNOMON_STRUCT derivatives6 { Real slope2, slope3, bend3; };
+GNOMON_STRUCT(derivatives6) { Real slope2, slope3, bend3; };
 
 /// By the recurrence: P_2' = 2 u - shift2, P_3' = P_2 + v P_2' - ratio, P_3'' / 2 = P_2' + v with v = u - shift3.
 GNOMON_KERNEL GNOMON_T(derivatives6) hamburger6_derivatives(GNOMON_T(hankel6) h, GNOMON_T(polynomials6) p)
@@ -56,8 +56,8 @@ GNOMON_KERNEL GNOMON_T(derivatives6) hamburger6_derivatives(GNOMON_T(hankel6) h,
 
 /// P_1, P_2, P_3 farther by a distance: by Taylor, exact for polynomials. A node close to z_f keeps its distance, which
 /// its depth would have rounded away: in float that decides whether a lit surface is darkened.
-GNOMON_KERNEL GNOMON_T(polynomials6) hamburger6_moved(GNOMON_T(polynomials6) p, GNOMON_T(derivatives6) d,
-                                                      Real distance_)
+GNOMON_KERNEL GNOMON_T(polynomials6) hamburger6_polynomials_shift(GNOMON_T(polynomials6) p, GNOMON_T(derivatives6) d,
+                                                                  Real distance_)
 {
     p.p1 = p.p1 + distance_;
     p.p2 = p.p2 + distance_ * (d.slope2 + distance_);
@@ -67,7 +67,7 @@ GNOMON_KERNEL GNOMON_T(polynomials6) hamburger6_moved(GNOMON_T(polynomials6) p, 
 
 /// t^3 + b t^2 + c t + d, whose roots are 1 / (z - z_f) for the other nodes z, or with their signs flipped where side
 /// = -1.
-GNOMON_STRUCT hamburger6_cubic { Real b, c, d; };
+GNOMON_STRUCT(hamburger6_cubic) { Real b, c, d; };
 
 /// p and d at z_f, inverse = 1 / (D_3 K(z_f, z_f)).
 GNOMON_KERNEL GNOMON_T(hamburger6_cubic) hamburger6_other_nodes(GNOMON_T(hankel6) h, GNOMON_T(polynomials6) p,
@@ -92,7 +92,7 @@ GNOMON_KERNEL Real hamburger6_distance(Real t)
 /// Both bounds and the weight of the receiver. z_f in [-1, 1], clamped. A NaN anywhere gives 0, lit. Against the moment
 /// problem solved in 120 digits (tests/moments/hamburger_oracle.cpp),
 ///     error, double, no bias, four depths and more: p99 1e-14, p99.9 4e-14
-///     error, float, hankel6_biased at 5e-6: p99 2e-5, p99.9 5e-5, max 2e-4
+///     error, float, hankel6_constant_bias at 5e-6: p99 2e-5, p99.9 5e-5, max 2e-4
 /// and against the same in double,
 ///     error, float, hankel6_from_float: p99 2e-5, p99.9 5e-5, max 2e-4
 ///     error, float, hankel6_from_float_filtered: p99 1e-5, p99.9 3e-5, max 1e-4
@@ -104,7 +104,7 @@ GNOMON_KERNEL Real hamburger6_distance(Real t)
 /// double do not tell what lies within 2^-32 of a depth.
 GNOMON_KERNEL GNOMON_T(hamburger_bounds) hamburger6_bounds(GNOMON_T(hankel6) h, Real z_f)
 {
-    GNOMON_T(polynomials6) p = hamburger6_polynomials(h, clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean);
+    polynomials6 p = hamburger6_polynomials(h, clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean);
     Real inverse = Real(1) / hamburger6_kernel(h, p);
     Real w_f = h.whole * inverse;
     GNOMON_MASK positive1 = p.p1 > Real(0);
@@ -117,12 +117,12 @@ GNOMON_KERNEL GNOMON_T(hamburger_bounds) hamburger6_bounds(GNOMON_T(hankel6) h, 
     if (gnomon_any(!outside)) {
         // P_3 > 0: an even number of nodes above z_f, so two, and the lone one is below; else it is above.
         Real side = gnomon_select(positive3, Real(-1), Real(1));
-        GNOMON_T(derivatives6) d = hamburger6_derivatives(h, p);
-        GNOMON_T(hamburger6_cubic) n = hamburger6_other_nodes(h, p, d, inverse, side);
-        GNOMON_T(cubic_step) t = cubic_positive_root(n.b, n.c, n.d);
+        derivatives6 d = hamburger6_derivatives(h, p);
+        hamburger6_cubic n = hamburger6_other_nodes(h, p, d, inverse, side);
+        cubic_step t = cubic_positive_root(n.b, n.c, n.d);
         // A node that runs to infinity stops 1024 from z_f: it has no weight there.
         Real distance_ = (side * t.denominator) / gnomon_max(t.numerator, Real(0.0009765625) * t.denominator);
-        Real w = h.whole / hamburger6_kernel(h, hamburger6_moved(p, d, distance_));
+        Real w = h.whole / hamburger6_kernel(h, hamburger6_polynomials_shift(p, d, distance_));
         lower = gnomon_select(outside, lower, gnomon_select(positive3, w, (Real(1) - w_f) - w));
     }
     GNOMON_T(hamburger_bounds) r;
@@ -139,10 +139,10 @@ GNOMON_KERNEL Real hamburger6_lower(GNOMON_T(hankel6) h, Real z_f) { return hamb
 /// has no weight. A NaN anywhere gives a single depth at the far plane.
 GNOMON_KERNEL GNOMON_T(distribution4) hamburger6_distribution(GNOMON_T(hankel6) h, Real z_f)
 {
-    GNOMON_T(polynomials6) p = hamburger6_polynomials(h, clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean);
+    polynomials6 p = hamburger6_polynomials(h, clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean);
     Real inverse = Real(1) / hamburger6_kernel(h, p);
     Real side = gnomon_select(p.p3 > Real(0), Real(-1), Real(1));
-    GNOMON_T(hamburger6_cubic) n = hamburger6_other_nodes(h, p, hamburger6_derivatives(h, p), inverse, side);
+    hamburger6_cubic n = hamburger6_other_nodes(h, p, hamburger6_derivatives(h, p), inverse, side);
     // The largest root, then the other two from the quadratic that division by it leaves, polished on the cubic.
     Real t1 = cubic_largest_root(n.b, n.c, n.d);
     // Divide from the end that does not cancel: a small root from the highest power, a large one from the lowest.
@@ -151,7 +151,7 @@ GNOMON_KERNEL GNOMON_T(distribution4) hamburger6_distribution(GNOMON_T(hankel6) 
     Real forward = n.b + t1;
     Real b = Real(0.5) * gnomon_select(large, (backward - n.c) / t1, forward);
     Real c = gnomon_select(large, backward, n.c + t1 * forward);
-    GNOMON_T(quadratic_result) q = quadratic_roots(Real(1), b, c);
+    quadratic_result q = quadratic_roots(Real(1), b, c);
     Real t2 = cubic_halley(n.b, n.c, n.d, q.first);
     Real t3 = cubic_halley(n.b, n.c, n.d, q.second);
     Real x1 = p.p1 + side * hamburger6_distance(t1);

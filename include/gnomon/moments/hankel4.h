@@ -17,10 +17,10 @@ GNOMON_NAMESPACE_BEGIN
 
 /// The factored matrix: mean b1, variance D_1, third central moment G, determinant D_1 D_2. Variance and determinant
 /// are positive for any moments within [-2^30, 2^30]; larger ones can overflow, and a NaN among them stays one.
-GNOMON_STRUCT hankel4 { Real mean, variance, third, determinant; };
+GNOMON_STRUCT(hankel4) { Real mean, variance, third, determinant; };
 
 /// From mean, V, L and V M - L^2.
-GNOMON_KERNEL GNOMON_T(hankel4) hankel4_of(Real mean, Real variance, Real covariance, Real determinant)
+GNOMON_KERNEL GNOMON_T(hankel4) hankel4_make(Real mean, Real variance, Real covariance, Real determinant)
 {
     GNOMON_T(hankel4) h;
     h.mean = mean;
@@ -32,25 +32,25 @@ GNOMON_KERNEL GNOMON_T(hankel4) hankel4_of(Real mean, Real variance, Real covari
 
 /// The same with guarded pivots: none below the floor, so that indefinite moments still name a distribution. A NaN, the
 /// second argument of gnomon_max, stays one (portable.h).
-GNOMON_KERNEL GNOMON_T(hankel4) hankel4_guarded(Real mean, Real variance, Real covariance, Real determinant)
+GNOMON_KERNEL GNOMON_T(hankel4) hankel4_floor_pivots(Real mean, Real variance, Real covariance, Real determinant)
 {
     Real v = gnomon_max(GNOMON_PIVOT_FLOOR, variance);
-    return hankel4_of(mean, v, covariance, gnomon_max(GNOMON_PIVOT_FLOOR * v, determinant));
+    return hankel4_make(mean, v, covariance, gnomon_max(GNOMON_PIVOT_FLOOR * v, determinant));
 }
 
 /// Plain arithmetic: right for moments from 16-bit storage, whose own errors are larger, and for double.
-GNOMON_KERNEL GNOMON_T(hankel4) hankel4_fast(GNOMON_T(moments4) b)
+GNOMON_KERNEL GNOMON_T(hankel4) hankel4_plain(GNOMON_T(moments4) b)
 {
     Real v = b.b2 - b.b1 * b.b1;
     Real l = b.b3 - b.b1 * b.b2;
     Real m = b.b4 - b.b2 * b.b2;
-    return hankel4_guarded(b.b1, v, l, v * m - l * l);
+    return hankel4_floor_pivots(b.b1, v, l, v * m - l * l);
 }
 
 /// V, L and M without cancellation. Jensen's inequality orders the terms of V and M, not those of L.
-GNOMON_STRUCT covariances4 { GNOMON_T(double_word) v, l, m; };
+GNOMON_STRUCT(covariances4) { GNOMON_T(double_word) v, l, m; };
 
-GNOMON_KERNEL GNOMON_T(covariances4) covariances4_of(GNOMON_T(moments4) b)
+GNOMON_KERNEL GNOMON_T(covariances4) covariances4_from_moments(GNOMON_T(moments4) b)
 {
     GNOMON_T(covariances4) c;
     c.v = subtract_product_ordered(b.b2, b.b1, b.b1);
@@ -61,19 +61,19 @@ GNOMON_KERNEL GNOMON_T(covariances4) covariances4_of(GNOMON_T(moments4) b)
 
 /// The moments of the mixture (1 - alpha) Z + alpha Z*, where Z* is symmetric with second and fourth moments bias2 and
 /// bias4 (paper, 2.5).
-GNOMON_KERNEL GNOMON_T(hankel4) hankel4_biased(GNOMON_T(moments4) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4,
-                                               GNOMON_SETTING alpha)
+GNOMON_KERNEL GNOMON_T(hankel4) hankel4_constant_bias(GNOMON_T(moments4) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4,
+                                                      GNOMON_SETTING alpha)
 {
     GNOMON_T(moments4) e;
     e.b1 = Real(-1) * alpha * b.b1;
     e.b2 = alpha * (bias2 - b.b2);
     e.b3 = Real(-1) * alpha * b.b3;
     e.b4 = alpha * (bias4 - b.b4);
-    GNOMON_T(covariances4) c = covariances4_of(b);
-    GNOMON_T(double_word) v = biased_covariance(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
-    GNOMON_T(double_word) l = biased_covariance(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
-    GNOMON_T(double_word) m = biased_covariance(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
-    return hankel4_guarded(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
+    covariances4 c = covariances4_from_moments(b);
+    double_word v = covariance_add_bias(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
+    double_word l = covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
+    double_word m = covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
+    return hankel4_floor_pivots(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
 }
 
 GNOMON_NAMESPACE_END

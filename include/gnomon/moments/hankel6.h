@@ -21,11 +21,11 @@ GNOMON_NAMESPACE_BEGIN
 /// The recurrence: mean b1, variance D_1, the shifts of u in P_2 and P_3, ratio D_2 / D_1; and the weights of 1, P_1^2
 /// and P_2^2 in D_3 K(z, z): whole D_3, first D_3 / D_1, second D_3 / D_2. Pivots are positive, whatever the moments
 /// were, or NaN where one of these was.
-GNOMON_STRUCT hankel6 { Real mean, variance, shift2, shift3, ratio, whole, first, second; };
+GNOMON_STRUCT(hankel6) { Real mean, variance, shift2, shift3, ratio, whole, first, second; };
 
 /// From mean, c_11, c_12, s_22, s_23 and t; no pivot below the floor. A NaN, the second argument of gnomon_max, stays
 /// one (portable.h).
-GNOMON_KERNEL GNOMON_T(hankel6) hankel6_of(Real mean, Real c11, Real c12, Real s22, Real s23, Real t)
+GNOMON_KERNEL GNOMON_T(hankel6) hankel6_make(Real mean, Real c11, Real c12, Real s22, Real s23, Real t)
 {
     GNOMON_T(hankel6) h;
     h.mean = mean;
@@ -44,10 +44,10 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_of(Real mean, Real c11, Real c12, Real s
 }
 
 /// The covariances of (z, z^2, z^3).
-GNOMON_STRUCT covariances6 { GNOMON_T(double_word) c11, c12, c13, c22, c23, c33; };
+GNOMON_STRUCT(covariances6) { GNOMON_T(double_word) c11, c12, c13, c22, c23, c33; };
 
 /// By Hoelder's inequality the terms are ordered where i + j is even.
-GNOMON_KERNEL GNOMON_T(covariances6) covariances6_of(GNOMON_T(moments6) b)
+GNOMON_KERNEL GNOMON_T(covariances6) covariances6_from_moments(GNOMON_T(moments6) b)
 {
     GNOMON_T(covariances6) c;
     c.c11 = subtract_product_ordered(b.b2, b.b1, b.b1);
@@ -65,9 +65,9 @@ GNOMON_KERNEL GNOMON_T(covariances6) covariances6_of(GNOMON_T(moments6) b)
 GNOMON_KERNEL GNOMON_T(double_word) hankel6_minor(GNOMON_T(double_word) a, GNOMON_T(double_word) b,
                                                   GNOMON_T(double_word) c, GNOMON_T(double_word) d)
 {
-    GNOMON_T(double_word) p = two_product(a.high, b.high);
-    GNOMON_T(double_word) q = two_product(c.high, d.high);
-    GNOMON_T(double_word) r = two_difference_ordered(p.high, q.high);
+    double_word p = two_product(a.high, b.high);
+    double_word q = two_product(c.high, d.high);
+    double_word r = two_difference_ordered(p.high, q.high);
     Real up = a.high * b.low + a.low * (b.high + b.low);
     Real down = c.high * d.low + c.low * (d.high + d.low);
     r.low = r.low + ((p.low - q.low) + (up - down));
@@ -77,11 +77,11 @@ GNOMON_KERNEL GNOMON_T(double_word) hankel6_minor(GNOMON_T(double_word) a, GNOMO
 /// Elimination.
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_factor(Real mean, GNOMON_T(covariances6) c)
 {
-    GNOMON_T(double_word) s22 = hankel6_minor(c.c11, c.c22, c.c12, c.c12);
-    GNOMON_T(double_word) s23 = double_word_minor(c.c11, c.c23, c.c12, c.c13);
-    GNOMON_T(double_word) s33 = hankel6_minor(c.c11, c.c33, c.c13, c.c13);
-    return hankel6_of(mean, c.c11.high + c.c11.low, c.c12.high + c.c12.low, s22.high + s22.low, s23.high + s23.low,
-                      double_word_determinant(s22, s23, s33));
+    double_word s22 = hankel6_minor(c.c11, c.c22, c.c12, c.c12);
+    double_word s23 = double_word_minor(c.c11, c.c23, c.c12, c.c13);
+    double_word s33 = hankel6_minor(c.c11, c.c33, c.c13, c.c13);
+    return hankel6_make(mean, c.c11.high + c.c11.low, c.c12.high + c.c12.low, s22.high + s22.low, s23.high + s23.low,
+                        double_word_determinant(s22, s23, s33));
 }
 
 /// The moments of the mixture (1 - alpha) Z + alpha Z*, where Z* is symmetric with even moments bias2, bias4, bias6
@@ -89,8 +89,8 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_factor(Real mean, GNOMON_T(covariances6)
 /// alpha times the products of the differences of the means.
 /// Domain: alpha in [0, 1), and from n delta / (n delta + r) on for moments that are off by n roundings (storage/moments6.h);
 /// below, pivots may meet their floor, and bounds say nothing.
-GNOMON_KERNEL GNOMON_T(hankel6) hankel6_biased(GNOMON_T(moments6) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4,
-                                               GNOMON_SETTING bias6, GNOMON_SETTING alpha)
+GNOMON_KERNEL GNOMON_T(hankel6) hankel6_constant_bias(GNOMON_T(moments6) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4,
+                                                      GNOMON_SETTING bias6, GNOMON_SETTING alpha)
 {
     Real keep = Real(1) - alpha;
     Real odds = alpha / keep;
@@ -98,21 +98,21 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_biased(GNOMON_T(moments6) b, GNOMON_SETT
     Real e1 = alpha * b.b1;
     Real e2 = alpha * d2;
     Real e3 = alpha * b.b3;
-    GNOMON_T(covariances6) c = covariances6_of(b);
+    covariances6 c = covariances6_from_moments(b);
     c.c11.low = c.c11.low + (e1 * b.b1 + odds * bias2);
     c.c12.low = c.c12.low + e1 * d2;
     c.c13.low = c.c13.low + (e1 * b.b3 + odds * bias4);
     c.c22.low = c.c22.low + (e2 * d2 + odds * (bias4 - bias2 * bias2));
     c.c23.low = c.c23.low + e2 * b.b3;
     c.c33.low = c.c33.low + (e3 * b.b3 + odds * bias6);
-    GNOMON_T(hankel6) h = hankel6_factor(b.b1 - e1, c);
+    hankel6 h = hankel6_factor(b.b1 - e1, c);
     h.variance = keep * h.variance;
     h.whole = keep * h.whole;
     return h;
 }
 
 /// Plain arithmetic: right for moments from 10 and 16 bit storage, whose own errors are larger, and for double.
-GNOMON_KERNEL GNOMON_T(hankel6) hankel6_fast(GNOMON_T(moments6) b)
+GNOMON_KERNEL GNOMON_T(hankel6) hankel6_plain(GNOMON_T(moments6) b)
 {
     Real c11 = b.b2 - b.b1 * b.b1;
     Real c12 = b.b3 - b.b1 * b.b2;
@@ -120,7 +120,7 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_fast(GNOMON_T(moments6) b)
     Real s22 = c11 * (b.b4 - b.b2 * b.b2) - c12 * c12;
     Real s23 = c11 * (b.b5 - b.b2 * b.b3) - c12 * c13;
     Real s33 = c11 * (b.b6 - b.b3 * b.b3) - c13 * c13;
-    return hankel6_of(b.b1, c11, c12, s22, s23, s22 * s33 - s23 * s23);
+    return hankel6_make(b.b1, c11, c12, s22, s23, s22 * s33 - s23 * s23);
 }
 
 GNOMON_NAMESPACE_END

@@ -7,9 +7,9 @@
 #include "../portable.h"
 GNOMON_NAMESPACE_BEGIN
 
-GNOMON_STRUCT moments4 { Real b1, b2, b3, b4; };
+GNOMON_STRUCT(moments4) { Real b1, b2, b3, b4; };
 
-GNOMON_STRUCT moments6 { Real b1, b2, b3, b4, b5, b6; };
+GNOMON_STRUCT(moments6) { Real b1, b2, b3, b4, b5, b6; };
 
 /// Signed depth in [-1, 1] from a depth buffer's z in [0, 1], near plane at 0. Exact to one rounding.
 GNOMON_KERNEL Real depth_from_unit(Real z) { return z * Real(2) - Real(1); }
@@ -24,7 +24,7 @@ GNOMON_KERNEL Real depth_from_distance(Real distance_, GNOMON_SETTING near_dista
 }
 
 /// The four moments of a single depth z in [-1, 1] (paper, D.1).
-GNOMON_KERNEL GNOMON_T(moments4) moments4_of_depth(Real z)
+GNOMON_KERNEL GNOMON_T(moments4) moments4_from_depth(Real z)
 {
     GNOMON_T(moments4) b;
     b.b1 = z;
@@ -35,7 +35,7 @@ GNOMON_KERNEL GNOMON_T(moments4) moments4_of_depth(Real z)
 }
 
 /// The six moments of a single depth z in [-1, 1].
-GNOMON_KERNEL GNOMON_T(moments6) moments6_of_depth(Real z)
+GNOMON_KERNEL GNOMON_T(moments6) moments6_from_depth(Real z)
 {
     GNOMON_T(moments6) b;
     b.b1 = z;

@@ -41,9 +41,10 @@ GNOMON_KERNEL GNOMON_T(moments4) theta4_inverse(GNOMON_T(moments4) c)
     return b;
 }
 
-/// (1 - alpha) b + alpha (0, bias, 0, bias) for the moments b of channels c: theta4_inverse, then moments4_biased, in
+/// (1 - alpha) b + alpha (0, bias, 0, bias) for the moments b of channels c: theta4_inverse, then moments4_add_bias, in
 /// four products less.
-GNOMON_KERNEL GNOMON_T(moments4) theta4_inverse_biased(GNOMON_T(moments4) c, GNOMON_SETTING bias, GNOMON_SETTING alpha)
+GNOMON_KERNEL GNOMON_T(moments4) theta4_inverse_add_bias(GNOMON_T(moments4) c, GNOMON_SETTING bias,
+                                                         GNOMON_SETTING alpha)
 {
     Real keep = Real(1) - alpha;
     Real c1 = c.b1 - Real(0.5);

@@ -10,7 +10,7 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// Two depths, depth1 <= depth2, and their weights, in [0, 1] with sum 1.
-GNOMON_STRUCT distribution2 { Real depth1, depth2, weight1, weight2; };
+GNOMON_STRUCT(distribution2) { Real depth1, depth2, weight1, weight2; };
 
 GNOMON_CONSTANT(two_point_least_variance, 1.1920928955078125e-7); // 2^-23
 
@@ -20,8 +20,8 @@ GNOMON_CONSTANT(two_point_least_variance, 1.1920928955078125e-7); // 2^-23
 /// where they would be more than 2^13 apart, b1 in [-1, 1] is the single depth. A NaN gives one at the far plane.
 GNOMON_KERNEL GNOMON_T(distribution2) two_point_distribution(Real b1, Real b2, Real b3, GNOMON_SETTING least_variance)
 {
-    GNOMON_T(double_word) v = subtract_product_ordered(b2, b1, b1);
-    GNOMON_T(double_word) c = subtract_product(b3, b1, b2);
+    double_word v = subtract_product_ordered(b2, b1, b1);
+    double_word c = subtract_product(b3, b1, b2);
     Real mean = clamp_or_nan(b1, Real(-1), Real(1));
     Real variance = v.high + v.low;
     GNOMON_MASK single = !(variance > gnomon_max(least_variance, GNOMON_PIVOT_FLOOR));

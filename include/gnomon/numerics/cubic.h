@@ -14,7 +14,7 @@ GNOMON_CONSTANT(cubic_cosine4, -0.00882245);
 GNOMON_CONSTANT(cubic_minus_third, -0.33333333333333331);
 
 /// A Halley step for t^3 + b t^2 + c t + d as a fraction, numerator / denominator, whose denominator is positive.
-GNOMON_STRUCT cubic_step { Real numerator, denominator; };
+GNOMON_STRUCT(cubic_step) { Real numerator, denominator; };
 
 GNOMON_KERNEL GNOMON_T(cubic_step) cubic_halley_step(Real b, Real c, Real d, Real t)
 {
@@ -33,7 +33,7 @@ GNOMON_KERNEL GNOMON_T(cubic_step) cubic_halley_step(Real b, Real c, Real d, Rea
 /// t after a step of Halley's iteration on t^3 + b t^2 + c t + d.
 GNOMON_KERNEL Real cubic_halley(Real b, Real c, Real d, Real t)
 {
-    GNOMON_T(cubic_step) x = cubic_halley_step(b, c, d, t);
+    cubic_step x = cubic_halley_step(b, c, d, t);
     return x.numerator / x.denominator;
 }
 
@@ -77,7 +77,7 @@ GNOMON_KERNEL GNOMON_T(cubic_step) cubic_positive_root(Real b, Real c, Real d)
 /// Error: 8 u (t^3 + |b| t^2 + |c| t + |d|) / |f'(t)|, as if the value of the polynomial took 8 roundings u.
 GNOMON_KERNEL Real cubic_largest_root(Real b, Real c, Real d)
 {
-    GNOMON_T(cubic_step) x = cubic_positive_root(b, c, d);
+    cubic_step x = cubic_positive_root(b, c, d);
     return x.numerator / x.denominator;
 }
 

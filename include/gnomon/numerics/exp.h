@@ -78,7 +78,7 @@ GNOMON_KERNEL Real polynomial_exp(Real x)
 }
 
 /// significand 2^exponent.
-GNOMON_STRUCT scaled_number { Real significand, exponent; };
+GNOMON_STRUCT(scaled_number) { Real significand, exponent; };
 
 /// Takes 2^k out of the significand where it holds it, or 2^-k.
 GNOMON_KERNEL GNOMON_T(scaled_number) scaled_number_step(GNOMON_T(scaled_number) s, Real k)

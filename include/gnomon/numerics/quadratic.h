@@ -4,7 +4,7 @@
 #include "../portable.h"
 GNOMON_NAMESPACE_BEGIN
 
-GNOMON_STRUCT quadratic_result { Real first, second; };
+GNOMON_STRUCT(quadratic_result) { Real first, second; };
 
 /// Both roots, in no order; complex ones are taken for their common real part. Max error: 4 ulp where a c <= b^2 / 2,
 /// by as many roundings. A vanishing a sends one to infinity; all zero gives NaN. Overflow and underflow of b^2 and a c

@@ -55,7 +55,7 @@ GNOMON_CONSTANT(atan_double_9, 0.038062223780711196);
 GNOMON_CONSTANT(atan_double_10, -0.017905126733869233);
 
 /// cos x and sin x.
-GNOMON_STRUCT cosine_sine { Real cosine, sine; };
+GNOMON_STRUCT(cosine_sine) { Real cosine, sine; };
 
 /// cos x and sin x. Valid range: |x| <= 8192; beyond an end the values there, so both are always in [-1, 1] up to the
 /// error; a NaN gives two NaNs. Max error: 1.5 ulp for |x| <= pi / 4; elsewhere 1.75 2^-p, p the bits of the

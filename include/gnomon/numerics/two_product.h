@@ -7,7 +7,7 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// The unevaluated sum high + low.
-GNOMON_STRUCT double_word { Real high, low; };
+GNOMON_STRUCT(double_word) { Real high, low; };
 
 /// a b - p for p = a b rounded, without a fused multiply-add: both factors are split into halves whose products are
 /// exact. Summed in this order an error of zero is +0, as the fused one is.
@@ -59,8 +59,8 @@ GNOMON_KERNEL GNOMON_T(double_word) two_difference_ordered(Real a, Real b)
 /// c - a b as a double word, for any magnitudes; relative error 2 u^2 of |c| + |a b|.
 GNOMON_KERNEL GNOMON_T(double_word) subtract_product(Real c, Real a, Real b)
 {
-    GNOMON_T(double_word) p = two_product(a, b);
-    GNOMON_T(double_word) r = two_difference(c, p.high);
+    double_word p = two_product(a, b);
+    double_word r = two_difference(c, p.high);
     r.low = r.low - p.low;
     return r;
 }
@@ -68,8 +68,8 @@ GNOMON_KERNEL GNOMON_T(double_word) subtract_product(Real c, Real a, Real b)
 /// The same for |c| >= |a b|; elsewhere low is off by up to a rounding of a b.
 GNOMON_KERNEL GNOMON_T(double_word) subtract_product_ordered(Real c, Real a, Real b)
 {
-    GNOMON_T(double_word) p = two_product(a, b);
-    GNOMON_T(double_word) r = two_difference_ordered(c, p.high);
+    double_word p = two_product(a, b);
+    double_word r = two_difference_ordered(c, p.high);
     r.low = r.low - p.low;
     return r;
 }
@@ -77,7 +77,7 @@ GNOMON_KERNEL GNOMON_T(double_word) subtract_product_ordered(Real c, Real a, Rea
 /// c - a b within 2 roundings of its value, whatever cancels: where c and a b do, their difference is exact.
 GNOMON_KERNEL Real subtract_product_rounded(Real c, Real a, Real b)
 {
-    GNOMON_T(double_word) p = two_product(a, b);
+    double_word p = two_product(a, b);
     return (c - p.high) - p.low;
 }
 
@@ -86,8 +86,8 @@ GNOMON_KERNEL Real subtract_product_rounded(Real c, Real a, Real b)
 /// determinants".
 GNOMON_KERNEL Real difference_of_products(Real a, Real b, Real c, Real d)
 {
-    GNOMON_T(double_word) p = two_product(a, b);
-    GNOMON_T(double_word) q = two_product(c, d);
+    double_word p = two_product(a, b);
+    double_word q = two_product(c, d);
     return (p.high - q.high) + (p.low - q.low);
 }
 
@@ -96,9 +96,9 @@ GNOMON_KERNEL Real difference_of_products(Real a, Real b, Real c, Real d)
 GNOMON_KERNEL GNOMON_T(double_word) double_word_minor(GNOMON_T(double_word) a, GNOMON_T(double_word) b,
                                                       GNOMON_T(double_word) c, GNOMON_T(double_word) d)
 {
-    GNOMON_T(double_word) p = two_product(a.high, b.high);
-    GNOMON_T(double_word) q = two_product(c.high, d.high);
-    GNOMON_T(double_word) r = two_difference(p.high, q.high);
+    double_word p = two_product(a.high, b.high);
+    double_word q = two_product(c.high, d.high);
+    double_word r = two_difference(p.high, q.high);
     Real cross = (a.high * b.low + a.low * b.high) - (c.high * d.low + c.low * d.high);
     r.low = r.low + ((p.low - q.low) + (cross + (a.low * b.low - c.low * d.low)));
     return r;
@@ -107,8 +107,8 @@ GNOMON_KERNEL GNOMON_T(double_word) double_word_minor(GNOMON_T(double_word) a, G
 /// a c - b^2 for double words. Error: two roundings of the result, and as for double_word_minor.
 GNOMON_KERNEL Real double_word_determinant(GNOMON_T(double_word) a, GNOMON_T(double_word) b, GNOMON_T(double_word) c)
 {
-    GNOMON_T(double_word) p = two_product(a.high, c.high);
-    GNOMON_T(double_word) q = two_product(b.high, b.high);
+    double_word p = two_product(a.high, c.high);
+    double_word q = two_product(b.high, b.high);
     Real cross = (a.high * c.low + a.low * (c.high + c.low)) - b.low * ((b.high + b.high) + b.low);
     return (p.high - q.high) + ((p.low - q.low) + cross);
 }

@@ -30,11 +30,11 @@
 #define GNOMON_NAMESPACE_BEGIN namespace gnomon {
 #define GNOMON_NAMESPACE_END }
 #define GNOMON_KERNEL template <class Real, class = gnomon::require_real<Real>> GNOMON_INLINE constexpr
-#define GNOMON_STRUCT template <class Real, class = gnomon::require_real<Real>> struct
+#define GNOMON_STRUCT(name) template <class Real, class = gnomon::require_real<Real>> struct name
 #define GNOMON_T(name) name<Real>
 #define GNOMON_LIST_HEAD template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = gnomon::require_real<Real>>
 #define GNOMON_LIST_KERNEL GNOMON_LIST_HEAD GNOMON_INLINE constexpr
-#define GNOMON_LIST_STRUCT GNOMON_LIST_HEAD struct
+#define GNOMON_LIST_STRUCT(name) GNOMON_LIST_HEAD struct name
 #define GNOMON_LIST_T(name) name<Real, capacity>
 #define GNOMON_CAPACITY capacity
 #define GNOMON_MASK gnomon::mask_t<Real>

@@ -7,10 +7,10 @@
 #define GNOMON_NAMESPACE_BEGIN
 #define GNOMON_NAMESPACE_END
 #define GNOMON_KERNEL
-#define GNOMON_STRUCT struct
+#define GNOMON_STRUCT(name) struct name
 #define GNOMON_T(name) name
 #define GNOMON_LIST_KERNEL
-#define GNOMON_LIST_STRUCT struct
+#define GNOMON_LIST_STRUCT(name) struct name
 #define GNOMON_LIST_T(name) name
 #define GNOMON_CAPACITY GNOMON_RANGE_CAPACITY
 #define GNOMON_MASK bool

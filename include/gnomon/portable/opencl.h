@@ -19,11 +19,13 @@ typedef float Real;
 #define GNOMON_NAMESPACE_BEGIN
 #define GNOMON_NAMESPACE_END
 #define GNOMON_KERNEL static inline
-#define GNOMON_STRUCT struct
-#define GNOMON_T(name) struct name
+// clang-format off
+#define GNOMON_STRUCT(name) typedef struct name name; struct name
+#define GNOMON_T(name) name
 #define GNOMON_LIST_KERNEL static inline
-#define GNOMON_LIST_STRUCT struct
-#define GNOMON_LIST_T(name) struct name
+#define GNOMON_LIST_STRUCT(name) typedef struct name name; struct name
+// clang-format on
+#define GNOMON_LIST_T(name) name
 #define GNOMON_CAPACITY GNOMON_RANGE_CAPACITY
 #define GNOMON_MASK bool
 #define GNOMON_SETTING Real

@@ -56,7 +56,7 @@ GNOMON_KERNEL GNOMON_T(certificate4) certificate4_within(GNOMON_T(moments4) b, R
 }
 
 /// The greater of two certified means as an intensity; all before z_f are in shadow, none before least is.
-GNOMON_KERNEL Real certified4_of_means(Real mean, Real within, Real least, Real greatest, Real z_f)
+GNOMON_KERNEL Real certified4_from_means(Real mean, Real within, Real least, Real greatest, Real z_f)
 {
     Real intensity = saturate_or_zero(gnomon_max(within, mean));
     intensity = gnomon_select(least < z_f, intensity, Real(0));
@@ -68,10 +68,10 @@ GNOMON_KERNEL Real certified4_theta_within(GNOMON_T(moments4) channels, GNOMON_S
                                            Real least, Real greatest, Real z_f)
 {
     Real z = clamp_or_nan(z_f, Real(-1), Real(1));
-    GNOMON_T(moments4) b = theta4_inverse_biased(channels, GNOMON_LITERAL(bias4_theta_b2), alpha);
-    Real mean = certificate4_theta_mean(certificate4_fast(hankel4_fast(b), z), channels, noise);
+    moments4 b = theta4_inverse_add_bias(channels, GNOMON_LITERAL(bias4_theta_b2), alpha);
+    Real mean = certificate4_theta_mean(certificate4_plain(hankel4_plain(b), z), channels, noise);
     Real within = certificate4_theta_mean(certificate4_within(b, least, greatest, z), channels, noise);
-    return certified4_of_means(mean, within, least, greatest, z);
+    return certified4_from_means(mean, within, least, greatest, z);
 }
 
 /// The same from moments stored as they are.
@@ -79,10 +79,10 @@ GNOMON_KERNEL Real certified4_raw_within(GNOMON_T(moments4) b, GNOMON_T(moments4
                                          Real least, Real greatest, Real z_f)
 {
     Real z = clamp_or_nan(z_f, Real(-1), Real(1));
-    GNOMON_T(moments4) c = moments4_biased(b, GNOMON_LITERAL(bias4_raw_b2), GNOMON_LITERAL(bias4_raw_b4), alpha);
-    Real mean = certificate4_mean(certificate4_fast(hankel4_fast(c), z), b, noise);
+    moments4 c = moments4_add_bias(b, GNOMON_LITERAL(bias4_raw_b2), GNOMON_LITERAL(bias4_raw_b4), alpha);
+    Real mean = certificate4_mean(certificate4_plain(hankel4_plain(c), z), b, noise);
     Real within = certificate4_mean(certificate4_within(c, least, greatest, z), b, noise);
-    return certified4_of_means(mean, within, least, greatest, z);
+    return certified4_from_means(mean, within, least, greatest, z);
 }
 
 /// Intensity at z_f from the channels of a 4 x 16 UNORM texel and the region's least and greatest depth, rounded down

@@ -3,7 +3,7 @@
 // and its reconstruction cannot be mismatched.
 //
 //     using format = gnomon::moments4_unorm16;
-//     format::texel t = format::encode(gnomon::moments4_of_depth(z));          // while rendering the map
+//     format::texel t = format::encode(gnomon::moments4_from_depth(z));          // while rendering the map
 //     float shadow = format::intensity(format::decode(t), z_f);                // filtered in between; floats or packs
 //
 // decode returns what a texture unit would: the channels, still transformed, since filtering is linear in them.

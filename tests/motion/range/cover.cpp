@@ -195,9 +195,9 @@ TEST_CASE("covers of carried triangles, from prisms and from covered times")
                 p.x1 = p.x0 + x, p.y1 = p.y0 + y, p.z1 = p.z0 + z;
             }
             m[k] = {v[0], v[1], v[2]};
-            const prism<double> p = prism_of(m[k], 1.0);
+            const prism<double> p = prism_make(m[k], 1.0);
             for (int j = 0; j < 14; ++j) {
-                const auto f = prism_fragment_at(prism_triangle_of(p, double(j)), 0.0, 0.0, 1.0);
+                const auto f = prism_fragment_at(prism_triangle_make(p, double(j)), 0.0, 0.0, 1.0);
                 if (f.covered > 0) all.push_back({f.time, f.depth, double(k)});
             }
             const moving_edges<double> e = moving_triangle_edges(m[k], 0.0, 0.0);
@@ -241,7 +241,7 @@ TEST_CASE_TEMPLATE("leaving out what the cover hides changes no shadow test, bit
         const auto cover = cover_of(ranges);
         list<T> kept;
         for (const auto& r : ranges)
-            if (range_cover_hides(cover, r) == 0) kept.push_back(r);
+            if (range_cover_occludes(cover, r) == 0) kept.push_back(r);
         if (cover.id < 0) REQUIRE(kept.size() == ranges.size());
         else REQUIRE(std::any_of(kept.begin(), kept.end(), [&](const auto& r) { return equal(r, cover); }));
         covered += cover.id >= 0;
@@ -310,7 +310,7 @@ TEST_CASE_TEMPLATE("a range that rounding puts in front of the cover is not left
         const depth_time_range<T> r{begin, end, z, std::nextafter(z, T(2)), 1};
         const T t = begin + T(bits.uniform(0, 0.25)), behind = std::nextafter(range_depth(r, t), T(2));
         const T whole = shadow<T>({cover, r}, t, behind, T(2), T(0));
-        const bool kept = range_cover_hides(cover, r) == 0;
+        const bool kept = range_cover_occludes(cover, r) == 0;
         REQUIRE(shadow<T>(kept ? list<T>{cover, r} : list<T>{cover}, t, behind, T(2), T(0)) == whole);
         reversed += z > far_depth && range_depth(r, t) < range_depth(cover, t);
     }
@@ -340,10 +340,10 @@ TEST_CASE("the passes of the paper, one by one")
     CHECK(range_cover_answer(c, 0.5, -0.3, 3.0, 0.0).decided == 1);
     CHECK(range_cover_answer(c, 0.5, -0.45, 4.0, 0.0).intensity == 0); // in front of it
     CHECK(range_cover_answer(range_empty(-1.0), 0.5, 0.0, 4.0, 0.0).decided == 0);
-    CHECK(range_cover_hides(c, {0.5, 0.75, -0.25, 0, 4}) == 0);
-    CHECK(range_cover_hides(c, {0.5, 0.75, -0.24, 0, 4}) == 1);
-    CHECK(range_cover_hides(c, {0.75, 0.5, -1, -1, 4}) == 1); // empty
-    CHECK(range_cover_hides(range_empty(-1.0), {0.5, 0.75, 1, 1, 4}) == 0);
+    CHECK(range_cover_occludes(c, {0.5, 0.75, -0.25, 0, 4}) == 0);
+    CHECK(range_cover_occludes(c, {0.5, 0.75, -0.24, 0, 4}) == 1);
+    CHECK(range_cover_occludes(c, {0.75, 0.5, -1, -1, 4}) == 1); // empty
+    CHECK(range_cover_occludes(range_empty(-1.0), {0.5, 0.75, 1, 1, 4}) == 0);
 }
 
 TEST_CASE_TEMPLATE("anything in: a cover within the limits or none, and NaN hides nothing", T, float, double)
@@ -359,7 +359,7 @@ TEST_CASE_TEMPLATE("anything in: a cover within the limits or none, and NaN hide
         (bits.chance(0.5) ? bad.z0 : bits.chance(0.5) ? bad.z1 : bits.chance(0.5) ? bad.t0 : bad.t1) = nan;
         dirty.insert(dirty.begin() + std::ptrdiff_t(bits.below(dirty.size() + 1)), bad);
         REQUIRE(equal(cover_of(dirty), clean));
-        REQUIRE(range_cover_hides(clean, bad) == 1);
+        REQUIRE(range_cover_occludes(clean, bad) == 1);
         fragments<T> all = ends_of(ranges);
         const auto clean_fragments = cover_of(all);
         timed_fragment<T> worse = all[0];

@@ -4,6 +4,7 @@
 #include "support/hostile.hpp"
 
 #include <gnomon/motion/range/range_list.h>
+#include <gnomon/motion/receiver/static_receiver.h>
 
 #include <doctest/doctest.h>
 
@@ -42,7 +43,7 @@ template <class T> ranges<T> any_ranges(std::size_t count, bit_source& bits)
 
 template <int capacity, class T> range_list<T, capacity> list_of(const ranges<T>& all)
 {
-    range_list<T, capacity> list = range_list_of<T, capacity>({});
+    range_list<T, capacity> list = range_list_make<T, capacity>({});
     for (const auto& r : all) list = range_list_insert(list, r);
     return list;
 }
@@ -125,26 +126,26 @@ void require_apart(const auto& list)
 
 } // namespace
 
-TEST_CASE_TEMPLATE("range_is_before: one order of two, of three, of everything", T, float, double)
+TEST_CASE_TEMPLATE("range_less: one order of two, of three, of everything", T, float, double)
 {
     bit_source bits(1);
     for (std::int64_t i = 0; i < effort(100'000); ++i) {
         const auto a = any_range<T>(bits), b = bits.chance(0.1) ? a : any_range<T>(bits), c = any_range<T>(bits);
-        REQUIRE(int(range_is_before(a, b)) + int(range_is_before(b, a)) + int(equal(a, b)) == 1);
-        if (range_is_before(a, b) && range_is_before(b, c)) REQUIRE(range_is_before(a, c));
-        if (range_hides(a, b) && range_hides(b, c)) REQUIRE(range_hides(a, c));
-        if (range_hides(a, b) && range_hides(b, a)) REQUIRE(equal(a, b));
+        REQUIRE(int(range_less(a, b)) + int(range_less(b, a)) + int(equal(a, b)) == 1);
+        if (range_less(a, b) && range_less(b, c)) REQUIRE(range_less(a, c));
+        if (range_occludes(a, b) && range_occludes(b, c)) REQUIRE(range_occludes(a, c));
+        if (range_occludes(a, b) && range_occludes(b, a)) REQUIRE(equal(a, b));
     }
 }
 
-TEST_CASE_TEMPLATE("range_ahead_of, range_trim: both fill the common time, the nearer one is in front", T, float,
+TEST_CASE_TEMPLATE("range_visible_part, range_trim: both fill the common time, the nearer one is in front", T, float,
                    double)
 {
     bit_source bits(2);
     std::array<int, 3> cut{};
     for (std::int64_t i = 0; i < effort(100'000); ++i) {
         const auto a = any_range<T>(bits), b = any_range<T>(bits);
-        const auto over = range_ahead_of(a, b), under = range_ahead_of(b, a), common = range_intersect(a, b);
+        const auto over = range_visible_part(a, b), under = range_visible_part(b, a), common = range_clip_to(a, b);
         if (lasts(common) && a.id != b.id) {
             REQUIRE((lasts(over) || lasts(under)));
             const T first = lasts(over) ? over.t0 : T(2), second = lasts(under) ? under.t0 : T(2);
@@ -177,7 +178,7 @@ TEST_CASE_TEMPLATE("range_merge: all of both times, in front of both; its costs"
     bit_source bits(3);
     for (std::int64_t i = 0; i < effort(50'000); ++i) {
         const auto a = any_range<T>(bits), b = any_range<T>(bits);
-        const auto pair = range_pair_of(a, b), other = range_pair_of(b, a);
+        const auto pair = range_pair_make(a, b), other = range_pair_make(b, a);
         if (!lasts(a) || !lasts(b)) {
             REQUIRE(pair.cost == T(-1));
             REQUIRE(equal(pair.merged, lasts(a) ? a : b));
@@ -318,7 +319,7 @@ TEST_CASE_TEMPLATE("full lists: nothing leaves the shadow, and what becomes dark
 
 TEST_CASE_TEMPLATE("one id stays one id where it can; a merged range shadows everybody", T, float, double)
 {
-    range_list<T, 2> list = range_list_of<T, 2>({T(0), T(0.25), T(-0.5), T(-0.5), T(1)});
+    range_list<T, 2> list = range_list_make<T, 2>({T(0), T(0.25), T(-0.5), T(-0.5), T(1)});
     list = range_list_insert(list, {T(0.25), T(0.5), T(-0.5), T(-0.5), T(2)});
     list = range_list_insert(list, {T(0.5), T(0.75), T(-0.5), T(-0.5), T(2)});
     CHECK(list.ranges[0].id == T(1));
@@ -370,7 +371,7 @@ TEST_CASE_TEMPLATE("hostile ranges and lists: finite, in order, and always an en
     };
     const auto one = [&] { return range<T>{any(), any(), any(), any(), any()}; };
     for (std::int64_t i = 0; i < effort(50'000); ++i) {
-        range_list<T, 4> list = range_list_of<T, 4>(one());
+        range_list<T, 4> list = range_list_make<T, 4>(one());
         if (bits.chance(0.5)) list = {{one(), one(), one(), one()}, any(), any()};
         spans_of(list);
         for (int k = 0; k < 6; ++k) list = range_list_insert(list, bits.chance(0.1) ? list.ranges[0] : one());
@@ -387,7 +388,7 @@ TEST_CASE_TEMPLATE("hostile ranges and lists: finite, in order, and always an en
         REQUIRE(list.depth_added >= 0);
     }
     const T nan = std::numeric_limits<T>::quiet_NaN();
-    CHECK(!lasts(range_list_front(range_list_of<T, 4>({T(0), nan, T(0), T(0), T(1)}), T(1))));
+    CHECK(!lasts(range_list_front(range_list_make<T, 4>({T(0), nan, T(0), T(0), T(1)}), T(1))));
     const auto same = range<T>{T(0.25), T(0.5), T(0), T(0), T(1)};
     CHECK(list_of<4>(ranges<T>(40, same)).depth_added == 0); // all the same: one of them is kept
     CHECK(list_of<4>(ranges<T>(40, {T(0.5), T(0.5), T(0), T(0), T(1)})).depth_added == 0);

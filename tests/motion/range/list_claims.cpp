@@ -70,7 +70,7 @@ template <class T> std::vector<exact> critical_times(const ranges<T>& all)
 /// The distance of a list's front behind that of what was inserted into it.
 template <class T, int capacity> double behind(const ranges<T>& all)
 {
-    range_list<T, capacity> list = range_list_of<T, capacity>({});
+    range_list<T, capacity> list = range_list_make<T, capacity>({});
     for (const auto& r : all) list = range_list_insert(list, r);
     exact worst = 0;
     for (const exact t : critical_times(all)) {
@@ -117,14 +117,14 @@ TEST_CASE_TEMPLATE("ids: a shadow is lost where a range of the receiver's id is 
     std::int64_t shadowed = 0, lost_in_list = 0, lost_in_front = 0, lost_behind_cover = 0;
     for (std::int64_t i = 0; i < effort(100'000); ++i) {
         const ranges<T> all = grid_ranges<T>(bits);
-        range_list<T, 8> list = range_list_of<T, 8>({});
+        range_list<T, 8> list = range_list_make<T, 8>({});
         range_cover<T> state = range_cover_begin(T(1));
         for (const auto& r : all) list = range_list_insert(list, r), state = range_cover_add(state, r);
         const range_list<T, 8> resolved = range_list_resolve(list);
         const depth_time_range<T> cover = range_cover_end(state);
         ranges<T> kept;
         for (const auto& r : all)
-            if (range_cover_hides(cover, r) == 0) kept.push_back(r);
+            if (range_cover_occludes(cover, r) == 0) kept.push_back(r);
 
         const T t = (T(bits.below(8)) + T(0.5)) / 8, z = T(bits.below(17)) / 8 - 1, id = T(bits.below(4));
         const T bias = T(bits.below(3)) / 8;
@@ -151,7 +151,7 @@ TEST_CASE_TEMPLATE("ids: a shadow is lost where a range of the receiver's id is 
 TEST_CASE("ids of whole objects lose the shadows that others cast on them")
 {
     const auto bottom = [](double lid_id, double bottom_id) {
-        range_list<double> list = range_list_of<double>({0.0, 1.0, -0.5, -0.5, lid_id});
+        range_list<double> list = range_list_make<double>({0.0, 1.0, -0.5, -0.5, lid_id});
         list = range_list_insert(list, {0.0, 1.0, 0.0, 0.0, 7.0}); // something else inside
         return range_list_intensity(list, 0.5, 0.5, bottom_id, 0.0);
     };

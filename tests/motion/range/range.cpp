@@ -112,14 +112,14 @@ TEST_CASE_TEMPLATE("range_crossing: within the stated error, and an order on eit
     });
 }
 
-TEST_CASE_TEMPLATE("range_in_front: the times at which it shadows a receiver, at rest or not", T, float, double)
+TEST_CASE_TEMPLATE("range_occluding_part: the times at which it shadows a receiver, at rest or not", T, float, double)
 {
     for_each_range<T>(20'000, [](const depth_time_range<T>& r, bit_source& bits) {
         depth_time_range<T> course = any_range<T>(bits);
         if (bits.chance(0.3)) course = {T(0), T(1), course.z0, course.z0, T(9)};
         if (bits.chance(0.1)) course.z0 = r.z0;
         const T a = any_time<T>(bits), b = any_time<T>(bits), begin = std::min(a, b), end = std::max(a, b);
-        const auto front = range_in_front(r, course, begin, end);
+        const auto front = range_occluding_part(r, course, begin, end);
         const double largest = std::max(
             {std::abs(double(r.z0)), std::abs(double(r.z1)), std::abs(double(course.z0)), std::abs(double(course.z1))});
         if (front.t0 < front.t1)
@@ -160,14 +160,14 @@ TEST_CASE_TEMPLATE("range_intensity: its own surface, its ends, bias, NaN", T, f
         broken.*member = nan;
         CHECK(range_intensity(broken, T(0.5), T(1), T(1), T(0)) == 0);
         const depth_time_range<T> level{T(0), T(1), T(1), T(1), T(1)};
-        CHECK(range_duration(range_in_front(broken, level, T(0), T(1))) == 0);
+        CHECK(range_duration(range_occluding_part(broken, level, T(0), T(1))) == 0);
     }
     const depth_time_range<T> near{T(0), T(1), T(-1), T(-1), T(1)};
-    CHECK(range_duration(range_in_front(near, r, T(0), T(1))) == 1);
+    CHECK(range_duration(range_occluding_part(near, r, T(0), T(1))) == 1);
     for (const auto member : {&depth_time_range<T>::z0, &depth_time_range<T>::z1}) {
         depth_time_range<T> broken = r;
         broken.*member = nan;
-        CHECK(range_duration(range_in_front(near, broken, T(0), T(1))) == 0);
+        CHECK(range_duration(range_occluding_part(near, broken, T(0), T(1))) == 0);
     }
     CHECK(range_duration(range_between(T(0.5), T(0), T(0.5), T(0), T(0))) == 0);
     CHECK(range_duration(depth_time_range<T>{T(1), T(0), T(0), T(0), T(0)}) == 0);

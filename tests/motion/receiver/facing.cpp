@@ -1,4 +1,4 @@
-// Surfaces that turn: the times at which they face the light, by the edge that facing_edge makes, against the product
+// Surfaces that turn: the times at which they face the light, by the edge that facing_function makes, against the product
 // of both vectors at dense times in extended precision.
 #include "receiver_cases.hpp"
 #include "support/effort.hpp"
@@ -34,7 +34,7 @@ template <class T> wide largest_length(const moving_vector<T>& v)
     return std::sqrt(std::max(dot(a, a), dot(b, b)));
 }
 
-template <class T> bool faces(const edge_times<T>& x, T t)
+template <class T> bool faces(const edge_intervals<T>& x, T t)
 {
     return x.begin <= t && t <= x.end && !(x.gap_begin < t && t < x.gap_end);
 }
@@ -47,13 +47,13 @@ TEST_CASE_TEMPLATE("facing: coefficients within the stated error, times as by de
     std::int64_t asked = 0, decided = 0, twice = 0;
     for (std::int64_t i = 0; i < effort(100'000); ++i) {
         const moving_vector<T> n = any_vector<T>(bits), d = any_vector<T>(bits);
-        const moving_edge<T> f = facing_edge(n, d);
+        const moving_edge<T> f = facing_function(n, d);
         const wide size = largest_length(n) * largest_length(d), error = 4 * rounding<T> * size;
         const auto n0 = exact_vector(n, 0), n1 = exact_vector(n, 1), d0 = exact_vector(d, 0), d1 = exact_vector(d, 1);
         REQUIRE(std::abs(wide(f.e0) - dot(n0, d0)) <= error);
         REQUIRE(std::abs(wide(f.e1) - (dot(n0, d1) + dot(n1, d0)) / 2) <= error);
         REQUIRE(std::abs(wide(f.e2) - dot(n1, d1)) <= error);
-        const edge_times<T> x = moving_edge_inside(f, T(1));
+        const edge_intervals<T> x = moving_edge_inside(f, T(1));
         twice += x.gap_begin < x.gap_end && x.begin == 0 && x.end == 1;
         for (int k = 0; k <= 32; ++k) {
             const T t = T(k) / 32;
@@ -74,7 +74,7 @@ TEST_CASE_TEMPLATE("facing: always, never, turning away, twice, NaN", T, float, 
     const T nan = std::numeric_limits<T>::quiet_NaN();
     const moving_vector<T> up{0, 0, 1, 0, 0, 1}, turning{0, 0, 1, 0, 0, -1};
     const auto times = [](const moving_vector<T>& n, const moving_vector<T>& d) {
-        return moving_edge_inside(facing_edge(n, d), T(1));
+        return moving_edge_inside(facing_function(n, d), T(1));
     };
     CHECK((times(up, up).begin == 0 && times(up, up).end == 1));
     const moving_vector<T> down{0, 0, -1, 0, 0, -1};
@@ -82,7 +82,7 @@ TEST_CASE_TEMPLATE("facing: always, never, turning away, twice, NaN", T, float, 
     CHECK((times(turning, up).begin == 0 && times(turning, up).end == T(0.5)));
     // Normal and light turn to the other side, at 1/4 and at 3/4: between, they look away from one another.
     const moving_vector<T> early{0, 0, 1, 0, 0, -3}, late{0, 0, 3, 0, 0, -1};
-    const edge_times<T> both = times(early, late);
+    const edge_intervals<T> both = times(early, late);
     CHECK((both.begin == 0 && both.end == 1));
     CHECK(both.gap_begin == doctest::Approx(0.25));
     CHECK(both.gap_end == doctest::Approx(0.75));
@@ -99,7 +99,7 @@ TEST_CASE_TEMPLATE("facing: always, never, turning away, twice, NaN", T, float, 
 TEST_CASE_TEMPLATE("facing: a path in parts", T, float, double)
 {
     const moving_vector<T> n{0, 0, 1, 0, 0, -3}, d{0, 0, 3, 0, 0, -1};
-    const edge_times<T> x = moving_edge_inside(facing_edge(n, d), T(1));
+    const edge_intervals<T> x = moving_edge_inside(facing_function(n, d), T(1));
     const receiver_path<T> path{{T(0), T(1), T(0), T(0.5), T(1)}, T(1), T(1), T(1), T(9), T(5), T(1)};
     wide dark = wide(x.gap_end) - wide(x.gap_begin);
     for (const auto& part :

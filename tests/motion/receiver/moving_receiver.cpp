@@ -48,7 +48,7 @@ T filtered(const test_map<T>& map, const receiver_path<T>& p, const test_shutter
 {
     moving_receiver<T> state = moving_receiver_begin(p, s.begin, s.end);
     const T back = T(-0.5) * T(look_ups);
-    for_each_texel(receiver_path_shifted(p, back, back), [&](const texel_sweep<T>& sweep) {
+    for_each_texel(receiver_path_shift(p, back, back), [&](const texel_sweep<T>& sweep) {
         for (int j = 0; j <= look_ups; ++j)
             for (int i = 0; i <= look_ups; ++i) {
                 state = moving_receiver_tap(state, sweep, T(i), T(j), T(look_ups));
@@ -101,7 +101,7 @@ wide sampling_error(const test_map<T>& map, const receiver_path<T>& p, const tes
 {
     wide events = 11, undecided = 0, chord = 0; // the path's ends, the shutter's own breaks
     const T back = bilinear ? T(-0.5) : T(0);
-    const receiver_path<T> path = receiver_path_shifted(p, back, back);
+    const receiver_path<T> path = receiver_path_shift(p, back, back);
     const wide exposure = wide(s.end) - wide(s.begin);
     for_each_texel(path, [&](const texel_sweep<T>& sweep) {
         events += 1;
@@ -114,7 +114,7 @@ wide sampling_error(const test_map<T>& map, const receiver_path<T>& p, const tes
         const exact_position a = exact_path_at(path, wide(sweep.t_begin)), b = exact_path_at(path, wide(sweep.t_end));
         const wide root = std::sqrt(std::max(a.w / b.w, b.w / a.w)), part = wide(sweep.t_end) - wide(sweep.t_begin);
         if (bilinear) chord += part / exposure * (std::abs(a.x - b.x) + std::abs(a.y - b.y)) * (root - 1) / (root + 1);
-        // A border's time by the comment of texel_border_passed, x and |c| w being 32 at most.
+        // A border's time by the comment of texel_border_share, x and |c| w being 32 at most.
         const bool sideways = sweep.across_column <= sweep.across_row;
         const T texel = sideways ? sweep.column : sweep.row, last = sideways ? sweep.last_column : sweep.last_row;
         if (bilinear || texel == last) return;
@@ -246,7 +246,7 @@ TEST_CASE_TEMPLATE("moving receiver: at rest it is the static one", T, float, do
         for (int k = 0; k < 4; ++k) {
             const T weight =
                 texel_weight(x - T(0.5) - column, T(k % 2), T(1)) * texel_weight(y - T(0.5) - row, T(k / 2), T(1));
-            rests = static_receiver_weigh(rests, weight);
+            rests = static_receiver_set_weight(rests, weight);
             for (const auto& r : map.at(column + T(k % 2), row + T(k / 2))) rests = s.add(rests, r);
         }
         // Positions up to 12 have 8 roundings (receiver_path_at), so weights of two axes 16 in all; each of 4 x 7
@@ -271,7 +271,7 @@ TEST_CASE_TEMPLATE("moving receiver: a plane that comes towards the light is lit
             REQUIRE(filtered(map, p, s, 1 + int(i % 3)) == 0);
         }
         // A plane that is there for longer is the same line by other numbers, each within roundings of its depths: a
-        // bias of what range_in_front leaves undecided, and of the two roundings of each end, is enough.
+        // bias of what range_occluding_part leaves undecided, and of the two roundings of each end, is enough.
         const T a = T(bits.uniform(-1, 1)), b = T(bits.uniform(-1, 1)), bias = T(32 * rounding<T>);
         const depth_time_range<T> all{T(0), T(1), a, b, T(7)};
         receiver_path<T> part = p;
@@ -308,13 +308,13 @@ TEST_CASE("percentage-closer filtering is the mean of bilinear look-ups")
         const test_map<T> map = any_map<T>(bits);
         receiver_path<T> p = any_path<T>(bits, side - 2 * margin - 2);
         if (p.w0 != p.w1) continue;
-        p = receiver_path_shifted(p, T(0.75), T(0.75));
+        p = receiver_path_shift(p, T(0.75), T(0.75));
         const auto s = exposure_of(p, std::size_t(i), bits);
         const int look_ups = 2 + int(i % 2);
         wide mean = 0;
         for (int k = 0; k < look_ups * look_ups; ++k) {
             const T dx = T(k % look_ups) - T(look_ups - 1) / 2, dy = T(k / look_ups) - T(look_ups - 1) / 2;
-            mean += wide(filtered(map, receiver_path_shifted(p, dx, dy), s)) / (look_ups * look_ups);
+            mean += wide(filtered(map, receiver_path_shift(p, dx, dy), s)) / (look_ups * look_ups);
         }
         // Of up to 2 x 24 texels, with 16 lists of 7 ranges each; positions have 8 2^-p of up to 16 texels.
         const wide parts = 48 * 16 * 7, exposure = wide(s.end) - wide(s.begin);

@@ -70,26 +70,26 @@ template <class T> struct test_shutter {
     {
         return kind == response::box    ? static_receiver_add_box(state, r)
                : kind == response::tent ? static_receiver_add_tent(state, r)
-                                        : static_receiver_add_given(state, r, weights);
+                                        : static_receiver_add_piecewise(state, r, weights);
     }
     auto add(const moving_receiver<T>& state, const depth_time_range<T>& r) const
     {
         return kind == response::box    ? moving_receiver_add_box(state, r)
                : kind == response::tent ? moving_receiver_add_tent(state, r)
-                                        : moving_receiver_add_given(state, r, weights);
+                                        : moving_receiver_add_piecewise(state, r, weights);
     }
     auto filter(const moving_receiver<T>& state, const depth_time_range<T>& r) const
     {
         return kind == response::box    ? moving_receiver_filter_box(state, r)
                : kind == response::tent ? moving_receiver_filter_tent(state, r)
-                                        : moving_receiver_filter_given(state, r, weights);
+                                        : moving_receiver_filter_piecewise(state, r, weights);
     }
 };
 
 template <class T> test_shutter<T> any_shutter(response kind, T begin, T end, bit_source& bits)
 {
     const auto w = [&] { return T(bits.chance(0.3) ? 0 : bits.uniform(0, 1)); };
-    return {kind, begin, end, shutter_weights_of(shutter_weights<T>{w(), w(), w(), w(), w(), w(), w(), w()})};
+    return {kind, begin, end, shutter_weights_make(shutter_weights<T>{w(), w(), w(), w(), w(), w(), w(), w()})};
 }
 
 template <class T> wide exact_depth(const depth_time_range<T>& r, wide t)

@@ -40,7 +40,7 @@ TEST_CASE_TEMPLATE("exposures: between both times, and a moment's is what is the
 {
     constexpr T least = T(0x1p-20);
     const auto times = [](T a, T b) {
-        const shutter_exposure<T> x = shutter_exposure_of(a, b);
+        const shutter_exposure<T> x = shutter_exposure_make(a, b);
         return std::array<T, 2>{x.begin, x.end};
     };
     CHECK(times(T(0.25), T(0.75)) == std::array<T, 2>{T(0.25), T(0.75)});
@@ -107,15 +107,15 @@ TEST_CASE_TEMPLATE("given weights: whatever they are they sum to 1, and without 
     const T inf = std::numeric_limits<T>::infinity(), nan = nan_of<T>;
     for (const T nothing : {T(0), T(-1), nan, -inf}) {
         const shutter_weights<T> none{nothing, nothing, nothing, nothing, nothing, nothing, nothing, nothing};
-        for (const T w : values(shutter_weights_of(none))) CHECK(w == T(0.125));
+        for (const T w : values(shutter_weights_make(none))) CHECK(w == T(0.125));
     }
-    const auto one = values(shutter_weights_of(shutter_weights<T>{-1, nan, 0, 3, -inf, 0, 1, nan}));
+    const auto one = values(shutter_weights_make(shutter_weights<T>{-1, nan, 0, 3, -inf, 0, 1, nan}));
     CHECK(one == std::array<T, 8>{0, 0, 0, T(0.75), 0, 0, T(0.25), 0});
     for (std::int64_t i = 0; i < effort(100'000); ++i) {
         const auto any = [&] { return bits.chance(0.5) ? hostile.special() : hostile.pattern(); };
         wide sum = 0;
         for (const T w :
-             values(shutter_weights_of(shutter_weights<T>{any(), any(), any(), any(), any(), any(), any(), any()}))) {
+             values(shutter_weights_make(shutter_weights<T>{any(), any(), any(), any(), any(), any(), any(), any()}))) {
             REQUIRE((w >= 0 && w <= 1));
             sum += wide(w);
         }
@@ -131,9 +131,9 @@ TEST_CASE_TEMPLATE("given weights: the integral of their density, and a box wher
     for (std::int64_t i = 0; i < effort(100); ++i) {
         const T a = T(bits.uniform(0, 0.5)), b = T(bits.uniform(0.5, 1));
         const auto s = any_shutter(response::given, a, b, bits);
-        CHECK(shutter_given(a, a, b, s.weights) == 0);
-        CHECK(shutter_given(b, a, b, s.weights) == 1);
-        CHECK(shutter_given(nan_of<T>, a, b, s.weights) == 0);
+        CHECK(shutter_piecewise(a, a, b, s.weights) == 0);
+        CHECK(shutter_piecewise(b, a, b, s.weights) == 1);
+        CHECK(shutter_piecewise(nan_of<T>, a, b, s.weights) == 0);
         wide sum = 0;
         for (int k = 0; k < times; ++k) {
             const wide x = wide(k) / times, next = wide(k + 1) / times;
@@ -141,9 +141,9 @@ TEST_CASE_TEMPLATE("given weights: the integral of their density, and a box wher
             const T t = T(wide(a) + next * (wide(b) - wide(a)));
             // Rounding t moves it by 2^-p: by as much over the duration in shares.
             const wide error = (16 + s.largest() / (wide(b) - wide(a))) * rounding<T>;
-            REQUIRE(std::abs(wide(shutter_given(t, a, b, s.weights)) - sum) <= error + 8 * rounding<T>);
+            REQUIRE(std::abs(wide(shutter_piecewise(t, a, b, s.weights)) - sum) <= error + 8 * rounding<T>);
             const shutter_weights<T> equal{T(.125), T(.125), T(.125), T(.125), T(.125), T(.125), T(.125), T(.125)};
-            REQUIRE(std::abs(wide(shutter_given(t, a, b, equal)) - wide(shutter_box(t, a, b))) <= 16 * rounding<T>);
+            REQUIRE(std::abs(wide(shutter_piecewise(t, a, b, equal)) - wide(shutter_box(t, a, b))) <= 16 * rounding<T>);
         }
     }
 }

@@ -113,20 +113,20 @@ TEST_CASE_TEMPLATE("static receiver: nothing, everything, its own surface, half,
     }
 }
 
-TEST_CASE_TEMPLATE("range_total: what a list hides from a receiver behind it, within the stated error", T, float,
+TEST_CASE_TEMPLATE("range_summary: what a list hides from a receiver behind it, within the stated error", T, float,
                    double)
 {
     constexpr T nan = std::numeric_limits<T>::quiet_NaN();
     bit_source bits(16);
     for (std::int64_t i = 0; i < effort(100'000); ++i) {
         auto list = resolved_list<T>(bits);
-        range_total<T> total = range_total_begin(T(-1));
-        for (const auto& r : list) total = range_total_add(total, r);
+        range_summary<T> total = range_summary_begin(T(-1));
+        for (const auto& r : list) total = range_summary_add(total, r);
         // Nobody sees these.
         for (const auto& r : {depth_time_range<T>{T(0), T(1), nan, T(2), T(1)},
                               {T(1), T(0), T(2), T(2), T(1)},
                               {nan, T(1), T(2), T(2), T(1)}})
-            total = range_total_add(total, r);
+            total = range_summary_add(total, r);
         T nearest = T(2), farthest = T(-1), id = T(range_nothing);
         for (const auto& r : list)
             if (r.t0 < r.t1) {
@@ -141,7 +141,7 @@ TEST_CASE_TEMPLATE("range_total: what a list hides from a receiver behind it, wi
 
         const T weight = T(bits.uniform(0, 1));
         const auto at = [&](T z, T begin, T end) {
-            return static_receiver_weigh(static_receiver_begin(z, T(9), begin, end), weight);
+            return static_receiver_set_weight(static_receiver_begin(z, T(9), begin, end), weight);
         };
         REQUIRE(static_receiver_is_behind(at(farthest, T(0), T(1)), total) == 0);
         REQUIRE(static_receiver_is_behind(at(T(2), T(0.5), T(1)), total) == 0);
@@ -155,7 +155,7 @@ TEST_CASE_TEMPLATE("range_total: what a list hides from a receiver behind it, wi
         total.id = T(range_nothing);
         REQUIRE(static_receiver_is_behind(seen_by(id), total) == (id == T(range_nothing) ? 0 : 1));
         REQUIRE(static_receiver_is_behind(at_once, total) == 1);
-        at_once = static_receiver_add_total(at_once, total);
+        at_once = static_receiver_add_summary(at_once, total);
         wide expected = 0;
         for (const auto& r : list) expected += wide(weight) * std::max(wide(r.t1) - wide(r.t0), wide(0));
         for (const auto& r : list) one_by_one = static_receiver_add_box(one_by_one, r);
@@ -184,8 +184,8 @@ TEST_CASE_TEMPLATE("static receiver: filtered, it is the weighted mean of its te
             const wide weight = by_definition(x, wide(u)) * by_definition(y, wide(v));
             weights += weight;
             expected += weight * wide(intensity(list, z, T(9), s));
-            state =
-                static_receiver_weigh(state, texel_weight(u, T(x), T(look_ups)) * texel_weight(v, T(y), T(look_ups)));
+            state = static_receiver_set_weight(state,
+                                               texel_weight(u, T(x), T(look_ups)) * texel_weight(v, T(y), T(look_ups)));
             for (const auto& r : list) state = s.add(state, r);
         }
         REQUIRE(std::abs(weights - 1) < 1e-15L);

@@ -241,7 +241,7 @@ TEST_CASE_TEMPLATE("path: positions, shifts and parts", T, float, double)
         const texel_position<T> found = receiver_path_at(p, t);
         REQUIRE(std::abs(wide(found.x) - at.x) <= error);
         REQUIRE(std::abs(wide(found.y) - at.y) <= error);
-        const texel_position<T> shifted = receiver_path_at(receiver_path_shifted(p, T(3), T(-2)), t);
+        const texel_position<T> shifted = receiver_path_at(receiver_path_shift(p, T(3), T(-2)), t);
         REQUIRE(std::abs(wide(shifted.x) - at.x - 3) <= 2 * error); // up to 15 texels
         REQUIRE(std::abs(wide(shifted.y) - at.y + 2) <= 2 * error);
         // The second half of a path goes from its middle to its end.

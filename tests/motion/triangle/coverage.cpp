@@ -44,7 +44,7 @@ TEST_CASE_TEMPLATE("covered times of arbitrary edge functions, four intervals am
             tolerance[k] =
                 24 * exact(u<T>) * exact(std::max({std::abs(e[k].e0), std::abs(e[k].e1), std::abs(e[k].e2)}));
         }
-        const coverage_times<T> x = moving_coverage(moving_edges<T>{e[0], e[1], e[2]}, T(1));
+        const coverage_intervals<T> x = moving_coverage(moving_edges<T>{e[0], e[1], e[2]}, T(1));
         require_in_order(x);
         check_coverage(
             x, T(1), tolerance,
@@ -62,7 +62,7 @@ TEST_CASE_TEMPLATE("what one side of an edge leaves, the other has, bit for bit"
 {
     bit_source bits(5);
     const auto pieces = [](const moving_edge<T>& e, T facing) {
-        const edge_times<T> x = moving_edge_inside(e, facing);
+        const edge_intervals<T> x = moving_edge_inside(e, facing);
         std::vector<interval> r{interval(x.begin, std::min(x.end, x.gap_begin)),
                                 interval(std::max(x.begin, x.gap_end), x.end)};
         std::erase_if(r, [](interval i) { return i.begin >= i.end; });
@@ -72,7 +72,7 @@ TEST_CASE_TEMPLATE("what one side of an edge leaves, the other has, bit for bit"
         const bool lattice = bits.chance(0.3);
         const auto any = [&] { return T(lattice ? double(bits.below(5)) - 2 : bits.uniform(-1, 1)); };
         const sheared_vertex<T> a{any(), any(), any(), any()}, b{any(), any(), any(), any()};
-        const moving_edge<T> e = moving_edge_of(a, b), n = moving_edge_of(b, a);
+        const moving_edge<T> e = moving_edge_make(a, b), n = moving_edge_make(b, a);
         REQUIRE(e.e0 == -n.e0);
         REQUIRE(e.e1 == -n.e1);
         REQUIRE(e.e2 == -n.e2);
@@ -98,8 +98,8 @@ TEST_CASE_TEMPLATE("linear_edge_inside: until or from the root on, within 4 2^-p
         const double scale = std::exp2(bits.uniform(-30, 30));
         const auto any = [&] { return T(lattice ? double(bits.below(5)) - 2 : scale * bits.uniform(-1, 1)); };
         const T e0 = any(), e2 = any();
-        const linear_times<T> one = linear_edge_inside(e0, e2), other = linear_edge_inside(-e0, -e2);
-        const auto has = [](const linear_times<T>& x, T begin, T end) { return x.begin == begin && x.end == end; };
+        const linear_interval<T> one = linear_edge_inside(e0, e2), other = linear_edge_inside(-e0, -e2);
+        const auto has = [](const linear_interval<T>& x, T begin, T end) { return x.begin == begin && x.end == end; };
         if (e0 == 0 && e2 == 0) { // on the edge all of the time
             REQUIRE(has(one, 0, 1));
             REQUIRE(has(other, 0, 1));
@@ -130,8 +130,8 @@ TEST_CASE_TEMPLATE("linear_coverage: what moving_coverage gives for such edges, 
             return moving_edge<T>{e0, T(0.5) * (e0 + e2), e2};
         };
         const moving_edges<T> e{any(), any(), any()};
-        const linear_times<T> x = linear_coverage(e);
-        const coverage_times<T> y = moving_coverage(e, T(1));
+        const linear_interval<T> x = linear_coverage(e);
+        const coverage_intervals<T> y = moving_coverage(e, T(1));
         // A coefficient that is wrong by 16 2^-p moves a root by as much over the slope.
         double slope = 2;
         for (const moving_edge<T>& k : {e.a, e.b, e.c}) slope = std::min(slope, std::abs(double(k.e2) - double(k.e0)));
@@ -173,14 +173,14 @@ TEST_CASE_TEMPLATE("a fan of triangles covers a sample at every time, without a 
         const std::uint64_t linear = alike ? bits.below(64) : 0; // a bit for each spoke
         const auto inside = [&](const moving_edge<T>& e, std::size_t spoke) {
             if ((linear >> spoke % 6 & 1) == 0) return moving_edge_inside(e, T(1));
-            const linear_times<T> x = linear_edge_inside(e.e0, e.e2);
-            return edge_times<T>{x.begin, x.end, T(coverage_none), T(coverage_none)};
+            const linear_interval<T> x = linear_edge_inside(e.e0, e.e2);
+            return edge_intervals<T>{x.begin, x.end, T(coverage_none), T(coverage_none)};
         };
         for (std::size_t k = 0; k < 6; ++k) {
             const moving_triangle<T> m{centre, ring[k], ring[(k + 1) % 6]};
             const moving_edges<T> e = moving_triangle_edges(m, s_x, s_y);
-            const coverage_times<T> x =
-                edge_times_together(moving_edge_inside(e.a, T(1)), inside(e.b, k + 1), inside(e.c, k));
+            const coverage_intervals<T> x =
+                intersect_edge_intervals(moving_edge_inside(e.a, T(1)), inside(e.b, k + 1), inside(e.c, k));
             for (std::size_t j = 0; j < std::size_t(x.count); ++j) covered.push_back(intervals_of(x)[j]);
             total += double(coverage_duration(x));
         }

@@ -22,14 +22,14 @@ struct interval {
     template <class T> interval(T b, T e) : begin(double(b)), end(double(e)) {}
 };
 
-template <class T> std::array<interval, 4> intervals_of(const coverage_times<T>& x)
+template <class T> std::array<interval, 4> intervals_of(const coverage_intervals<T>& x)
 {
     return {interval(x.begin0, x.end0), interval(x.begin1, x.end1), interval(x.begin2, x.end2),
             interval(x.begin3, x.end3)};
 }
 
 /// What the struct promises whatever went in.
-template <class T> void require_in_order(const coverage_times<T>& x)
+template <class T> void require_in_order(const coverage_intervals<T>& x)
 {
     const auto all = intervals_of(x);
     for (std::size_t k = 0; k < 4; ++k)
@@ -43,7 +43,7 @@ template <class T> void require_in_order(const coverage_times<T>& x)
         }
 }
 
-template <class T> bool covers(const coverage_times<T>& x, double t)
+template <class T> bool covers(const coverage_intervals<T>& x, double t)
 {
     const auto all = intervals_of(x);
     return std::any_of(all.begin(), all.end(), [&](interval i) { return i.begin <= t && t <= i.end; });
@@ -55,7 +55,7 @@ struct tally {
 
 /// Covered where all edge functions are positive beyond their tolerance, not where one of them is negative beyond it.
 template <class T, class Edges>
-void check_coverage(const coverage_times<T>& x, T facing, const std::array<exact, 3>& tolerance, Edges edges_at,
+void check_coverage(const coverage_intervals<T>& x, T facing, const std::array<exact, 3>& tolerance, Edges edges_at,
                     bit_source& bits, tally& count)
 {
     const auto ask = [&](double t, tally& to) {

@@ -81,7 +81,7 @@ TEST_CASE_TEMPLATE("linear depth is that of the point that the sample sees", T, 
         const T s_x = T(scene.s_x), s_y = T(scene.s_y);
         const reference<T> r(m, s_x, s_y);
         const moving_edges<T> e = moving_triangle_edges(m, s_x, s_y);
-        const coverage_times<T> x = moving_coverage(e, 1);
+        const coverage_intervals<T> x = moving_coverage(e, 1);
         if (x.count == 0) continue;
         const T t = x.begin0 + (x.end0 - x.begin0) * T(bits.uniform(0, 1));
         const auto at = r.at(exact(t));
@@ -153,7 +153,7 @@ TEST_CASE_TEMPLATE("a translation in an orthographic view is one piece", T, floa
         }
         const moving_triangle<T> m = rounded_triangle<T>(scene.triangle);
         const moving_edges<T> e = moving_triangle_edges(m, T(scene.s_x), T(scene.s_y));
-        const coverage_times<T> c = moving_coverage(e, 1);
+        const coverage_intervals<T> c = moving_coverage(e, 1);
         if (c.count == 0) continue;
         ++intervals;
         several += pieces_of(m, e, c.begin0, c.end0, T(i % 2), T(1e-3)).size() > 1;

@@ -142,7 +142,7 @@ template <class T> struct climbed_curve {
 /// A triangle in perspective, or not, seen by a sample that one of its points passes.
 template <class T> struct climbed_triangle {
     corner_depth<T> depth;
-    coverage_times<T> covered;
+    coverage_intervals<T> covered;
 
     explicit climbed_triangle(const std::vector<double>& p, bool divided)
     {
@@ -268,11 +268,11 @@ TEST_CASE_TEMPLATE("pieces tile an interval bit for bit and hold to the toleranc
         const moving_triangle<T> m = rounded_triangle<T>(scene.triangle);
         const moving_edges<T> e = moving_triangle_edges(m, T(scene.s_x), T(scene.s_y));
         const T facing = bits.chance(0.5) ? T(1) : T(-1);
-        const coverage_times<T> x = moving_coverage(e, facing);
+        const coverage_intervals<T> x = moving_coverage(e, facing);
         if (x.count == 0) continue;
         check_pieces<T>(corner_depth<T>{m, e, bits.chance(0.5), facing}, x.begin0, x.end0, tolerance, corners);
-        const moving_field<T> field = moving_field_of(m, T(scene.s_x), T(scene.s_y));
-        const depth_curve<T> curve = moving_depth_curve(depth_field_of(field, m), e, T(0), T(0));
+        const triangle_setup<T> field = triangle_setup_make(m, T(scene.s_x), T(scene.s_y));
+        const depth_curve<T> curve = moving_depth_curve(depth_setup_make(field, m), e, T(0), T(0));
         check_pieces<T>(curve_depth<T>{curve}, x.begin0, x.end0, tolerance, curves);
     }
     for (const piece_counts& x : {corners, curves}) {

@@ -26,7 +26,7 @@ template <class T> exact value_at(const moving_cubic<T>& h, exact t)
     return exact(h.h0) * s * s * s + exact(h.h1) * s * s * t + exact(h.h2) * s * t * t + exact(h.h3) * t * t * t;
 }
 
-template <class T> bool is_inside(const edge_times<T>& x, exact t)
+template <class T> bool is_inside(const edge_intervals<T>& x, exact t)
 {
     return exact(x.begin) <= t && t <= exact(x.end) && !(exact(x.gap_begin) < t && t < exact(x.gap_end));
 }
@@ -70,7 +70,7 @@ TEST_CASE_TEMPLATE("moving_cubic_inside: where the cubic is not negative, but fo
         }
         const T t = T(bits.uniform(0, 1));
         REQUIRE(std::abs(exact(moving_cubic_at(h, t)) - value_at(h, exact(t))) <= 8 * exact(u<T>) * exact(size_of(h)));
-        const edge_times<T> x = moving_cubic_inside(h);
+        const edge_intervals<T> x = moving_cubic_inside(h);
         ++kinds[x.gap_begin < T(coverage_none)];
         for (int k = 0; k < 16; ++k) REQUIRE(wrong_by(h, exact(bits.uniform(0, 1))) <= 1);
     }
@@ -109,22 +109,22 @@ TEST_CASE("widened edges are inside whenever exact ones are, and hardly longer")
         const moving_scene scene = draw_moving_scene(movement(std::size_t(i) % movement_count), bits);
         const double h = std::exp2(bits.uniform(-6, 0));
         const auto s_x = static_cast<float>(bits.uniform(-h, h)), s_y = static_cast<float>(bits.uniform(-h, h));
-        const moving_field<double> field =
-            moving_field_of(scene.triangle, scene.s_x - double(s_x), scene.s_y - double(s_y));
+        const triangle_setup<double> field =
+            triangle_setup_make(scene.triangle, scene.s_x - double(s_x), scene.s_y - double(s_y));
         const auto rounded_plane = [](const sample_plane<double>& p) {
             return sample_plane<float>{float(p.x), float(p.y), float(p.c)};
         };
-        const edge_field<float> f{rounded_plane(field.a.e0), rounded_plane(field.a.e1), rounded_plane(field.a.e2)};
+        const edge_equation<float> f{rounded_plane(field.a.e0), rounded_plane(field.a.e1), rounded_plane(field.a.e2)};
         const float facing = bits.chance(0.5) ? 1.f : -1.f, reach = static_cast<float>(h);
         const auto exact_at = [&](const sample_plane<double>& p) {
             return exact(p.c) + exact(p.x) * exact(s_x) + exact(p.y) * exact(s_y);
         };
         const exact e0 = exact_at(field.a.e0), e1 = exact_at(field.a.e1), e2 = exact_at(field.a.e2);
-        const float error = edge_field_error(f, reach, reach), straight = linear_field_error(f, reach, reach);
-        const auto widened = [&](float by) { return edge_field_at(edge_field_widened(f, by, facing), s_x, s_y); };
-        const edge_times<float> wide = moving_edge_inside(widened(error), facing);
+        const float error = edge_equation_error(f, reach, reach), straight = linear_edge_error(f, reach, reach);
+        const auto widened = [&](float by) { return edge_equation_at(edge_equation_widen(f, by, facing), s_x, s_y); };
+        const edge_intervals<float> wide = moving_edge_inside(widened(error), facing);
         const moving_edge<float> side = widened(straight);
-        const linear_times<float> line = linear_edge_inside(facing * side.e0, facing * side.e2);
+        const linear_interval<float> line = linear_edge_inside(facing * side.e0, facing * side.e2);
         const auto check = [&](exact t) {
             const exact s = 1 - t, value = exact(facing) * (e0 * s * s + 2 * e1 * s * t + e2 * t * t);
             if (value > 0) REQUIRE(is_inside(wide, t));

@@ -25,7 +25,7 @@ TEST_CASE_TEMPLATE("covered times are those of the static triangle at every time
         const reference<T> r(m, s_x, s_y);
         const moving_edges<T> e = moving_triangle_edges(m, s_x, s_y);
         for (const T facing : {T(1), T(-1)}) {
-            const coverage_times<T> x = moving_coverage(e, facing);
+            const coverage_intervals<T> x = moving_coverage(e, facing);
             require_in_order(x);
             check_coverage(
                 x, facing, r.tolerance, [&](exact t) { return r.at(t).edges; }, bits, counts[std::size_t(how)]);
@@ -46,7 +46,7 @@ TEST_CASE_TEMPLATE("depth of the covering triangle, and between its vertices' de
         const reference<T> r(m, s_x, s_y);
         const moving_edges<T> e = moving_triangle_edges(m, s_x, s_y);
         for (const T facing : {T(1), T(-1)}) {
-            const coverage_times<T> x = moving_coverage(e, facing);
+            const coverage_intervals<T> x = moving_coverage(e, facing);
             if (x.count == 0) continue;
             const T passed = T(bits.uniform(0, 1)), t = x.begin0 + (x.end0 - x.begin0) * passed;
             const auto at = r.at(exact(t));
@@ -79,7 +79,7 @@ TEST_CASE_TEMPLATE("lines of depth end on it, and are straight for what is at re
     std::int64_t still = 0;
     for_each_scene<T>(30'000, 9, [&](const moving_triangle<T>& m, T s_x, T s_y, movement how) {
         const moving_edges<T> e = moving_triangle_edges(m, s_x, s_y);
-        const coverage_times<T> x = moving_coverage(e, 1);
+        const coverage_intervals<T> x = moving_coverage(e, 1);
         if (x.count == 0) return;
         const depth_line<T> line = moving_triangle_depth_line(m, e, x.begin0, x.end0);
         REQUIRE(line.z0 == moving_triangle_depth(m, e, x.begin0));
@@ -98,14 +98,14 @@ moving_vertex<double> vertex(double x0, double y0, double x1, double y1, double 
     return {x0, y0, z0, 1, x1, y1, z1, 1};
 }
 
-coverage_times<double> coverage(const moving_triangle<double>& m, double s_x, double s_y, double facing = 1)
+coverage_intervals<double> coverage(const moving_triangle<double>& m, double s_x, double s_y, double facing = 1)
 {
     return moving_coverage(moving_triangle_edges(m, s_x, s_y), facing);
 }
 
 constexpr std::array<double, 9> nothing{0, 2, 2, 2, 2, 2, 2, 2, 2};
 constexpr std::array<double, 9> everything{1, 0, 1, 2, 2, 2, 2, 2, 2};
-std::array<double, 9> numbers(const coverage_times<double>& x)
+std::array<double, 9> numbers(const coverage_intervals<double>& x)
 {
     return {x.count, x.begin0, x.end0, x.begin1, x.end1, x.begin2, x.end2, x.begin3, x.end3};
 }
@@ -167,7 +167,7 @@ TEST_CASE_TEMPLATE("anything in gives intervals in order and depths in [-1, 1]",
         std::memcpy(&m, numbers.data(), sizeof m);
         const moving_edges<T> e = moving_triangle_edges(m, numbers[24], numbers[25]);
         const T facing = bits.chance(0.1) ? hostile.special() : T(bits.chance(0.5) ? 1 : -1);
-        const coverage_times<T> x = moving_coverage(e, facing);
+        const coverage_intervals<T> x = moving_coverage(e, facing);
         require_in_order(x);
         const T t = bits.chance(0.5) ? hostile.pattern() : T(bits.uniform(0, 1));
         REQUIRE(std::abs(moving_triangle_depth(m, e, t)) <= 1);

@@ -106,11 +106,11 @@ template <class T> moving_triangle<T> translated_triangle(bit_source& bits)
 
 } // namespace
 
-TEST_CASE_TEMPLATE("moving_field_edges: the triangle's edge functions, within the stated error", T, float, double)
+TEST_CASE_TEMPLATE("triangle_setup_edges: the triangle's edge functions, within the stated error", T, float, double)
 {
     for_each_scene<T>(100'000, [](const moving_triangle<T>& m, T o_x, T o_y, bit_source& bits) {
         const T s_x = T(bits.uniform(-0.2, 0.2)), s_y = T(bits.uniform(-0.2, 0.2));
-        const auto found = listed(moving_field_edges(moving_field_of(m, o_x, o_y), s_x, s_y));
+        const auto found = listed(triangle_setup_edges(triangle_setup_make(m, o_x, o_y), s_x, s_y));
         const std::array<seen_vertex, 3> p = seen_vertices(m, o_x, o_y, s_x, s_y);
         for (std::size_t k = 0; k < 3; ++k) {
             const seen_vertex &i = p[(k + 1) % 3], &j = p[(k + 2) % 3];
@@ -126,11 +126,11 @@ TEST_CASE_TEMPLATE("moving_field_edges: the triangle's edge functions, within th
 TEST_CASE_TEMPLATE("edge fields of neighbours are opposite, bit for bit, at every sample", T, float, double)
 {
     for_each_scene<T>(50'000, [](const moving_triangle<T>& m, T o_x, T o_y, bit_source& bits) {
-        const moving_field<T> one = moving_field_of(m, o_x, o_y);
-        const moving_field<T> other =
-            moving_field_of(moving_triangle<T>{m.b, m.a, m.c}, o_x, o_y); // edges b-a, a-c, c-b
+        const triangle_setup<T> one = triangle_setup_make(m, o_x, o_y);
+        const triangle_setup<T> other =
+            triangle_setup_make(moving_triangle<T>{m.b, m.a, m.c}, o_x, o_y); // edges b-a, a-c, c-b
         const T s_x = T(bits.uniform(-1, 1)), s_y = T(bits.uniform(-1, 1));
-        const moving_edge<T> there = edge_field_at(one.c, s_x, s_y), back = edge_field_at(other.c, s_x, s_y);
+        const moving_edge<T> there = edge_equation_at(one.c, s_x, s_y), back = edge_equation_at(other.c, s_x, s_y);
         REQUIRE(there.e0 == -back.e0);
         REQUIRE(there.e1 == -back.e1);
         REQUIRE(there.e2 == -back.e2);
@@ -138,15 +138,15 @@ TEST_CASE_TEMPLATE("edge fields of neighbours are opposite, bit for bit, at ever
 }
 
 // What is linear departs from what is not by no more than the bend, a distance: a value over the slope at the time.
-TEST_CASE_TEMPLATE("moving_edge_bend: no edge is further from its linear one", T, float, double)
+TEST_CASE_TEMPLATE("moving_edge_nonlinearity: no edge is further from its linear one", T, float, double)
 {
     std::int64_t asked = 0, tight = 0;
     for_each_scene<T>(100'000, [&](const moving_triangle<T>& m, T, T, bit_source& bits) {
         const moving_vertex<T>&a = m.a, &b = m.b;
         if (!(a.w0 > 0 && a.w1 > 0 && b.w0 > 0 && b.w1 > 0)) return;
-        const T bend = moving_edge_bend(a, b);
+        const T bend = moving_edge_nonlinearity(a, b);
         if (std::isnan(bend)) return; // an edge without length
-        REQUIRE(bend == moving_edge_bend(b, a));
+        REQUIRE(bend == moving_edge_nonlinearity(b, a));
         const auto within = [&](T p, T q, T r, T s) {
             return exact(bits.uniform(double(std::min({p, q, r, s})), double(std::max({p, q, r, s}))));
         };
@@ -178,13 +178,14 @@ TEST_CASE_TEMPLATE("moving_edge_bend: no edge is further from its linear one", T
     CHECK(tight > asked / 100);
 }
 
-TEST_CASE_TEMPLATE("moving_edge_bend: nothing but its stated error for vertices that move alike", T, float, double)
+TEST_CASE_TEMPLATE("moving_edge_nonlinearity: nothing but its stated error for vertices that move alike", T, float,
+                   double)
 {
     bit_source bits(53);
     for (std::int64_t i = 0; i < effort(100'000); ++i) {
         const moving_triangle<T> m = translated_triangle<T>(bits);
         const moving_vertex<T>&a = m.a, &b = m.b;
-        const T bend = moving_edge_bend(a, b);
+        const T bend = moving_edge_nonlinearity(a, b);
         if (std::isnan(bend)) continue; // an edge without length
         const auto reach = [](T p, T q, T r, T s) {
             return std::max({std::abs(exact(p)), std::abs(exact(q)), std::abs(exact(r)), std::abs(exact(s))});
@@ -208,7 +209,7 @@ TEST_CASE_TEMPLATE("moving_edge_bend: nothing but its stated error for vertices 
     }
 }
 
-// The tolerances are those of moving_field_edges and depth_curve_at.
+// The tolerances are those of triangle_setup_edges and depth_curve_at.
 TEST_CASE_TEMPLATE("a translated triangle is linear in time: edges and depth, within the stated errors", T, float,
                    double)
 {
@@ -218,9 +219,9 @@ TEST_CASE_TEMPLATE("a translated triangle is linear in time: edges and depth, wi
         const moving_triangle<T> m = translated_triangle<T>(bits);
         const T o_x = T(bits.uniform(-0.3, 0.3)), o_y = T(bits.uniform(-0.3, 0.3));
         const T s_x = T(bits.uniform(-0.1, 0.1)), s_y = T(bits.uniform(-0.1, 0.1)), t = T(bits.uniform(0, 1));
-        const moving_field<T> field = moving_field_of(m, o_x, o_y);
-        const depth_field<T> depths = depth_field_of(field, m);
-        const moving_edges<T> edges = linear_field_edges(field, s_x, s_y);
+        const triangle_setup<T> field = triangle_setup_make(m, o_x, o_y);
+        const depth_setup<T> depths = depth_setup_make(field, m);
+        const moving_edges<T> edges = triangle_setup_edges_linear(field, s_x, s_y);
         const T found = linear_depth_at(moving_depth_curve(depths, edges, s_x, s_y), t);
         REQUIRE(found >= depths.least);
         REQUIRE(found <= depths.most);
@@ -237,20 +238,20 @@ TEST_CASE_TEMPLATE("a translated triangle is linear in time: edges and depth, wi
     CHECK(covered > effort(200'000) / 50);
 }
 
-TEST_CASE_TEMPLATE("moving_field_around: no sample of the block is covered at a time that the block is not", T, float,
+TEST_CASE_TEMPLATE("triangle_setup_around: no sample of the block is covered at a time that the block is not", T, float,
                    double)
 {
     std::int64_t covered = 0, culled = 0;
     for_each_scene<T>(100'000, [&](const moving_triangle<T>& m, T o_x, T o_y, bit_source& bits) {
-        const moving_field<T> field = moving_field_of(m, o_x, o_y);
+        const triangle_setup<T> field = triangle_setup_make(m, o_x, o_y);
         const T facing = bits.chance(0.5) ? T(1) : T(-1), h = T(std::exp2(bits.uniform(-8, -2)));
         const T x = T(bits.uniform(-0.5, 0.5)), y = T(bits.uniform(-0.5, 0.5));
-        const coverage_times<T> block = moving_coverage(
-            moving_field_edges(moving_field_around(field, h * T(1.01), h * T(1.01), facing), x, y), facing);
+        const coverage_intervals<T> block = moving_coverage(
+            triangle_setup_edges(triangle_setup_around(field, h * T(1.01), h * T(1.01), facing), x, y), facing);
         culled += block.count == 0;
         for (int k = 0; k < 8; ++k) {
             const T s_x = x + h * T(bits.uniform(-1, 1)), s_y = y + h * T(bits.uniform(-1, 1));
-            const coverage_times<T> sample = moving_coverage(moving_field_edges(field, s_x, s_y), facing);
+            const coverage_intervals<T> sample = moving_coverage(triangle_setup_edges(field, s_x, s_y), facing);
             for (std::size_t j = 0; j < std::size_t(sample.count); ++j) {
                 const interval seen = intervals_of(sample)[j];
                 const auto around = intervals_of(block);
@@ -273,9 +274,9 @@ TEST_CASE_TEMPLATE("depth_curve_at: the mean of the vertices' depths, within the
         for (const moving_vertex<T>& v : {m.a, m.b, m.c})
             if (!(v.w0 > 0 && v.w1 > 0)) return;
         const T s_x = T(bits.uniform(-0.1, 0.1)), s_y = T(bits.uniform(-0.1, 0.1)), t = T(bits.uniform(0, 1));
-        const moving_field<T> field = moving_field_of(m, o_x, o_y);
-        const depth_field<T> depths = depth_field_of(field, m);
-        const T found = depth_curve_at(moving_depth_curve(depths, moving_field_edges(field, s_x, s_y), s_x, s_y), t);
+        const triangle_setup<T> field = triangle_setup_make(m, o_x, o_y);
+        const depth_setup<T> depths = depth_setup_make(field, m);
+        const T found = depth_curve_at(moving_depth_curve(depths, triangle_setup_edges(field, s_x, s_y), s_x, s_y), t);
         REQUIRE(found >= depths.least);
         REQUIRE(found <= depths.most);
 

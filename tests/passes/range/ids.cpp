@@ -60,7 +60,7 @@ template <class T> wide hidden_share(const list<T>& ranges, const depth_time_ran
 template <class T> struct one_texel {
     list<T> ranges;
     std::vector<std::uint32_t> first;
-    std::vector<range_total<T>> totals;
+    std::vector<range_summary<T>> totals;
 
     one_texel(const list<T>& resolved, range_ids ids)
         : ranges(resolved),
@@ -76,17 +76,17 @@ template <class T> struct one_texel {
     wide moving(const range_map<T>& by, const depth_time_range<T>& course) const
     {
         const receiver_path<T> path{course, T(0.5), T(0.5), T(1), T(0.5), T(0.5), T(1)};
-        return wide(moving_shadow(by, path, course.t0, course.t1));
+        return wide(moving_intensity(by, path, course.t0, course.t1));
     }
     wide resting(const range_map<T>& by, const static_receiver<T>& r) const
     {
-        return wide(static_shadow(by, T(0.5), T(0.5), r));
+        return wide(static_intensity(by, T(0.5), T(0.5), r));
     }
     wide at_once(const range_map<T>& by, const static_receiver<T>& r) const
     {
         const placed_receiver<T> placed{T(0.5), T(0.5), r};
         T found = 0;
-        static_shadows<T>(by, std::span(&placed, 1), std::span(&found, 1));
+        static_intensities<T>(by, std::span(&placed, 1), std::span(&found, 1));
         return wide(found);
     }
 };
@@ -94,7 +94,7 @@ template <class T> struct one_texel {
 /// The distance of what is found from what all ranges say of receivers a slack nearer or farther, over its error.
 ///
 /// A crossing moves by times in which both depths differ by 84 u at most, a cut moves a line by 10 u, and the receiver
-/// is known to be behind it within 26 u (range_crossing, range_depth, range_in_front): the slack, twice for lists
+/// is known to be behind it within 26 u (range_crossing, range_depth, range_occluding_part): the slack, twice for lists
 /// resolved twice. The error: 32 u a span (static_receiver_end), of which two layers have n (n + 1) at most if all n
 /// ranges cross one another.
 template <class T> double excess(const list<T>& ranges, const depth_time_range<T>& course, range_ids ids)
@@ -250,7 +250,7 @@ TEST_CASE_TEMPLATE("total_of: hidden always where spans fill all of the time, an
 TEST_CASE("set_totals says what does not fit")
 {
     const one_texel<float> texel({{0, 1, 0, 0, 1}}, range_ids::any);
-    std::vector<range_total<float>> totals(texel.totals.size());
+    std::vector<range_summary<float>> totals(texel.totals.size());
     range_map<float> map = texel.map();
     map.width = 2 * map.tile;
     CHECK_THROWS_WITH_AS(set_totals(map, std::span(totals), range_ids::any),

@@ -49,7 +49,7 @@ template <class T> struct random_map {
     range_map<T> map() const { return {width, height, first, ranges}; }
 
     /// The map with totals, which totals hold.
-    range_map<T> with_totals(std::vector<range_total<T>>& totals) const
+    range_map<T> with_totals(std::vector<range_summary<T>>& totals) const
     {
         totals.resize(first.size() - 1);
         range_map<T> result = map();
@@ -85,7 +85,7 @@ template <class T> receiver_path<T> any_path(bit_source& bits)
 
 } // namespace
 
-TEST_CASE_TEMPLATE("moving_shadow: what many times say", T, float, double)
+TEST_CASE_TEMPLATE("moving_intensity: what many times say", T, float, double)
 {
     constexpr int times = 4096;
     bit_source bits(61);
@@ -98,8 +98,8 @@ TEST_CASE_TEMPLATE("moving_shadow: what many times say", T, float, double)
         double sum = 0;
         for (int i = 0; i < times; ++i)
             sum += double(
-                shadow_at(random.map(), path, receiver_sample_time(path, T(i), T(times), T(0.5)), T(0), look_ups));
-        const double found = double(moving_shadow(random.map(), path, path.depth.t0, path.depth.t1, look_ups));
+                intensity_at(random.map(), path, receiver_sample_time(path, T(i), T(times), T(0.5)), T(0), look_ups));
+        const double found = double(moving_intensity(random.map(), path, path.depth.t0, path.depth.t1, look_ups));
         // Between times at which a range comes, goes or is met, of which some hundred are in reach, each of a weight of
         // at most 1 / K^2, weights are polynomials: a sample in the middle is right to the square of its share.
         CHECK(std::abs(found - sum / times) <= 300.0 / times / (look_ups * look_ups) + 1e-4);
@@ -109,7 +109,7 @@ TEST_CASE_TEMPLATE("moving_shadow: what many times say", T, float, double)
     CHECK(errors / double(cases) <= std::sqrt(300.0 / 12) / times + 1e-4);
 }
 
-TEST_CASE_TEMPLATE("moving_shadow: the fold of its kernels, with totals and without", T, float, double)
+TEST_CASE_TEMPLATE("moving_intensity: the fold of its kernels, with totals and without", T, float, double)
 {
     bit_source bits(68);
     const auto fold = [](const moving_receiver<T>& s, const depth_time_range<T>& r) {
@@ -119,7 +119,7 @@ TEST_CASE_TEMPLATE("moving_shadow: the fold of its kernels, with totals and with
     for (std::int64_t n = 0; n < test::effort(300); ++n) {
         random_map<T> random(bits);
         random.fill(bits);
-        std::vector<range_total<T>> totals;
+        std::vector<range_summary<T>> totals;
         const range_map<T> with_totals = random.with_totals(totals);
         for (int k = 0; k < 20; ++k) {
             receiver_path<T> path = any_path<T>(bits);
@@ -128,19 +128,20 @@ TEST_CASE_TEMPLATE("moving_shadow: the fold of its kernels, with totals and with
             const int look_ups = 1 + int(bits.below(3));
             T begin = bits.chance(0.5) ? path.depth.t0 : T(bits.uniform(-0.2, 0.4)), end = T(bits.uniform(0.5, 1.2));
             if (bits.chance(0.2)) std::swap(begin, end);
-            const T expected = moving_shadow(random.map(), path, begin, end, look_ups, fold);
+            const T expected = moving_intensity(random.map(), path, begin, end, look_ups, fold);
             // Each of some hundred spans has an error of some hundred roundings times its share of the time; those that
             // run almost at the receiver's depth cross it at times that roundings move.
             const T slack = T(1e4) * std::numeric_limits<T>::epsilon();
-            REQUIRE(std::abs(moving_shadow(random.map(), path, begin, end, look_ups) - expected) <= slack);
-            REQUIRE(std::abs(moving_shadow(with_totals, path, begin, end, look_ups) - expected) <= slack);
+            REQUIRE(std::abs(moving_intensity(random.map(), path, begin, end, look_ups) - expected) <= slack);
+            REQUIRE(std::abs(moving_intensity(with_totals, path, begin, end, look_ups) - expected) <= slack);
             hidden += double(expected);
         }
     }
     CHECK(hidden > 0);
 }
 
-TEST_CASE_TEMPLATE("moving_shadow: what the light does not see is lit, behind its plane and far away", T, float, double)
+TEST_CASE_TEMPLATE("moving_intensity: what the light does not see is lit, behind its plane and far away", T, float,
+                   double)
 {
     bit_source bits(67);
     const random_map<T> random(bits);
@@ -151,18 +152,19 @@ TEST_CASE_TEMPLATE("moving_shadow: what the light does not see is lit, behind it
         const int look_ups = 1 + int(bits.below(3));
         const T reach = T(0.5) * T(look_ups), begin = path.depth.t0, end = path.depth.t1;
         const auto over = receiver_path_over(path, -reach, -reach, T(width) + reach, T(height) + reach);
-        const T whole = moving_shadow(random.map(), path, begin, end, look_ups);
+        const T whole = moving_intensity(random.map(), path, begin, end, look_ups);
         const T from = begin + over.begin * (end - begin), to = begin + over.end * (end - begin);
         REQUIRE(over.end < 1);
-        const T part = moving_shadow(random.map(), receiver_path_clip(path, from, to), begin, end, look_ups);
+        const T part = moving_intensity(random.map(), receiver_path_clip(path, from, to), begin, end, look_ups);
         // Weights are chords in perspective, and a part of the path has its own cells: see moving_receiver_tap.
         REQUIRE(std::abs(whole - part) <= T(0.001));
         path.x0 += T(1e6) * path.w0, path.x1 += T(1e6) * path.w1;
-        REQUIRE(moving_shadow(random.map(), path, begin, end, look_ups) == 0);
+        REQUIRE(moving_intensity(random.map(), path, begin, end, look_ups) == 0);
     }
 }
 
-TEST_CASE_TEMPLATE("static_shadow is moving_shadow at rest; a wide filter is the mean of narrow ones", T, float, double)
+TEST_CASE_TEMPLATE("static_intensity is moving_intensity at rest; a wide filter is the mean of narrow ones", T, float,
+                   double)
 {
     bit_source bits(62);
     const double u = double(std::numeric_limits<T>::epsilon());
@@ -172,12 +174,12 @@ TEST_CASE_TEMPLATE("static_shadow is moving_shadow at rest; a wide filter is the
         path.x1 = path.x0, path.y1 = path.y0, path.depth.z1 = path.depth.z0;
         const auto at_rest = [&](T x, T y, int look_ups) {
             const auto state = static_receiver_begin(path.depth.z0, path.depth.id, path.depth.t0, path.depth.t1);
-            return double(static_shadow(random.map(), x, y, state, look_ups));
+            return double(static_intensity(random.map(), x, y, state, look_ups));
         };
         const double one = at_rest(path.x0, path.y0, 1);
         // Ranges that run almost at the receiver's depth cross it at times that roundings move.
         const double slack = 1e4 * u;
-        CHECK(std::abs(double(moving_shadow(random.map(), path, path.depth.t0, path.depth.t1)) - one) <= slack);
+        CHECK(std::abs(double(moving_intensity(random.map(), path, path.depth.t0, path.depth.t1)) - one) <= slack);
         double mean = 0;
         for (int j = -1; j <= 1; ++j)
             for (int i = -1; i <= 1; ++i) mean += at_rest(path.x0 + T(i), path.y0 + T(j), 1) / 9;
@@ -185,21 +187,21 @@ TEST_CASE_TEMPLATE("static_shadow is moving_shadow at rest; a wide filter is the
     }
 }
 
-TEST_CASE_TEMPLATE("sampled_shadow: more samples are nearer to the closed form", T, float, double)
+TEST_CASE_TEMPLATE("sampled_intensity: more samples are nearer to the closed form", T, float, double)
 {
     bit_source bits(63);
     double few = 0, many = 0;
     for (int n = 0; n < 200; ++n) {
         const random_map<T> random(bits);
         const receiver_path<T> path = any_path<T>(bits);
-        const double exact = double(moving_shadow(random.map(), path, path.depth.t0, path.depth.t1));
+        const double exact = double(moving_intensity(random.map(), path, path.depth.t0, path.depth.t1));
         receiver_path<T> longer = path; // the same way at a sixteenth of the pace: 16 times as many samples
-        few += std::abs(double(sampled_shadow(random.map(), path, T(0), T(1000))) - exact);
+        few += std::abs(double(sampled_intensity(random.map(), path, T(0), T(1000))) - exact);
         double sum = 0;
         for (int i = 0; i < 16; ++i) {
             longer = receiver_path_clip(path, path.depth.t0 + T(i) / 16 * (path.depth.t1 - path.depth.t0),
                                         path.depth.t0 + T(i + 1) / 16 * (path.depth.t1 - path.depth.t0));
-            sum += double(sampled_shadow(random.map(), longer, T(0), T(1000))) / 16;
+            sum += double(sampled_intensity(random.map(), longer, T(0), T(1000))) / 16;
         }
         many += std::abs(sum - exact);
     }
@@ -207,7 +209,7 @@ TEST_CASE_TEMPLATE("sampled_shadow: more samples are nearer to the closed form",
     CHECK(many < few / 3);
 }
 
-TEST_CASE_TEMPLATE("static_shadows: the bits of static_shadow, however long lists are", T, float, double)
+TEST_CASE_TEMPLATE("static_intensities: the bits of static_intensity, however long lists are", T, float, double)
 {
     bit_source bits(64);
     for (std::int64_t n = 0; n < test::effort(200); ++n) {
@@ -219,10 +221,10 @@ TEST_CASE_TEMPLATE("static_shadows: the bits of static_shadow, however long list
                  static_receiver_begin(T(bits.uniform(-1, 1)), T(bits.below(5)), T(0), T(bits.uniform(0.5, 1)))};
         if (!receivers.empty()) receivers[0].x = std::numeric_limits<T>::quiet_NaN();
         std::vector<T> found(receivers.size());
-        static_shadows<T>(random.map(), receivers, found, look_ups);
+        static_intensities<T>(random.map(), receivers, found, look_ups);
         for (std::size_t i = 0; i < found.size(); ++i)
             REQUIRE(found[i] ==
-                    static_shadow(random.map(), receivers[i].x, receivers[i].y, receivers[i].state, look_ups));
+                    static_intensity(random.map(), receivers[i].x, receivers[i].y, receivers[i].state, look_ups));
     }
 }
 
@@ -233,7 +235,7 @@ TEST_CASE_TEMPLATE("totals change nothing but roundings, one by one and many at 
     for (std::int64_t n = 0; n < test::effort(200); ++n) {
         random_map<T> random(bits);
         random.fill(bits);
-        std::vector<range_total<T>> totals;
+        std::vector<range_summary<T>> totals;
         const range_map<T> with_totals = random.with_totals(totals);
         const int look_ups = 1 + int(bits.below(3));
         std::vector<placed_receiver<T>> receivers(bits.below(100));
@@ -243,13 +245,13 @@ TEST_CASE_TEMPLATE("totals change nothing but roundings, one by one and many at 
                  static_receiver_begin(T(bits.uniform(-1, 1.5)), T(9), begin, T(1))};
         }
         std::vector<T> found(receivers.size());
-        static_shadows<T>(with_totals, receivers, found, look_ups);
+        static_intensities<T>(with_totals, receivers, found, look_ups);
         // 16 texels of at most 6 ranges, or rather what of them is in front when, 4 roundings each.
         const T slack = T(16 * 11 * 4) * std::numeric_limits<T>::epsilon();
         for (std::size_t i = 0; i < found.size(); ++i) {
             const auto& [x, y, state] = receivers[i];
-            const T expected = static_shadow(random.map(), x, y, state, look_ups);
-            REQUIRE(std::abs(static_shadow(with_totals, x, y, state, look_ups) - expected) <= slack);
+            const T expected = static_intensity(random.map(), x, y, state, look_ups);
+            REQUIRE(std::abs(static_intensity(with_totals, x, y, state, look_ups) - expected) <= slack);
             REQUIRE(std::abs(found[i] - expected) <= slack);
             (state.depth > 1 ? behind : before) += expected > 0;
         }
@@ -259,28 +261,28 @@ TEST_CASE_TEMPLATE("totals change nothing but roundings, one by one and many at 
 }
 
 #if defined(__cpp_exceptions)
-TEST_CASE("static_shadows say what does not fit")
+TEST_CASE("static_intensities say what does not fit")
 {
     bit_source bits(65);
     const random_map<float> random(bits);
     const std::vector<placed_receiver<float>> receivers(2);
     std::vector<float> shadows(1, 7.f);
-    CHECK_THROWS_WITH_AS(static_shadows<float>(random.map(), receivers, shadows),
+    CHECK_THROWS_WITH_AS(static_intensities<float>(random.map(), receivers, shadows),
                          doctest::Contains("shadows.size() is 1, but receivers.size() is 2"), std::invalid_argument);
     shadows.push_back(7);
     range_map<float> map = random.map();
     map.width += map.tile;
-    CHECK_THROWS_WITH_AS(static_shadows<float>(map, receivers, shadows),
-                         doctest::Contains("static_shadows: map.first.size() is"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(static_intensities<float>(map, receivers, shadows),
+                         doctest::Contains("static_intensities: map.first.size() is"), std::invalid_argument);
     map = random.map();
     map.ranges = map.ranges.first(map.ranges.size() - 1);
-    CHECK_THROWS_WITH_AS(static_shadows<float>(map, receivers, shadows), doctest::Contains("but map.ranges.size() is"),
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(static_intensities<float>(map, receivers, shadows),
+                         doctest::Contains("but map.ranges.size() is"), std::invalid_argument);
     map = random.map();
-    std::vector<range_total<float>> totals(map.first.size()), few(3);
+    std::vector<range_summary<float>> totals(map.first.size()), few(3);
     map.totals = totals;
-    CHECK_THROWS_WITH_AS(static_shadows<float>(map, receivers, shadows),
-                         doctest::Contains("static_shadows: map.totals.size() + 1 is"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(static_intensities<float>(map, receivers, shadows),
+                         doctest::Contains("static_intensities: map.totals.size() + 1 is"), std::invalid_argument);
     CHECK_THROWS_WITH_AS(set_totals(random.map(), std::span(few), range_ids::any),
                          doctest::Contains("range totals: totals.size() + 1 is 4"), std::invalid_argument);
     CHECK(shadows == std::vector<float>(2, 7.f));
@@ -301,21 +303,21 @@ TEST_CASE_TEMPLATE("outside of the map, and nowhere, it is lit; a shutter of one
     sort_into_lists<T>(texels, all, first, ranges);
     const range_map<T> map{width, height, first, ranges};
     const auto state = static_receiver_begin(T(0), T(2), T(0), T(1));
-    CHECK(static_shadow(map, T(6), T(5), state) == T(0.5));
-    CHECK(static_shadow(map, T(6), T(5), state, 4) == doctest::Approx(0.5));
-    CHECK(static_shadow(map, T(0), T(5), state) == T(0.25));
-    CHECK(static_shadow(map, T(width), T(height), state) == T(0.125));
-    CHECK(static_shadow(map, T(-9), T(5), state) == 0);
-    CHECK(static_shadow(map, T(1e30), T(-1e30), state) == 0);
-    CHECK(static_shadow(map, nan, T(5), state) == 0);
+    CHECK(static_intensity(map, T(6), T(5), state) == T(0.5));
+    CHECK(static_intensity(map, T(6), T(5), state, 4) == doctest::Approx(0.5));
+    CHECK(static_intensity(map, T(0), T(5), state) == T(0.25));
+    CHECK(static_intensity(map, T(width), T(height), state) == T(0.125));
+    CHECK(static_intensity(map, T(-9), T(5), state) == 0);
+    CHECK(static_intensity(map, T(1e30), T(-1e30), state) == 0);
+    CHECK(static_intensity(map, nan, T(5), state) == 0);
     const auto tent = [](const static_receiver<T>& s, const depth_time_range<T>& r) {
         return static_receiver_add_tent(s, r);
     };
-    CHECK(static_shadow(map, T(6), T(5), static_receiver_begin(T(0), T(2), T(0.25), T(1)), 1, tent) ==
+    CHECK(static_intensity(map, T(6), T(5), static_receiver_begin(T(0), T(2), T(0.25), T(1)), 1, tent) ==
           doctest::Approx(2.0 / 9));
     const receiver_path<T> lost{{T(0), T(1), T(0), T(0), T(2)}, nan, T(5), T(1), T(6), T(5), T(1)};
-    CHECK(moving_shadow(map, lost, T(0), T(1)) == 0);
-    CHECK(shadow_at(map, lost, T(0.25), T(0)) == 0);
-    const T sampled = sampled_shadow(map, lost, T(0), T(64));
+    CHECK(moving_intensity(map, lost, T(0), T(1)) == 0);
+    CHECK(intensity_at(map, lost, T(0.25), T(0)) == 0);
+    const T sampled = sampled_intensity(map, lost, T(0), T(64));
     CHECK((sampled >= 0 && sampled <= 1));
 }

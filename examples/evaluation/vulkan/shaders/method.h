@@ -58,7 +58,7 @@ texel texel_of(moments6 b)
 // What filters average.
 texel moments_of_depth(float z)
 {
-    texel t = texel_of(moments6_of_depth(z));
+    texel t = texel_of(moments6_from_depth(z));
     if (method == EVSM_64 || method == EVSM_128) {
         exponential_variance_moments b = exponential_variance_encode(z, settings_of_exponential_variance());
         t.first = vec4(b.positive, b.positive_square, b.negative, b.negative_square);

@@ -10,7 +10,7 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// Times in [0, 1], signed depths, and a whole number that floats hold, such as a triangle's index below 2^24.
-GNOMON_STRUCT depth_time_range { Real t0, t1, z0, z1, id; };
+GNOMON_STRUCT(depth_time_range) { Real t0, t1, z0, z1, id; };
 
 GNOMON_CONSTANT(range_mixed, -1.0);                // the id of what belongs to several surfaces: it shadows them all
 GNOMON_CONSTANT(range_nothing, -2.0);              // the id of a time without any surface
@@ -42,7 +42,7 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_empty(Real id)
 }
 
 /// How far through it time t is: 0 until t0, 1 from t1 on; 0 at the one time of a range of no duration, or for NaN.
-GNOMON_KERNEL Real range_passed(GNOMON_T(depth_time_range) r, Real t)
+GNOMON_KERNEL Real range_elapsed(GNOMON_T(depth_time_range) r, Real t)
 {
     return saturate_or_zero((t - r.t0) / (r.t1 - r.t0));
 }
@@ -52,7 +52,7 @@ GNOMON_KERNEL Real range_passed(GNOMON_T(depth_time_range) r, Real t)
 /// significand.
 GNOMON_KERNEL Real range_depth(GNOMON_T(depth_time_range) r, Real t)
 {
-    Real passed = range_passed(r, t);
+    Real passed = range_elapsed(r, t);
     return gnomon_select(r.z0 == r.z1, r.z0, r.z0 * (Real(1) - passed) + r.z1 * passed);
 }
 
@@ -85,13 +85,13 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_select(GNOMON_MASK mask, GNOMON_T
 }
 
 /// r where the mask is set, elsewhere nothing: an empty range that begins after all others.
-GNOMON_KERNEL GNOMON_T(depth_time_range) range_kept(GNOMON_MASK mask, GNOMON_T(depth_time_range) r)
+GNOMON_KERNEL GNOMON_T(depth_time_range) range_keep_if(GNOMON_MASK mask, GNOMON_T(depth_time_range) r)
 {
     return range_select(mask, r, range_empty(GNOMON_LITERAL(range_nothing)));
 }
 
 /// A total order: by begin, end, depth at begin and at end, id. Which argument comes first cannot change it.
-GNOMON_KERNEL GNOMON_MASK range_is_before(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+GNOMON_KERNEL GNOMON_MASK range_less(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
 {
     GNOMON_MASK by_id = a.id < b.id;
     GNOMON_MASK by_z1 = a.z1 < b.z1 || (a.z1 == b.z1 && by_id);
@@ -103,7 +103,7 @@ GNOMON_KERNEL GNOMON_MASK range_is_before(GNOMON_T(depth_time_range) a, GNOMON_T
 /// Whether a hides b for as long as b lasts, as far as comparisons tell: all of a is in front of all of b, or both have
 /// the same times and a has the nearer ends. Equal ones the lower id hides. Nothing is rounded, so what hides b hides
 /// all that b hides: what is left of many ranges when the hidden ones go depends on no order.
-GNOMON_KERNEL GNOMON_MASK range_hides(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+GNOMON_KERNEL GNOMON_MASK range_occludes(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
 {
     GNOMON_MASK during = a.t0 <= b.t0 && b.t1 <= a.t1;
     GNOMON_MASK apart = gnomon_max(a.z0, a.z1) <= gnomon_min(b.z0, b.z1);
@@ -113,13 +113,13 @@ GNOMON_KERNEL GNOMON_MASK range_hides(GNOMON_T(depth_time_range) a, GNOMON_T(dep
 }
 
 /// What of a falls into the time of b, exactly; empty where nothing does.
-GNOMON_KERNEL GNOMON_T(depth_time_range) range_intersect(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+GNOMON_KERNEL GNOMON_T(depth_time_range) range_clip_to(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
 {
     return range_clip(a, b.t0, b.t1);
 }
 
 /// When two ranges of the same times are at the same depth; one of these times where they never are.
-GNOMON_KERNEL Real range_meeting(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+GNOMON_KERNEL Real range_crossing_same_times(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
 {
     Real distance0 = a.z0 - b.z0;
     Real distance1 = a.z1 - b.z1;
@@ -132,22 +132,22 @@ GNOMON_KERNEL Real range_meeting(GNOMON_T(depth_time_range) a, GNOMON_T(depth_ti
 /// d the change of their distance.
 GNOMON_KERNEL Real range_crossing(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
 {
-    return range_meeting(range_intersect(a, b), range_intersect(b, a));
+    return range_crossing_same_times(range_clip_to(a, b), range_clip_to(b, a));
 }
 
 /// What of a is in front of b; empty where nothing is. Where depths are equal throughout, the lower id is in front.
 /// With what of b is in front of a it fills the time that both have, bit for bit, unless both depths and ids are equal.
 /// Error: the change of front is that of range_crossing.
-GNOMON_KERNEL GNOMON_T(depth_time_range) range_ahead_of(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+GNOMON_KERNEL GNOMON_T(depth_time_range) range_visible_part(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
 {
-    GNOMON_T(depth_time_range) near_a = range_intersect(a, b);
-    GNOMON_T(depth_time_range) near_b = range_intersect(b, a);
+    depth_time_range near_a = range_clip_to(a, b);
+    depth_time_range near_b = range_clip_to(b, a);
     Real before0 = near_b.z0 - near_a.z0;
     Real before1 = near_b.z1 - near_a.z1;
     GNOMON_MASK tie = before0 == Real(0) && before1 == Real(0) && a.id < b.id;
     GNOMON_MASK first = Real(0) < before0 || (before0 == Real(0) && Real(0) < before1) || tie;
     GNOMON_MASK last = Real(0) < before1 || (before1 == Real(0) && Real(0) < before0) || tie;
-    Real crossing = clamp_or_nan(range_meeting(near_a, near_b), near_a.t0, near_a.t1);
+    Real crossing = clamp_or_nan(range_crossing_same_times(near_a, near_b), near_a.t0, near_a.t1);
     Real begin = gnomon_select(first, near_a.t0, gnomon_select(last, crossing, Real(1)));
     Real end = gnomon_select(last, near_a.t1, gnomon_select(first, crossing, Real(0)));
     GNOMON_MASK ever = begin < end;
@@ -159,7 +159,7 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_ahead_of(GNOMON_T(depth_time_rang
 /// either; the depth line moves by the error of range_depth.
 GNOMON_KERNEL GNOMON_T(depth_time_range) range_trim(GNOMON_T(depth_time_range) r, GNOMON_T(depth_time_range) other)
 {
-    GNOMON_T(depth_time_range) hiding = range_ahead_of(other, r);
+    depth_time_range hiding = range_visible_part(other, r);
     GNOMON_MASK some = hiding.t0 < hiding.t1;
     Real begin = gnomon_select(some && hiding.t0 <= r.t0, hiding.t1, r.t0);
     Real end = gnomon_select(some && r.t1 <= hiding.t1, hiding.t0, r.t1);
@@ -169,8 +169,8 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_trim(GNOMON_T(depth_time_range) r
 /// What of it is in front of a receiver between two times; empty where nothing is. The course of the receiver's
 /// depth is a range, too, level where it is at rest. A NaN depth is in front of nothing.
 /// Error: the times at which the two are within 26 z 2^-p of one another, z the largest depth; and 8 2^-p.
-GNOMON_KERNEL GNOMON_T(depth_time_range) range_in_front(GNOMON_T(depth_time_range) r, GNOMON_T(depth_time_range) course,
-                                                        Real begin, Real end)
+GNOMON_KERNEL GNOMON_T(depth_time_range) range_occluding_part(GNOMON_T(depth_time_range) r,
+                                                              GNOMON_T(depth_time_range) course, Real begin, Real end)
 {
     Real early = gnomon_max(begin, r.t0);
     Real late = gnomon_min(end, r.t1);

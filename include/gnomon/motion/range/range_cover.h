@@ -9,7 +9,7 @@
 //     state = range_cover_begin(1);              state = range_cover_add(state, r);            for all r
 //     cover = range_cover_end(state);
 //
-// Ranges for which range_cover_hides returns 1 may be left out of the list. The cover stays in the list or stands for
+// Ranges for which range_cover_occludes returns 1 may be left out of the list. The cover stays in the list or stands for
 // it:
 //
 //     answer = range_cover_answer(cover, t, z, id, bias);   the list is asked where answer.decided is 0
@@ -19,14 +19,14 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// The best cover so far, and the nearest depth of all others.
-GNOMON_STRUCT range_cover
+GNOMON_STRUCT(range_cover)
 {
     GNOMON_T(depth_time_range) best;
     Real front, far_plane;
 };
 
 /// What a cover says of a receiver: shadow intensity, 0 or 1, and whether that is all (1) or the list has to be asked.
-GNOMON_STRUCT cover_answer { Real intensity, decided; };
+GNOMON_STRUCT(cover_answer) { Real intensity, decided; };
 
 GNOMON_CONSTANT(cover_margin, 0.0000019073486328125); // 2^-19, 32 2^-p in float
 
@@ -77,7 +77,7 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_cover_end(GNOMON_T(range_cover) s
 /// whatever range_depth rounds: that is what the margin is for, which also keeps a level cover from hiding itself. So a
 /// receiver gets the answer of all ranges, unless it has the cover's id and the cover is in front of it by more than
 /// its bias: ids are for what range_list.h says. Domain: depths in [-1, 1], times in [0, 1].
-GNOMON_KERNEL Real range_cover_hides(GNOMON_T(depth_time_range) cover, GNOMON_T(depth_time_range) r)
+GNOMON_KERNEL Real range_cover_occludes(GNOMON_T(depth_time_range) cover, GNOMON_T(depth_time_range) r)
 {
     GNOMON_MASK some = r.t0 <= r.t1 && r.z0 == r.z0 && r.z1 == r.z1;
     Real behind = gnomon_max(cover.z0, cover.z1) + GNOMON_LITERAL(cover_margin);

@@ -1,11 +1,11 @@
 // What a texel keeps of the surfaces that pass it while the shutter is open: a list of few depth-time ranges (Gribel et
 // al. 2010; Hong & Oh 2017), and its lower envelope, what the light sees when (the resolve of Palmer 2011, 2.4).
 //
-//     list = range_list_of(range);                  list = range_list_insert(list, range) for every other one
+//     list = range_list_make(range);                  list = range_list_insert(list, range) for every other one
 //     resolved = range_list_resolve(list);          or span by span, t = 0; span = range_list_front(list, t);
 //                                                   t = span.t1 as long as t < 1
 //
-// A list holds ranges as they were inserted, less those that another one hides by mere comparison (range_hides). Hence,
+// A list holds ranges as they were inserted, less those that another one hides by mere comparison (range_occludes). Hence,
 // as long as they fit, neither the order of insertion nor rounding has a say in what it holds, nor in the resolve. When
 // one too many comes, first whatever several others hide together goes, then the two most similar ranges become one
 // in front of both (range_merge.h): what is in shadow stays in shadow, and what was lit and is not is counted.
@@ -26,26 +26,26 @@ GNOMON_NAMESPACE_BEGIN
 #define GNOMON_RANGE_CAPACITY 8
 #endif
 
-/// In the order of range_is_before, with empty ranges between them. What merging has cost is bounded from above: for
+/// In the order of range_less, with empty ranges between them. What merging has cost is bounded from above: for
 /// all but a time of time_added there is something where something was, in front of it by depth_added at most.
-GNOMON_LIST_STRUCT range_list
+GNOMON_LIST_STRUCT(range_list)
 {
     GNOMON_T(depth_time_range) ranges[GNOMON_CAPACITY];
     Real time_added, depth_added;
 };
 
 /// It as lists hold it; nothing where it is empty, not within [0, 1], NaN or beyond 2^60.
-GNOMON_KERNEL GNOMON_T(depth_time_range) range_or_nothing(GNOMON_T(depth_time_range) r)
+GNOMON_KERNEL GNOMON_T(depth_time_range) range_canonical(GNOMON_T(depth_time_range) r)
 {
     r.id = gnomon_max(r.id, GNOMON_LITERAL(range_mixed));
     GNOMON_MASK known = gnomon_abs(r.z0) + gnomon_abs(r.z1) < GNOMON_LITERAL(range_far);
-    return range_kept(Real(0) <= r.t0 && r.t0 < r.t1 && r.t1 <= Real(1) && known, r);
+    return range_keep_if(Real(0) <= r.t0 && r.t0 < r.t1 && r.t1 <= Real(1) && known, r);
 }
 
 /// r moved to the front, or to the back where side is 1 instead of -1, by more than rounding can do to it in up to 18
 /// cuts: 2^-16, since depths at the cuts are rounded, and all that it covers of depth in a time of 2^-21, since times
 /// are. That is 268 2^-p of depth and 4 2^-p of time for two ranges together.
-GNOMON_KERNEL GNOMON_T(depth_time_range) range_moved(GNOMON_T(depth_time_range) r, GNOMON_SETTING side)
+GNOMON_KERNEL GNOMON_T(depth_time_range) range_offset(GNOMON_T(depth_time_range) r, GNOMON_SETTING side)
 {
     Real change = gnomon_abs(r.z1 - r.z0);
     Real brief = gnomon_min(change * Real(0.000000476837158203125) / (r.t1 - r.t0), change);
@@ -56,7 +56,8 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_moved(GNOMON_T(depth_time_range) 
 }
 
 /// Counts what a merge has cost.
-GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_pay(GNOMON_LIST_T(range_list) list, GNOMON_T(range_pair) p)
+GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_count_merge(GNOMON_LIST_T(range_list) list,
+                                                                    GNOMON_T(range_pair) p)
 {
     list.time_added = saturate_or_zero(list.time_added + p.gap);
     list.depth_added = gnomon_max(list.depth_added + p.shift, Real(0));
@@ -68,19 +69,19 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_place(GNOMON_LIST_T(rang
                                                               GNOMON_T(depth_time_range) r)
 {
     for (int i = 0; i + 1 < GNOMON_CAPACITY; ++i) { // the first empty one goes to the end
-        GNOMON_T(depth_time_range) s = list.ranges[i];
-        GNOMON_T(depth_time_range) next = list.ranges[i + 1];
+        depth_time_range s = list.ranges[i];
+        depth_time_range next = list.ranges[i + 1];
         GNOMON_MASK empty = s.t1 <= s.t0 && r.t0 < r.t1;
         list.ranges[i] = range_select(empty, next, s);
         list.ranges[i + 1] = range_select(empty, s, next);
     }
     for (int k = 0; k + 1 < GNOMON_CAPACITY; ++k) {
-        GNOMON_T(depth_time_range) s = list.ranges[k];
-        GNOMON_MASK here = s.t0 < s.t1 && range_is_before(r, s);
+        depth_time_range s = list.ranges[k];
+        GNOMON_MASK here = s.t0 < s.t1 && range_less(r, s);
         list.ranges[k] = range_select(here, r, s);
         r = range_select(here, s, r);
     }
-    GNOMON_T(depth_time_range) last = list.ranges[GNOMON_CAPACITY - 1];
+    depth_time_range last = list.ranges[GNOMON_CAPACITY - 1];
     list.ranges[GNOMON_CAPACITY - 1] = range_select(r.t0 < r.t1, r, last);
     return list;
 }
@@ -92,43 +93,43 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_place(GNOMON_LIST_T(rang
 GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_insert(GNOMON_LIST_T(range_list) list,
                                                                GNOMON_T(depth_time_range) r)
 {
-    r = range_or_nothing(range_clip(r, Real(0), Real(1)));
-    list = range_list_pay(list, range_pair_none(r)); // counts that are NaN become 0
+    r = range_canonical(range_clip(r, Real(0), Real(1)));
+    list = range_list_count_merge(list, range_pair_empty(r)); // counts that are NaN become 0
     Real room = Real(0);
     for (int i = 0; i < GNOMON_CAPACITY; ++i) {
-        GNOMON_T(depth_time_range) s = range_or_nothing(list.ranges[i]);
-        r = range_kept(!range_hides(s, r), r);
-        s = range_kept(!range_hides(r, s), s);
+        depth_time_range s = range_canonical(list.ranges[i]);
+        r = range_keep_if(!range_occludes(s, r), r);
+        s = range_keep_if(!range_occludes(r, s), s);
         list.ranges[i] = s;
         room = gnomon_select(s.t0 < s.t1, room, Real(1));
     }
     GNOMON_MASK full = r.t0 < r.t1 && room < Real(1);
     if (gnomon_any(full)) {
         // Whatever the others hide together, even if it were a margin nearer and they a margin farther.
-        GNOMON_LIST_T(range_list) hiding = list;
-        for (int h = 0; h < GNOMON_CAPACITY; ++h) hiding.ranges[h] = range_moved(list.ranges[h], Real(1));
-        GNOMON_T(depth_time_range) farther = range_moved(r, Real(1));
+        range_list hiding = list;
+        for (int h = 0; h < GNOMON_CAPACITY; ++h) hiding.ranges[h] = range_offset(list.ranges[h], Real(1));
+        depth_time_range farther = range_offset(r, Real(1));
         for (int j = 0; j < GNOMON_CAPACITY; ++j) {
-            GNOMON_T(depth_time_range) s = range_trim(range_moved(list.ranges[j], Real(-1)), farther);
+            depth_time_range s = range_trim(range_offset(list.ranges[j], Real(-1)), farther);
             for (int k = 0; k < GNOMON_CAPACITY; ++k) s = range_trim(s, hiding.ranges[k]);
             GNOMON_MASK seen = !full || s.t0 < s.t1;
-            list.ranges[j] = range_kept(seen, list.ranges[j]);
-            hiding.ranges[j] = range_kept(seen, hiding.ranges[j]);
+            list.ranges[j] = range_keep_if(seen, list.ranges[j]);
+            hiding.ranges[j] = range_keep_if(seen, hiding.ranges[j]);
         }
-        GNOMON_T(depth_time_range) left = range_moved(r, Real(-1));
+        depth_time_range left = range_offset(r, Real(-1));
         for (int m = 0; m < GNOMON_CAPACITY; ++m) left = range_trim(left, hiding.ranges[m]);
-        r = range_kept(!full || left.t0 < left.t1, r);
+        r = range_keep_if(!full || left.t0 < left.t1, r);
 
         // The most similar pair, the new one's place being -1. Where there is room now, one of the pair is empty.
-        GNOMON_T(range_pair) best = range_pair_none(r);
+        range_pair best = range_pair_empty(r);
         Real first = Real(-1);
         Real second = Real(-1);
         Real place = Real(0);
         for (int a = 0; a < GNOMON_CAPACITY; ++a) {
-            GNOMON_T(depth_time_range) other = r;
+            depth_time_range other = r;
             Real other_place = Real(-1);
             for (int b = 0; b <= a; ++b) {
-                GNOMON_T(range_pair) pair = range_pair_of(list.ranges[a], other);
+                range_pair pair = range_pair_make(list.ranges[a], other);
                 first = gnomon_select(pair.cost < best.cost, place, first);
                 second = gnomon_select(pair.cost < best.cost, other_place, second);
                 best = range_pair_cheaper(best, pair);
@@ -140,23 +141,23 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_insert(GNOMON_LIST_T(ran
         place = Real(0);
         for (int n = 0; n < GNOMON_CAPACITY; ++n) {
             GNOMON_MASK merged = full && (place == first || place == second);
-            list.ranges[n] = range_kept(!merged, list.ranges[n]);
+            list.ranges[n] = range_keep_if(!merged, list.ranges[n]);
             place = place + Real(1);
         }
-        r = range_kept(!(full && second < Real(0)), r);
-        best.merged = range_kept(full, best.merged);
+        r = range_keep_if(!(full && second < Real(0)), r);
+        best.merged = range_keep_if(full, best.merged);
         best.gap = gnomon_select(full, best.gap, Real(0));
         best.shift = gnomon_select(full, best.shift, Real(0));
-        list = range_list_place(range_list_pay(list, best), best.merged);
+        list = range_list_place(range_list_count_merge(list, best), best.merged);
     }
     return range_list_place(list, r);
 }
 
 /// The list of one range; of none where it is empty.
-GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_of(GNOMON_T(depth_time_range) r)
+GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_make(GNOMON_T(depth_time_range) r)
 {
     GNOMON_LIST_T(range_list) list;
-    for (int i = 0; i < GNOMON_CAPACITY; ++i) list.ranges[i] = range_kept(r.t0 < r.t0, r);
+    for (int i = 0; i < GNOMON_CAPACITY; ++i) list.ranges[i] = range_keep_if(r.t0 < r.t0, r);
     list.time_added = Real(0);
     list.depth_added = Real(0);
     return range_list_insert(list, r);
@@ -169,11 +170,11 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_of(GNOMON_T(depth_time_r
 GNOMON_LIST_KERNEL GNOMON_T(depth_time_range) range_list_front(GNOMON_LIST_T(range_list) list, Real t)
 {
     Real begin = saturate_or_zero(t);
-    GNOMON_T(depth_time_range) front = range_kept(begin < begin, list.ranges[0]);
+    depth_time_range front = range_keep_if(begin < begin, list.ranges[0]);
     Real unchanged = Real(1); // until when all comparisons of this loop come out the same
     for (int i = 0; i < GNOMON_CAPACITY; ++i) {
-        GNOMON_T(depth_time_range) r = range_or_nothing(list.ranges[i]);
-        GNOMON_T(depth_time_range) ahead = range_ahead_of(r, front);
+        depth_time_range r = range_canonical(list.ranges[i]);
+        depth_time_range ahead = range_visible_part(r, front);
         GNOMON_MASK during = r.t0 <= begin && begin < r.t1;
         GNOMON_MASK alone = front.t1 <= front.t0;
         GNOMON_MASK nearer = ahead.t0 <= begin && begin < ahead.t1;
@@ -185,15 +186,15 @@ GNOMON_LIST_KERNEL GNOMON_T(depth_time_range) range_list_front(GNOMON_LIST_T(ran
     GNOMON_MASK some = front.t0 < front.t1;
     Real end = gnomon_select(some, front.t1, Real(1));
     for (int k = 0; k < GNOMON_CAPACITY; ++k) {
-        GNOMON_T(depth_time_range) r = range_or_nothing(list.ranges[k]);
-        GNOMON_T(depth_time_range) ahead = range_ahead_of(r, front);
+        depth_time_range r = range_canonical(list.ranges[k]);
+        depth_time_range ahead = range_visible_part(r, front);
         Real next = gnomon_select(some, ahead.t0, r.t0);
         end = gnomon_select(begin < next, gnomon_min(end, next), end);
         // Where three meet, rounding may have each in front of the next. That all are as near lasts as long as it does.
         GNOMON_MASK circle = ahead.t0 <= begin && begin < ahead.t1;
         end = gnomon_select(circle, gnomon_min(end, unchanged), end);
     }
-    GNOMON_T(depth_time_range) span = range_clip(front, begin, end);
+    depth_time_range span = range_clip(front, begin, end);
     span.t0 = begin;
     span.t1 = end;
     return span;
@@ -205,13 +206,13 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_append(GNOMON_LIST_T(ran
                                                                GNOMON_T(depth_time_range) r)
 {
     // The last and r are neighbours, too. Places count from the end; two of which one is empty come first.
-    GNOMON_T(range_pair) best = range_pair_none(r);
+    range_pair best = range_pair_empty(r);
     Real at = Real(0);
     Real place = Real(0);
-    GNOMON_T(depth_time_range) next = r;
+    depth_time_range next = r;
     for (int i = 0; i < GNOMON_CAPACITY; ++i) {
-        GNOMON_T(depth_time_range) s = list.ranges[GNOMON_CAPACITY - 1 - i];
-        GNOMON_T(range_pair) pair = range_pair_of(s, next);
+        depth_time_range s = list.ranges[GNOMON_CAPACITY - 1 - i];
+        range_pair pair = range_pair_make(s, next);
         at = gnomon_select(pair.cost < best.cost, place, at);
         best = range_pair_cheaper(best, pair);
         next = s;
@@ -220,13 +221,13 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_append(GNOMON_LIST_T(ran
     place = Real(0);
     next = r;
     for (int k = 0; k < GNOMON_CAPACITY; ++k) {
-        GNOMON_T(depth_time_range) s = list.ranges[GNOMON_CAPACITY - 1 - k];
-        GNOMON_T(depth_time_range) here = range_select(place == at, best.merged, s);
+        depth_time_range s = list.ranges[GNOMON_CAPACITY - 1 - k];
+        depth_time_range here = range_select(place == at, best.merged, s);
         list.ranges[GNOMON_CAPACITY - 1 - k] = range_select(place < at, next, here);
         next = s;
         place = place + Real(1);
     }
-    return range_list_pay(list, best);
+    return range_list_count_merge(list, best);
 }
 
 /// What the light sees: ranges apart from one another, in order of time, so that static_receiver.h may add them up.
@@ -234,13 +235,13 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_append(GNOMON_LIST_T(ran
 GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_resolve(GNOMON_LIST_T(range_list) list)
 {
     Real t = Real(0);
-    GNOMON_LIST_T(range_list) resolved = list;
-    for (int i = 0; i < GNOMON_CAPACITY; ++i) resolved.ranges[i] = range_kept(t < t, list.ranges[i]);
+    range_list resolved = list;
+    for (int i = 0; i < GNOMON_CAPACITY; ++i) resolved.ranges[i] = range_keep_if(t < t, list.ranges[i]);
     for (int k = 0; k < (GNOMON_CAPACITY + 1) * (GNOMON_CAPACITY + 2) / 2; ++k) {
         if (gnomon_any(t < Real(1))) {
-            GNOMON_T(depth_time_range) span = range_list_front(list, t);
+            depth_time_range span = range_list_front(list, t);
             GNOMON_MASK some = GNOMON_LITERAL(range_nothing) < span.id;
-            resolved = range_list_append(resolved, range_kept(some, span));
+            resolved = range_list_append(resolved, range_keep_if(some, span));
             t = span.t1;
         }
     }

@@ -12,7 +12,7 @@ GNOMON_NAMESPACE_BEGIN
 
 /// Two ranges as one, the time between them that it fills, how far at most it is in front of what was, and what it
 /// costs altogether.
-GNOMON_STRUCT range_pair
+GNOMON_STRUCT(range_pair)
 {
     GNOMON_T(depth_time_range) merged;
     Real gap, shift, cost;
@@ -71,7 +71,7 @@ GNOMON_KERNEL Real range_distance(GNOMON_T(depth_time_range) r, GNOMON_T(depth_t
 /// What the two become, and for how much. Gap and shift are exact but for rounding. The cost is the area behind the
 /// merged range that was behind neither, and the times for which a surface loses its id; where one is empty, so that
 /// there is nothing to merge, it is -1, and gap and shift 0.
-GNOMON_KERNEL GNOMON_T(range_pair) range_pair_of(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+GNOMON_KERNEL GNOMON_T(range_pair) range_pair_make(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
 {
     GNOMON_T(range_pair) p;
     p.merged = range_merge(a, b);
@@ -83,8 +83,8 @@ GNOMON_KERNEL GNOMON_T(range_pair) range_pair_of(GNOMON_T(depth_time_range) a, G
     p.shift = gnomon_select(some, shift, Real(0));
 
     // Behind both is what is behind the farther one, which is at (a + b + |a - b|) / 2; |x| from x0 to x1, on average:
-    GNOMON_T(depth_time_range) near_a = range_intersect(a, b);
-    GNOMON_T(depth_time_range) near_b = range_intersect(b, a);
+    depth_time_range near_a = range_clip_to(a, b);
+    depth_time_range near_b = range_clip_to(b, a);
     Real x0 = near_a.z0 - near_b.z0;
     Real x1 = near_a.z1 - near_b.z1;
     Real sum = gnomon_abs(x0) + gnomon_abs(x1);
@@ -100,7 +100,7 @@ GNOMON_KERNEL GNOMON_T(range_pair) range_pair_of(GNOMON_T(depth_time_range) a, G
 }
 
 /// r by itself, at a cost above that of any pair: where a search for the cheapest begins.
-GNOMON_KERNEL GNOMON_T(range_pair) range_pair_none(GNOMON_T(depth_time_range) r)
+GNOMON_KERNEL GNOMON_T(range_pair) range_pair_empty(GNOMON_T(depth_time_range) r)
 {
     GNOMON_T(range_pair) p;
     p.merged = r;

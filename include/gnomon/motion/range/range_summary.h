@@ -2,7 +2,7 @@
 // time and the id. Most receivers are behind all ranges of a texel, above all where its backdrop is left out
 // (passes/range/resolve.hpp), or in front of all.
 //
-//     summary = range_total_begin(-1);   summary = range_total_add(summary, range);        for every range of the texel
+//     summary = range_summary_begin(-1);   summary = range_summary_add(summary, range);        for every range of the texel
 #ifndef GNOMON_MOTION_RANGE_RANGE_SUMMARY_H
 #define GNOMON_MOTION_RANGE_RANGE_SUMMARY_H
 #include "range.h"
@@ -11,12 +11,12 @@ GNOMON_NAMESPACE_BEGIN
 /// The nearest and the farthest depth of some ranges, and what they hide together from a receiver behind them, of a
 /// shutter that is open from 0 to 1. Whose they are: range_mixed of several, range_nothing where no receiver is behind
 /// ranges of its own id.
-GNOMON_STRUCT range_total { Real nearest, farthest, shadowed, id; };
+GNOMON_STRUCT(range_summary) { Real nearest, farthest, shadowed, id; };
 
 /// No range yet. The near plane, -1, is a depth that receivers are behind.
-GNOMON_KERNEL GNOMON_T(range_total) range_total_begin(Real near_plane)
+GNOMON_KERNEL GNOMON_T(range_summary) range_summary_begin(Real near_plane)
 {
-    GNOMON_T(range_total) total;
+    GNOMON_T(range_summary) total;
     total.nearest = GNOMON_LITERAL(range_far);
     total.farthest = near_plane;
     total.shadowed = Real(0);
@@ -25,7 +25,7 @@ GNOMON_KERNEL GNOMON_T(range_total) range_total_begin(Real near_plane)
 }
 
 /// One range, none of whose time the others have. Empty ones and those with a NaN are left out, as nobody sees them.
-GNOMON_KERNEL GNOMON_T(range_total) range_total_add(GNOMON_T(range_total) total, GNOMON_T(depth_time_range) r)
+GNOMON_KERNEL GNOMON_T(range_summary) range_summary_add(GNOMON_T(range_summary) total, GNOMON_T(depth_time_range) r)
 {
     GNOMON_MASK some = r.t0 < r.t1 && r.z0 == r.z0 && r.z1 == r.z1;
     GNOMON_MASK first = total.id == GNOMON_LITERAL(range_nothing);

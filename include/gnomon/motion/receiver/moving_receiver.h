@@ -12,7 +12,7 @@
 // Filtered: between the centres of texels the bilinear weights of the receiver's position are products of two lines in
 // time, and the response of a shutter is a line at a time, so what a range hides is worth the integral of a product of
 // three lines. With percentage-closer filtering of K x K bilinear look-ups (K = 1: bilinear filtering alone):
-//     for each texel of a texel sweep of receiver_path_shifted(path, -K / 2, -K / 2), i and j from 0 to K:
+//     for each texel of a texel sweep of receiver_path_shift(path, -K / 2, -K / 2), i and j from 0 to K:
 //         state = moving_receiver_tap(state, sweep, i, j, K);
 //         state = moving_receiver_filter_box(state, range);  or _tent, _given; for every range of texel (column + i,
 //                                                            row + j)
@@ -25,18 +25,18 @@ GNOMON_NAMESPACE_BEGIN
 
 /// The receiver's line of depth, when the shutter opens and closes, from when to when it is in a texel, the texel's
 /// weights along the two axes at both of these times, and the share of its light that is gone so far.
-GNOMON_STRUCT moving_receiver
+GNOMON_STRUCT(moving_receiver)
 {
     GNOMON_T(depth_time_range) course;
     Real begin, end, t0, t1, u0, v0, u1, v1, shadowed;
 };
 
-/// No texel yet. From begin to end as of shutter_exposure_of. A path that lasts for a part of the exposure loses light
+/// No texel yet. From begin to end as of shutter_exposure_make. A path that lasts for a part of the exposure loses light
 /// in that part alone; divide by what the shutter lets in meanwhile. Whatever needs a depth bias takes it off both
 /// depths first.
 GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_begin(GNOMON_T(receiver_path) path, Real begin, Real end)
 {
-    GNOMON_T(shutter_exposure) open = shutter_exposure_of(begin, end);
+    shutter_exposure open = shutter_exposure_make(begin, end);
     GNOMON_T(moving_receiver) r;
     r.course = path.depth;
     r.begin = open.begin;
@@ -67,8 +67,8 @@ GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_tap(GNOMON_T(moving_rece
                                                             GNOMON_T(texel_sweep) sweep, GNOMON_SETTING i,
                                                             GNOMON_SETTING j, GNOMON_SETTING look_ups)
 {
-    GNOMON_T(texel_position) enters = receiver_path_at(sweep.path, sweep.t_begin);
-    GNOMON_T(texel_position) leaves = receiver_path_at(sweep.path, sweep.t_end);
+    texel_position enters = receiver_path_at(sweep.path, sweep.t_begin);
+    texel_position leaves = receiver_path_at(sweep.path, sweep.t_end);
     state.t0 = sweep.t_begin;
     state.t1 = sweep.t_end;
     state.u0 = texel_weight(enters.x - sweep.column, i, look_ups);
@@ -82,10 +82,10 @@ GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_tap(GNOMON_T(moving_rece
 GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_add_box(GNOMON_T(moving_receiver) state,
                                                                 GNOMON_T(depth_time_range) r)
 {
-    GNOMON_T(depth_time_range) hidden = range_in_front(r, state.course, state.t0, state.t1);
+    depth_time_range hidden = range_occluding_part(r, state.course, state.t0, state.t1);
     Real share0 = shutter_box(hidden.t0, state.begin, state.end);
     Real share1 = shutter_box(hidden.t1, state.begin, state.end);
-    state.shadowed = state.shadowed + receiver_loss(hidden, state.course.id, share0, share1);
+    state.shadowed = state.shadowed + receiver_lost_light(hidden, state.course.id, share0, share1);
     return state;
 }
 
@@ -93,22 +93,22 @@ GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_add_box(GNOMON_T(moving_
 GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_add_tent(GNOMON_T(moving_receiver) state,
                                                                  GNOMON_T(depth_time_range) r)
 {
-    GNOMON_T(depth_time_range) hidden = range_in_front(r, state.course, state.t0, state.t1);
+    depth_time_range hidden = range_occluding_part(r, state.course, state.t0, state.t1);
     Real share0 = shutter_tent(hidden.t0, state.begin, state.end);
     Real share1 = shutter_tent(hidden.t1, state.begin, state.end);
-    state.shadowed = state.shadowed + receiver_loss(hidden, state.course.id, share0, share1);
+    state.shadowed = state.shadowed + receiver_lost_light(hidden, state.course.id, share0, share1);
     return state;
 }
 
 /// One range, for a shutter with given weights.
-GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_add_given(GNOMON_T(moving_receiver) state,
-                                                                  GNOMON_T(depth_time_range) r,
-                                                                  GNOMON_T(shutter_weights) w)
+GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_add_piecewise(GNOMON_T(moving_receiver) state,
+                                                                      GNOMON_T(depth_time_range) r,
+                                                                      GNOMON_T(shutter_weights) w)
 {
-    GNOMON_T(depth_time_range) hidden = range_in_front(r, state.course, state.t0, state.t1);
-    Real share0 = shutter_given(hidden.t0, state.begin, state.end, w);
-    Real share1 = shutter_given(hidden.t1, state.begin, state.end, w);
-    state.shadowed = state.shadowed + receiver_loss(hidden, state.course.id, share0, share1);
+    depth_time_range hidden = range_occluding_part(r, state.course, state.t0, state.t1);
+    Real share0 = shutter_piecewise(hidden.t0, state.begin, state.end, w);
+    Real share1 = shutter_piecewise(hidden.t1, state.begin, state.end, w);
+    state.shadowed = state.shadowed + receiver_lost_light(hidden, state.course.id, share0, share1);
     return state;
 }
 
@@ -139,7 +139,7 @@ GNOMON_KERNEL Real moving_receiver_part(GNOMON_T(moving_receiver) state, GNOMON_
         Real bb = u_b * v_b;
         Real twelvefold = (response + slope * share_a) * (Real(3) * aa + ab + bb) +
                           (response + slope * share_b) * (aa + ab + Real(3) * bb);
-        Real share = receiver_loss(hidden, state.course.id, share_a, share_b);
+        Real share = receiver_lost_light(hidden, state.course.id, share_a, share_b);
         lost = gnomon_select(some, share * twelvefold * GNOMON_LITERAL(receiver_twelfth), lost);
     }
     return lost;
@@ -149,7 +149,7 @@ GNOMON_KERNEL Real moving_receiver_part(GNOMON_T(moving_receiver) state, GNOMON_
 GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_filter_box(GNOMON_T(moving_receiver) state,
                                                                    GNOMON_T(depth_time_range) r)
 {
-    GNOMON_T(depth_time_range) hidden = range_in_front(r, state.course, state.t0, state.t1);
+    depth_time_range hidden = range_occluding_part(r, state.course, state.t0, state.t1);
     state.shadowed = state.shadowed + moving_receiver_part(state, hidden, state.begin, state.end, Real(1), Real(0));
     return state;
 }
@@ -158,7 +158,7 @@ GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_filter_box(GNOMON_T(movi
 GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_filter_tent(GNOMON_T(moving_receiver) state,
                                                                     GNOMON_T(depth_time_range) r)
 {
-    GNOMON_T(depth_time_range) hidden = range_in_front(r, state.course, state.t0, state.t1);
+    depth_time_range hidden = range_occluding_part(r, state.course, state.t0, state.t1);
     Real halfway = shutter_time(state.begin, state.end, Real(0.5));
     Real opening = moving_receiver_part(state, hidden, state.begin, halfway, Real(0), Real(4));
     Real closing = moving_receiver_part(state, hidden, halfway, state.end, Real(4), Real(-4));
@@ -167,11 +167,11 @@ GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_filter_tent(GNOMON_T(mov
 }
 
 /// One range of a tap, for a shutter with given weights.
-GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_filter_given(GNOMON_T(moving_receiver) state,
-                                                                     GNOMON_T(depth_time_range) r,
-                                                                     GNOMON_T(shutter_weights) w)
+GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_filter_piecewise(GNOMON_T(moving_receiver) state,
+                                                                         GNOMON_T(depth_time_range) r,
+                                                                         GNOMON_T(shutter_weights) w)
 {
-    GNOMON_T(depth_time_range) hidden = range_in_front(r, state.course, state.t0, state.t1);
+    depth_time_range hidden = range_occluding_part(r, state.course, state.t0, state.t1);
     Real none = Real(0);
     Real t1 = shutter_time(state.begin, state.end, Real(0.125));
     Real t2 = shutter_time(state.begin, state.end, Real(0.25));
@@ -194,7 +194,7 @@ GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_filter_given(GNOMON_T(mo
 
 /// Shadow intensity in [0, 1] over the whole shutter. A NaN hides nothing. Error for each range as for a receiver at
 /// rest (static_receiver_end), filtered 97 2^-p instead of 32; further those of when texels are entered and left
-/// (texel_border_passed), or of weights (receiver_path_at, and moving_receiver_tap in perspective).
+/// (texel_border_share), or of weights (receiver_path_at, and moving_receiver_tap in perspective).
 GNOMON_KERNEL Real moving_receiver_end(GNOMON_T(moving_receiver) state) { return saturate_or_zero(state.shadowed); }
 
 GNOMON_NAMESPACE_END

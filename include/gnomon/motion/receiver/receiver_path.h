@@ -18,14 +18,14 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// Times, depths and id as a range; x / w and y / w at time t0 and at time t1 in texels, centres at +0.5.
-GNOMON_STRUCT receiver_path
+GNOMON_STRUCT(receiver_path)
 {
     GNOMON_T(depth_time_range) depth;
     Real x0, y0, w0, x1, y1, w1;
 };
 
 /// In texels, centres at +0.5.
-GNOMON_STRUCT texel_position { Real x, y; };
+GNOMON_STRUCT(texel_position) { Real x, y; };
 
 GNOMON_CONSTANT(receiver_sample_limit, 1048576.0); // 2^20
 
@@ -33,7 +33,7 @@ GNOMON_CONSTANT(receiver_sample_limit, 1048576.0); // 2^20
 /// 8 2^-p times the largest |x|; in perspective times (1 + the larger w over the smaller) as well.
 GNOMON_KERNEL GNOMON_T(texel_position) receiver_path_at(GNOMON_T(receiver_path) path, Real t)
 {
-    Real passed = range_passed(path.depth, t);
+    Real passed = range_elapsed(path.depth, t);
     Real left = Real(1) - passed;
     Real w = path.w0 * left + path.w1 * passed;
     GNOMON_T(texel_position) r;
@@ -43,7 +43,7 @@ GNOMON_KERNEL GNOMON_T(texel_position) receiver_path_at(GNOMON_T(receiver_path) 
 }
 
 /// The path beside it, so many texels further in x and in y.
-GNOMON_KERNEL GNOMON_T(receiver_path) receiver_path_shifted(GNOMON_T(receiver_path) path, Real dx, Real dy)
+GNOMON_KERNEL GNOMON_T(receiver_path) receiver_path_shift(GNOMON_T(receiver_path) path, Real dx, Real dy)
 {
     path.x0 = path.x0 + dx * path.w0;
     path.y0 = path.y0 + dy * path.w0;
@@ -55,8 +55,8 @@ GNOMON_KERNEL GNOMON_T(receiver_path) receiver_path_shifted(GNOMON_T(receiver_pa
 /// What of it falls between two times, such as those at which it faces the light (facing.h).
 GNOMON_KERNEL GNOMON_T(receiver_path) receiver_path_clip(GNOMON_T(receiver_path) path, Real begin, Real end)
 {
-    Real passed0 = range_passed(path.depth, begin);
-    Real passed1 = range_passed(path.depth, end);
+    Real passed0 = range_elapsed(path.depth, begin);
+    Real passed1 = range_elapsed(path.depth, end);
     Real left0 = Real(1) - passed0;
     Real left1 = Real(1) - passed1;
     GNOMON_T(receiver_path) c;
@@ -97,7 +97,7 @@ GNOMON_KERNEL Real receiver_sample_time(GNOMON_T(receiver_path) path, Real k, Re
 }
 
 /// The number of samples, and how many of them were in shadow so far.
-GNOMON_STRUCT sampled_receiver { Real samples, shadowed; };
+GNOMON_STRUCT(sampled_receiver) { Real samples, shadowed; };
 
 /// No sample yet of so many.
 GNOMON_KERNEL GNOMON_T(sampled_receiver) sampled_receiver_begin(Real samples)

@@ -5,23 +5,23 @@
 // exposure with any weights, such as those of a camera's measured shutter.
 //
 // An exposure that ends before it begins is the one between its two times, and one of no length shows what is there at
-// that moment (shutter_exposure_of, which receivers begin with).
+// that moment (shutter_exposure_make, which receivers begin with).
 #ifndef GNOMON_MOTION_RECEIVER_SHUTTER_H
 #define GNOMON_MOTION_RECEIVER_SHUTTER_H
 #include "../../numerics/select.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// What each eighth of the exposure lets in, one after the other; together 1 (shutter_weights_of).
-GNOMON_STRUCT shutter_weights { Real w0, w1, w2, w3, w4, w5, w6, w7; };
+/// What each eighth of the exposure lets in, one after the other; together 1 (shutter_weights_make).
+GNOMON_STRUCT(shutter_weights) { Real w0, w1, w2, w3, w4, w5, w6, w7; };
 
 /// When a shutter opens and closes.
-GNOMON_STRUCT shutter_exposure { Real begin, end; };
+GNOMON_STRUCT(shutter_exposure) { Real begin, end; };
 
 GNOMON_CONSTANT(shutter_weight_limit, 1152921504606846976.0); // 2^60: eight of them have a sum in float
 
 /// The exposure between two times in any order. One of less than 2^-20, or of no length, lasts 2^-20 from its begin on,
 /// or until shutter close where it would end later: what hides a receiver meanwhile hides it wholly. A NaN stays one.
-GNOMON_KERNEL GNOMON_T(shutter_exposure) shutter_exposure_of(Real a, Real b)
+GNOMON_KERNEL GNOMON_T(shutter_exposure) shutter_exposure_make(Real a, Real b)
 {
     Real least = Real(0.00000095367431640625);
     GNOMON_MASK swapped = b < a;
@@ -69,7 +69,7 @@ GNOMON_KERNEL Real shutter_share(Real weight, Real sum)
 
 /// Any eight weights made to sum to 1, negative ones and NaN as 0; where none is left, eight equal ones, a box. Once
 /// for a shutter, not for each range.
-GNOMON_KERNEL GNOMON_T(shutter_weights) shutter_weights_of(GNOMON_T(shutter_weights) given)
+GNOMON_KERNEL GNOMON_T(shutter_weights) shutter_weights_make(GNOMON_T(shutter_weights) given)
 {
     GNOMON_T(shutter_weights) w;
     w.w0 = shutter_weight(given.w0);
@@ -93,8 +93,8 @@ GNOMON_KERNEL GNOMON_T(shutter_weights) shutter_weights_of(GNOMON_T(shutter_weig
 }
 
 /// The same for a shutter whose eighths let in what w says, each evenly. Exactly 1 from its end on. Error: 16 2^-p; in
-/// [0, 1] for any w, whether it comes from shutter_weights_of or not.
-GNOMON_KERNEL Real shutter_given(Real t, Real begin, Real end, GNOMON_T(shutter_weights) w)
+/// [0, 1] for any w, whether it comes from shutter_weights_make or not.
+GNOMON_KERNEL Real shutter_piecewise(Real t, Real begin, Real end, GNOMON_T(shutter_weights) w)
 {
     Real x = Real(8) * shutter_box(t, begin, end);
     Real early = (w.w0 * saturate_or_zero(x) + w.w1 * saturate_or_zero(x - Real(1))) +

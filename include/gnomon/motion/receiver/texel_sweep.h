@@ -24,7 +24,7 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// The texel, from when to when, the texel at the end and when that is, and where on the way the next borders are met.
-GNOMON_STRUCT texel_sweep
+GNOMON_STRUCT(texel_sweep)
 {
     GNOMON_T(receiver_path) path;
     Real column, row, t_begin, t_end, last_column, last_row, t_last, across_column, across_row;
@@ -35,7 +35,7 @@ GNOMON_CONSTANT(texel_border_none, 2.0);                  // after the way has e
 
 /// The share of the way, in [0, 1], at which one coordinate leaves a texel towards the last one; 2 in the last one.
 /// Error: 4 2^-p (|x0| + |c| w0 + |x1| + |c| w1) over the distance from x0 - c w0 to x1 - c w1, and 2 2^-p.
-GNOMON_KERNEL Real texel_border_passed(Real x0, Real w0, Real x1, Real w1, Real texel, Real last)
+GNOMON_KERNEL Real texel_border_share(Real x0, Real w0, Real x1, Real w1, Real texel, Real last)
 {
     Real border = texel + gnomon_select(texel < last, Real(1), Real(0));
     Real distance0 = x0 - gnomon_product(border, w0);
@@ -45,7 +45,7 @@ GNOMON_KERNEL Real texel_border_passed(Real x0, Real w0, Real x1, Real w1, Real 
 }
 
 /// Ends the texel's time at the next border, or with the sweep.
-GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_timed(GNOMON_T(texel_sweep) sweep)
+GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_set_times(GNOMON_T(texel_sweep) sweep)
 {
     Real passed = gnomon_min(sweep.across_column, sweep.across_row);
     Real t = sweep.path.depth.t0 * (Real(1) - passed) + sweep.path.depth.t1 * passed;
@@ -55,12 +55,12 @@ GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_timed(GNOMON_T(texel_sweep) swee
 }
 
 /// Meets the next borders for the first time.
-GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_started(GNOMON_T(texel_sweep) sweep)
+GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_start(GNOMON_T(texel_sweep) sweep)
 {
-    GNOMON_T(receiver_path) p = sweep.path;
-    sweep.across_column = texel_border_passed(p.x0, p.w0, p.x1, p.w1, sweep.column, sweep.last_column);
-    sweep.across_row = texel_border_passed(p.y0, p.w0, p.y1, p.w1, sweep.row, sweep.last_row);
-    return texel_sweep_timed(sweep);
+    receiver_path p = sweep.path;
+    sweep.across_column = texel_border_share(p.x0, p.w0, p.x1, p.w1, sweep.column, sweep.last_column);
+    sweep.across_row = texel_border_share(p.y0, p.w0, p.y1, p.w1, sweep.row, sweep.last_row);
+    return texel_sweep_set_times(sweep);
 }
 
 /// The first texel. A path with a NaN, with positions beyond 2^60 or with w <= 0 at an end is in one texel for all its
@@ -82,29 +82,29 @@ GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_begin(GNOMON_T(receiver_path) pa
     sweep.last_column = gnomon_select(known, texel_below(x1), sweep.column);
     sweep.last_row = gnomon_select(known, texel_below(y1), sweep.row);
     sweep.t_last = path.depth.t1;
-    return texel_sweep_started(sweep);
+    return texel_sweep_start(sweep);
 }
 
 /// The shares of the way, of 0 to 1, at which a path is over the texels from (left, top) to before (right, bottom), and
 /// w >= 0. Error: 4 2^-p (|x0| + |c| w0 + |x1| + |c| w1) over the distance from x0 - c w0 to x1 - c w1, for the border
 /// x = c that is crossed, rows alike. None for a NaN, or for positions that differ by 2^60 or more.
-GNOMON_KERNEL GNOMON_T(linear_times) receiver_path_over(GNOMON_T(receiver_path) p, Real left, Real top, Real right,
-                                                        Real bottom)
+GNOMON_KERNEL GNOMON_T(linear_interval) receiver_path_over(GNOMON_T(receiver_path) p, Real left, Real top, Real right,
+                                                           Real bottom)
 {
-    GNOMON_T(linear_times) a = linear_edge_inside(p.x0 - gnomon_product(left, p.w0), p.x1 - gnomon_product(left, p.w1));
-    GNOMON_T(linear_times) b = linear_edge_inside(p.y0 - gnomon_product(top, p.w0), p.y1 - gnomon_product(top, p.w1));
-    GNOMON_T(linear_times)
+    linear_interval a = linear_edge_inside(p.x0 - gnomon_product(left, p.w0), p.x1 - gnomon_product(left, p.w1));
+    linear_interval b = linear_edge_inside(p.y0 - gnomon_product(top, p.w0), p.y1 - gnomon_product(top, p.w1));
+    GNOMON_T(linear_interval)
     c = linear_edge_inside(gnomon_product(right, p.w0) - p.x0, gnomon_product(right, p.w1) - p.x1);
-    GNOMON_T(linear_times)
+    GNOMON_T(linear_interval)
     d = linear_edge_inside(gnomon_product(bottom, p.w0) - p.y0, gnomon_product(bottom, p.w1) - p.y1);
-    GNOMON_T(linear_times) before_light = linear_edge_inside(p.w0, p.w1);
+    linear_interval before_light = linear_edge_inside(p.w0, p.w1);
     a.begin = gnomon_max(gnomon_max(gnomon_max(a.begin, b.begin), gnomon_max(c.begin, d.begin)), before_light.begin);
     a.end = gnomon_min(gnomon_min(gnomon_min(a.end, b.end), gnomon_min(c.end, d.end)), before_light.end);
     return a;
 }
 
 /// The column or row of a position from low - 1, before the first, to high, after the last.
-GNOMON_KERNEL Real texel_near(Real x, Real low, Real high)
+GNOMON_KERNEL Real texel_clamp(Real x, Real low, Real high)
 {
     return gnomon_min(gnomon_max(texel_below(x), low - Real(1)), high);
 }
@@ -115,7 +115,7 @@ GNOMON_KERNEL Real texel_near(Real x, Real low, Real high)
 GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_over(GNOMON_T(receiver_path) path, Real left, Real top, Real right,
                                                      Real bottom)
 {
-    GNOMON_T(linear_times) shares = receiver_path_over(path, left, top, right, bottom);
+    linear_interval shares = receiver_path_over(path, left, top, right, bottom);
     GNOMON_MASK some = shares.begin < shares.end;
     Real passed0 = gnomon_select(some, shares.begin, Real(0));
     Real passed1 = gnomon_select(some, shares.end, Real(0));
@@ -125,17 +125,17 @@ GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_over(GNOMON_T(receiver_path) pat
     Real w1 = path.w0 * left1 + path.w1 * passed1;
     GNOMON_T(texel_sweep) sweep;
     sweep.path = path;
-    sweep.column = texel_near((path.x0 * left0 + path.x1 * passed0) / w0, left, right);
-    sweep.row = texel_near((path.y0 * left0 + path.y1 * passed0) / w0, top, bottom);
-    sweep.last_column = texel_near((path.x0 * left1 + path.x1 * passed1) / w1, left, right);
-    sweep.last_row = texel_near((path.y0 * left1 + path.y1 * passed1) / w1, top, bottom);
+    sweep.column = texel_clamp((path.x0 * left0 + path.x1 * passed0) / w0, left, right);
+    sweep.row = texel_clamp((path.y0 * left0 + path.y1 * passed0) / w0, top, bottom);
+    sweep.last_column = texel_clamp((path.x0 * left1 + path.x1 * passed1) / w1, left, right);
+    sweep.last_row = texel_clamp((path.y0 * left1 + path.y1 * passed1) / w1, top, bottom);
     sweep.column = gnomon_select(some, sweep.column, right);
     sweep.row = gnomon_select(some, sweep.row, bottom);
     sweep.last_column = gnomon_select(some, sweep.last_column, right);
     sweep.last_row = gnomon_select(some, sweep.last_row, bottom);
     sweep.t_begin = path.depth.t0 * left0 + path.depth.t1 * passed0;
     sweep.t_last = path.depth.t0 * left1 + path.depth.t1 * passed1;
-    return texel_sweep_started(sweep);
+    return texel_sweep_start(sweep);
 }
 
 /// The next texel, beside, above or below; after the last one the same again, for no time.
@@ -152,11 +152,11 @@ GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_next(GNOMON_T(texel_sweep) sweep
     Real x1 = gnomon_select(sideways, sweep.path.x1, sweep.path.y1);
     Real texel = gnomon_select(sideways, sweep.column, sweep.row);
     Real last = gnomon_select(sideways, sweep.last_column, sweep.last_row);
-    Real passed = texel_border_passed(x0, sweep.path.w0, x1, sweep.path.w1, texel, last);
+    Real passed = texel_border_share(x0, sweep.path.w0, x1, sweep.path.w1, texel, last);
     sweep.across_column = gnomon_select(sideways, passed, sweep.across_column);
     sweep.across_row = gnomon_select(sideways, sweep.across_row, passed);
     sweep.t_begin = sweep.t_end;
-    return texel_sweep_timed(sweep);
+    return texel_sweep_set_times(sweep);
 }
 
 GNOMON_NAMESPACE_END

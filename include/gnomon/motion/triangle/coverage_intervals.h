@@ -14,23 +14,23 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// e(t) = e0 (1 - t)^2 + 2 e1 t (1 - t) + e2 t^2.
-GNOMON_STRUCT moving_edge { Real e0, e1, e2; };
+GNOMON_STRUCT(moving_edge) { Real e0, e1, e2; };
 
 /// The edge functions across from the vertices a, b, c of a triangle.
-GNOMON_STRUCT moving_edges { GNOMON_T(moving_edge) a, b, c; };
+GNOMON_STRUCT(moving_edges) { GNOMON_T(moving_edge) a, b, c; };
 
 /// From begin to end, but not from gap_begin to gap_end; without a gap both of these are coverage_none, and where
 /// nothing is left begin is 1 and end 0.
-GNOMON_STRUCT edge_times { Real begin, end, gap_begin, gap_end; };
+GNOMON_STRUCT(edge_intervals) { Real begin, end, gap_begin, gap_end; };
 
 /// From begin to end; nothing where end is not after begin.
-GNOMON_STRUCT linear_times { Real begin, end; };
+GNOMON_STRUCT(linear_interval) { Real begin, end; };
 
 /// Four numbers in order.
-GNOMON_STRUCT ordered4 { Real first, second, third, fourth; };
+GNOMON_STRUCT(ordered4) { Real first, second, third, fourth; };
 
 /// As many intervals as count says, in order and apart; the others begin and end at coverage_none.
-GNOMON_STRUCT coverage_times { Real count, begin0, end0, begin1, end1, begin2, end2, begin3, end3; };
+GNOMON_STRUCT(coverage_intervals) { Real count, begin0, end0, begin1, end1, begin2, end2, begin3, end3; };
 
 GNOMON_CONSTANT(coverage_none, 2.0);                       // after the shutter has closed
 GNOMON_CONSTANT(moving_edge_limit, 1152921504606846976.0); // 2^60: squares of coefficients are finite in float
@@ -51,13 +51,13 @@ GNOMON_KERNEL Real moving_edge_size(GNOMON_T(moving_edge) e)
 /// The times in [0, 1] at which e >= 0; at which e <= 0 where facing is negative. They are exact for coefficients that
 /// differ by 16 2^-p of the largest, which is between 2^-50 and 2^58 in float. Where e is 0 throughout, all times.
 /// Coefficients beyond that, or NaN: none.
-GNOMON_KERNEL GNOMON_T(edge_times) moving_edge_inside(GNOMON_T(moving_edge) e, GNOMON_SETTING facing)
+GNOMON_KERNEL GNOMON_T(edge_intervals) moving_edge_inside(GNOMON_T(moving_edge) e, GNOMON_SETTING facing)
 {
     Real side = gnomon_select(facing < Real(0), Real(-1), Real(1));
     Real c0 = side * e.e0;
     Real c1 = side * e.e1;
     Real c2 = side * e.e2;
-    GNOMON_T(edge_times) x;
+    GNOMON_T(edge_intervals) x;
     x.begin = Real(0);
     x.end = Real(1);
     x.gap_begin = GNOMON_LITERAL(coverage_none);
@@ -95,32 +95,32 @@ GNOMON_KERNEL GNOMON_T(edge_times) moving_edge_inside(GNOMON_T(moving_edge) e, G
 
 /// The times in [0, 1] at which an edge function that is linear in time, from e0 to e2, is >= 0; on the other side of
 /// the edge ask for -e0 and -e2. Error: 4 2^-p. Coefficients that differ by 2^60 or more, or NaN: none.
-GNOMON_KERNEL GNOMON_T(linear_times) linear_edge_inside(Real e0, Real e2)
+GNOMON_KERNEL GNOMON_T(linear_interval) linear_edge_inside(Real e0, Real e2)
 {
     GNOMON_MASK before = e0 < Real(0);
     GNOMON_MASK after = e2 < Real(0);
     Real change = e0 - e2;
     GNOMON_MASK never = (before && after) || !(gnomon_abs(change) < GNOMON_LITERAL(moving_edge_limit));
     Real root = gnomon_min(e0 / change, Real(1));
-    GNOMON_T(linear_times) x;
+    GNOMON_T(linear_interval) x;
     x.begin = gnomon_select(never, Real(1), gnomon_select(before, root, Real(0)));
     x.end = gnomon_select(never, Real(0), gnomon_select(after, root, Real(1)));
     return x;
 }
 
 /// The times at which three of them are >= 0 together, for a triangle that is translated or at rest.
-GNOMON_KERNEL GNOMON_T(linear_times) linear_coverage(GNOMON_T(moving_edges) e)
+GNOMON_KERNEL GNOMON_T(linear_interval) linear_coverage(GNOMON_T(moving_edges) e)
 {
-    GNOMON_T(linear_times) a = linear_edge_inside(e.a.e0, e.a.e2);
-    GNOMON_T(linear_times) b = linear_edge_inside(e.b.e0, e.b.e2);
-    GNOMON_T(linear_times) c = linear_edge_inside(e.c.e0, e.c.e2);
+    linear_interval a = linear_edge_inside(e.a.e0, e.a.e2);
+    linear_interval b = linear_edge_inside(e.b.e0, e.b.e2);
+    linear_interval c = linear_edge_inside(e.c.e0, e.c.e2);
     a.begin = gnomon_max(gnomon_max(a.begin, b.begin), c.begin);
     a.end = gnomon_min(gnomon_min(a.end, b.end), c.end);
     return a;
 }
 
 /// By a network of five exchanges; numbers, not NaN.
-GNOMON_KERNEL GNOMON_T(ordered4) ordered4_of(Real a, Real b, Real c, Real d)
+GNOMON_KERNEL GNOMON_T(ordered4) ordered4_make(Real a, Real b, Real c, Real d)
 {
     Real low0 = gnomon_min(a, b);
     Real high0 = gnomon_max(a, b);
@@ -137,14 +137,15 @@ GNOMON_KERNEL GNOMON_T(ordered4) ordered4_of(Real a, Real b, Real c, Real d)
 }
 
 /// The times at which the sample is on the inside of all three edges.
-GNOMON_KERNEL GNOMON_T(coverage_times) edge_times_together(GNOMON_T(edge_times) a, GNOMON_T(edge_times) b,
-                                                           GNOMON_T(edge_times) c)
+GNOMON_KERNEL GNOMON_T(coverage_intervals) intersect_edge_intervals(GNOMON_T(edge_intervals) a,
+                                                                    GNOMON_T(edge_intervals) b,
+                                                                    GNOMON_T(edge_intervals) c)
 {
     Real begin = gnomon_max(gnomon_max(gnomon_max(a.begin, b.begin), c.begin), Real(0));
     Real end = gnomon_min(gnomon_min(gnomon_min(a.end, b.end), c.end), Real(1));
     Real none = GNOMON_LITERAL(coverage_none);
     GNOMON_MASK some = begin < end;
-    GNOMON_T(coverage_times) x;
+    GNOMON_T(coverage_intervals) x;
     x.count = gnomon_select(some, Real(1), Real(0));
     x.begin0 = gnomon_select(some, begin, none);
     x.end0 = gnomon_select(some, end, none);
@@ -167,8 +168,8 @@ GNOMON_KERNEL GNOMON_T(coverage_times) edge_times_together(GNOMON_T(edge_times) 
         c.gap_end = gnomon_select(gap_c, c.gap_end, none);
         // In order, each by itself, the gaps' begins and ends bound what is outside of all gaps: a time is there when
         // as many have begun as have ended.
-        GNOMON_T(ordered4) starts = ordered4_of(a.gap_begin, b.gap_begin, c.gap_begin, none);
-        GNOMON_T(ordered4) stops = ordered4_of(a.gap_end, b.gap_end, c.gap_end, none);
+        ordered4 starts = ordered4_make(a.gap_begin, b.gap_begin, c.gap_begin, none);
+        ordered4 stops = ordered4_make(a.gap_end, b.gap_end, c.gap_end, none);
         Real begin1 = gnomon_max(begin, stops.first);
         Real begin2 = gnomon_max(begin, stops.second);
         Real begin3 = gnomon_max(begin, stops.third);
@@ -180,10 +181,10 @@ GNOMON_KERNEL GNOMON_T(coverage_times) edge_times_together(GNOMON_T(edge_times) 
         GNOMON_MASK some2 = some && begin2 < end2;
         GNOMON_MASK some3 = some && begin3 < end;
         // The empty ones go to the end, the others keep their order.
-        starts = ordered4_of(gnomon_select(some0, begin, none), gnomon_select(some1, begin1, none),
-                             gnomon_select(some2, begin2, none), gnomon_select(some3, begin3, none));
-        stops = ordered4_of(gnomon_select(some0, end0, none), gnomon_select(some1, end1, none),
-                            gnomon_select(some2, end2, none), gnomon_select(some3, end, none));
+        starts = ordered4_make(gnomon_select(some0, begin, none), gnomon_select(some1, begin1, none),
+                               gnomon_select(some2, begin2, none), gnomon_select(some3, begin3, none));
+        stops = ordered4_make(gnomon_select(some0, end0, none), gnomon_select(some1, end1, none),
+                              gnomon_select(some2, end2, none), gnomon_select(some3, end, none));
         x.count = (gnomon_select(some0, Real(1), Real(0)) + gnomon_select(some1, Real(1), Real(0))) +
                   (gnomon_select(some2, Real(1), Real(0)) + gnomon_select(some3, Real(1), Real(0)));
         x.begin0 = starts.first;
@@ -202,16 +203,16 @@ GNOMON_KERNEL GNOMON_T(coverage_times) edge_times_together(GNOMON_T(edge_times) 
 /// then covered by a triangle that turns this side to it. On the border it is covered; by a triangle without any area,
 /// three edge functions that are 0 throughout, it is not. Errors as for moving_edge_inside; anything NaN or out of
 /// range gives none.
-GNOMON_KERNEL GNOMON_T(coverage_times) moving_coverage(GNOMON_T(moving_edges) e, GNOMON_SETTING facing)
+GNOMON_KERNEL GNOMON_T(coverage_intervals) moving_coverage(GNOMON_T(moving_edges) e, GNOMON_SETTING facing)
 {
-    GNOMON_T(edge_times) a = moving_edge_inside(e.a, facing);
+    edge_intervals a = moving_edge_inside(e.a, facing);
     Real size = (moving_edge_size(e.a) + moving_edge_size(e.b)) + moving_edge_size(e.c);
     a.end = gnomon_select(Real(0) < size, a.end, Real(0));
-    return edge_times_together(a, moving_edge_inside(e.b, facing), moving_edge_inside(e.c, facing));
+    return intersect_edge_intervals(a, moving_edge_inside(e.b, facing), moving_edge_inside(e.c, facing));
 }
 
 /// How much of the shutter interval they last together, in [0, 1].
-GNOMON_KERNEL Real coverage_duration(GNOMON_T(coverage_times) x)
+GNOMON_KERNEL Real coverage_duration(GNOMON_T(coverage_intervals) x)
 {
     return saturate_or_zero(((x.end0 - x.begin0) + (x.end1 - x.begin1)) + ((x.end2 - x.begin2) + (x.end3 - x.begin3)));
 }

@@ -1,25 +1,25 @@
 // When the point of a moving triangle that a sample sees lies between the near and the far plane: a surface that passes
 // one of them is there for a part of its covered times, whose ends are cut, and not its depths.
 //
-// With depth z = z_c + N / D (edge_field.h) and D > 0 where the triangle faces the sample by its positive side, z is
+// With depth z = z_c + N / D (edge_equation.h) and D > 0 where the triangle faces the sample by its positive side, z is
 // at least p exactly where
 //     h(t) = N(t) + (z_c(t) - p) D(t) >= 0
 // a cubic in t. Its turning points, the roots of a quadratic, part [0, 1] into three intervals in which h goes one way;
 // each has one root or none, which bisection finds. A cubic is positive in two intervals at most, so the answer is an
-// edge_times, as for an edge.
+// edge_intervals, as for an edge.
 //
-//     near = depth_times_beyond(curve, -1, facing);   far = depth_times_before(curve, 1, facing);
-//     of every covered interval: edge_times_part(near, 0, begin, end), and 1; of each of them the same with far
+//     near = depth_intervals_beyond(curve, -1, facing);   far = depth_intervals_before(curve, 1, facing);
+//     of every covered interval: edge_intervals_part(near, 0, begin, end), and 1; of each of them the same with far
 #ifndef GNOMON_MOTION_TRIANGLE_DEPTH_PLANES_H
 #define GNOMON_MOTION_TRIANGLE_DEPTH_PLANES_H
 #include "triangle_setup.h"
 GNOMON_NAMESPACE_BEGIN
 
 /// h0 s^3 + h1 s^2 t + h2 s t^2 + h3 t^3, s = 1 - t.
-GNOMON_STRUCT moving_cubic { Real h0, h1, h2, h3; };
+GNOMON_STRUCT(moving_cubic) { Real h0, h1, h2, h3; };
 
 /// A root between two times, if there is one (1 or 0).
-GNOMON_STRUCT cubic_root { Real t, found; };
+GNOMON_STRUCT(cubic_root) { Real t, found; };
 
 GNOMON_CONSTANT(cubic_third, 0.333333333333333333333);
 
@@ -56,7 +56,7 @@ GNOMON_KERNEL GNOMON_T(cubic_root) moving_cubic_root(GNOMON_T(moving_cubic) h, R
 
 /// The times in [0, 1] at which h is >= 0. Error of a time: those of the cubic's value over its slope there, and
 /// 2^-24; where h only touches 0 within its error, as if h did not. NaN: none.
-GNOMON_KERNEL GNOMON_T(edge_times) moving_cubic_inside(GNOMON_T(moving_cubic) h)
+GNOMON_KERNEL GNOMON_T(edge_intervals) moving_cubic_inside(GNOMON_T(moving_cubic) h)
 {
     Real none = GNOMON_LITERAL(coverage_none);
     // A third of its slope, by Bernstein coefficients; the ends of where it rises are the turning points.
@@ -66,16 +66,16 @@ GNOMON_KERNEL GNOMON_T(edge_times) moving_cubic_inside(GNOMON_T(moving_cubic) h)
     slope.e0 = b1 - h.h0;
     slope.e1 = b2 - b1;
     slope.e2 = h.h3 - b2;
-    GNOMON_T(edge_times) rises = moving_edge_inside(slope, Real(1));
+    edge_intervals rises = moving_edge_inside(slope, Real(1));
     GNOMON_MASK gap = rises.gap_begin < none;
     GNOMON_MASK some = rises.begin < rises.end;
     Real first = gnomon_select(gap, rises.gap_begin, gnomon_select(some, rises.begin, Real(0)));
     Real second = gnomon_select(gap, rises.gap_end, gnomon_select(some, rises.end, Real(1)));
     Real at_first = moving_cubic_at(h, first);
     Real at_second = moving_cubic_at(h, second);
-    GNOMON_T(cubic_root) a = moving_cubic_root(h, Real(0), first, h.h0, at_first);
-    GNOMON_T(cubic_root) b = moving_cubic_root(h, first, second, at_first, at_second);
-    GNOMON_T(cubic_root) c = moving_cubic_root(h, second, Real(1), at_second, h.h3);
+    cubic_root a = moving_cubic_root(h, Real(0), first, h.h0, at_first);
+    cubic_root b = moving_cubic_root(h, first, second, at_first, at_second);
+    cubic_root c = moving_cubic_root(h, second, Real(1), at_second, h.h3);
 
     // The roots in order, missing ones last.
     GNOMON_MASK has_a = Real(0) < a.found;
@@ -87,7 +87,7 @@ GNOMON_KERNEL GNOMON_T(edge_times) moving_cubic_inside(GNOMON_T(moving_cubic) h)
     Real root2 = gnomon_select(has_a && has_b && has_c, c.t, none);
 
     GNOMON_MASK open = Real(0) <= h.h0;
-    GNOMON_T(edge_times) x;
+    GNOMON_T(edge_intervals) x;
     x.begin = gnomon_select(open, Real(0), gnomon_min(root0, Real(1)));
     // A gap goes from the first root to the second if h is positive at shutter open, else from the second to the
     // third. Without the latter of them the times end there.
@@ -121,25 +121,26 @@ GNOMON_KERNEL GNOMON_T(moving_cubic) depth_over_plane(GNOMON_T(depth_curve) c, R
 
 /// When the depth of a triangle is at least that of the plane, among the times at which this facing (1 or -1) covers
 /// the sample.
-GNOMON_KERNEL GNOMON_T(edge_times) depth_times_beyond(GNOMON_T(depth_curve) c, GNOMON_SETTING plane,
-                                                      GNOMON_SETTING facing)
+GNOMON_KERNEL GNOMON_T(edge_intervals) depth_intervals_beyond(GNOMON_T(depth_curve) c, GNOMON_SETTING plane,
+                                                              GNOMON_SETTING facing)
 {
     return moving_cubic_inside(depth_over_plane(c, plane, facing));
 }
 
 /// When it is at most that.
-GNOMON_KERNEL GNOMON_T(edge_times) depth_times_before(GNOMON_T(depth_curve) c, GNOMON_SETTING plane,
-                                                      GNOMON_SETTING facing)
+GNOMON_KERNEL GNOMON_T(edge_intervals) depth_intervals_before(GNOMON_T(depth_curve) c, GNOMON_SETTING plane,
+                                                              GNOMON_SETTING facing)
 {
     return moving_cubic_inside(depth_over_plane(c, plane, Real(-1) * facing));
 }
 
 /// The part of an interval that falls into times: before their gap (part 0) or after it (part 1); nothing where the end
 /// is not after the begin. Without a gap all of it is in part 0.
-GNOMON_KERNEL GNOMON_T(linear_times) edge_times_part(GNOMON_T(edge_times) x, GNOMON_SETTING part, Real begin, Real end)
+GNOMON_KERNEL GNOMON_T(linear_interval) edge_intervals_part(GNOMON_T(edge_intervals) x, GNOMON_SETTING part, Real begin,
+                                                            Real end)
 {
     GNOMON_MASK second = Real(0.5) < part;
-    GNOMON_T(linear_times) r;
+    GNOMON_T(linear_interval) r;
     r.begin = gnomon_max(begin, gnomon_select(second, x.gap_end, x.begin));
     r.end = gnomon_min(end, gnomon_select(second, x.end, gnomon_min(x.end, x.gap_begin)));
     return r;

@@ -19,32 +19,32 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// In clip space, at shutter open (x0, ...) and at shutter close (x1, ...).
-GNOMON_STRUCT moving_vertex { Real x0, y0, z0, w0, x1, y1, z1, w1; };
+GNOMON_STRUCT(moving_vertex) { Real x0, y0, z0, w0, x1, y1, z1, w1; };
 
-GNOMON_STRUCT moving_triangle { GNOMON_T(moving_vertex) a, b, c; };
+GNOMON_STRUCT(moving_triangle) { GNOMON_T(moving_vertex) a, b, c; };
 
 /// Relative to a sample, at shutter open and at shutter close.
-GNOMON_STRUCT sheared_vertex { Real x0, y0, x1, y1; };
+GNOMON_STRUCT(sheared_vertex) { Real x0, y0, x1, y1; };
 
 /// Depth at the ends of an interval, and how far at most the depth between departs from the line.
-GNOMON_STRUCT depth_line { Real z0, z1, deviation; };
+GNOMON_STRUCT(depth_line) { Real z0, z1, deviation; };
 
 /// A line of depth from time t0 to t1, and how much of the interval that it is a piece of has passed by then.
-GNOMON_STRUCT depth_piece { Real t0, t1, z0, z1, passed; };
+GNOMON_STRUCT(depth_piece) { Real t0, t1, z0, z1, passed; };
 
 /// A piece that begins where start of an interval has passed, while a length for it is searched: the share of the
 /// interval that it has now, and whether it is settled, 1 or 0.
-GNOMON_STRUCT depth_trial
+GNOMON_STRUCT(depth_trial)
 {
     GNOMON_T(depth_piece) piece;
     Real start, share, settled;
 };
 
 /// Bernstein coefficients of a cubic, those in the middle times 3.
-GNOMON_STRUCT bernstein_cubic { Real c0, c1, c2, c3; };
+GNOMON_STRUCT(bernstein_cubic) { Real c0, c1, c2, c3; };
 
 /// The sample is in the same units as x / w.
-GNOMON_KERNEL GNOMON_T(sheared_vertex) moving_vertex_sheared(GNOMON_T(moving_vertex) v, Real s_x, Real s_y)
+GNOMON_KERNEL GNOMON_T(sheared_vertex) moving_vertex_shear(GNOMON_T(moving_vertex) v, Real s_x, Real s_y)
 {
     GNOMON_T(sheared_vertex) r;
     r.x0 = v.x0 - gnomon_product(s_x, v.w0);
@@ -61,7 +61,7 @@ GNOMON_KERNEL Real sheared_cross(Real a_x, Real a_y, Real b_x, Real b_y)
 }
 
 /// The edge from a to b: positive where the sample is on its left. Exchanging a and b negates it bit for bit.
-GNOMON_KERNEL GNOMON_T(moving_edge) moving_edge_of(GNOMON_T(sheared_vertex) a, GNOMON_T(sheared_vertex) b)
+GNOMON_KERNEL GNOMON_T(moving_edge) moving_edge_make(GNOMON_T(sheared_vertex) a, GNOMON_T(sheared_vertex) b)
 {
     GNOMON_T(moving_edge) e;
     e.e0 = sheared_cross(a.x0, a.y0, b.x0, b.y0);
@@ -75,13 +75,13 @@ GNOMON_KERNEL GNOMON_T(moving_edge) moving_edge_of(GNOMON_T(sheared_vertex) a, G
 /// |s_y w|) over the shutter's ends, p the bits of the significand.
 GNOMON_KERNEL GNOMON_T(moving_edges) moving_triangle_edges(GNOMON_T(moving_triangle) m, Real s_x, Real s_y)
 {
-    GNOMON_T(sheared_vertex) a = moving_vertex_sheared(m.a, s_x, s_y);
-    GNOMON_T(sheared_vertex) b = moving_vertex_sheared(m.b, s_x, s_y);
-    GNOMON_T(sheared_vertex) c = moving_vertex_sheared(m.c, s_x, s_y);
+    sheared_vertex a = moving_vertex_shear(m.a, s_x, s_y);
+    sheared_vertex b = moving_vertex_shear(m.b, s_x, s_y);
+    sheared_vertex c = moving_vertex_shear(m.c, s_x, s_y);
     GNOMON_T(moving_edges) e;
-    e.a = moving_edge_of(b, c);
-    e.b = moving_edge_of(c, a);
-    e.c = moving_edge_of(a, b);
+    e.a = moving_edge_make(b, c);
+    e.b = moving_edge_make(c, a);
+    e.c = moving_edge_make(a, b);
     return e;
 }
 
@@ -132,7 +132,7 @@ GNOMON_KERNEL Real moving_triangle_linear_depth(GNOMON_T(moving_triangle) m, GNO
 /// Bernstein coefficients d0, d0 + turn0, d3 + turn1, d3, those in the middle times 3. With turn the lesser of the two
 ///     D(u) / (u (1 - u)) >= d0 / u + d3 / (1 - u) + turn - d0 - d3 >= turn + 2 sqrt(d0 d3)
 /// for positive D, and the same with -D. 4, more than all depths, where D may vanish or anything is NaN.
-GNOMON_KERNEL Real depth_bend(Real most, Real d0, Real d3, Real turn0, Real turn1)
+GNOMON_KERNEL Real depth_nonlinearity(Real most, Real d0, Real d3, Real turn0, Real turn1)
 {
     GNOMON_MASK negative = d0 < Real(0);
     Real turn = gnomon_select(negative, Real(-1) * gnomon_max(turn0, turn1), gnomon_min(turn0, turn1));
@@ -169,8 +169,8 @@ GNOMON_KERNEL GNOMON_T(moving_edge) moving_edge_between(GNOMON_T(moving_edge) e,
 }
 
 /// The sum of edge functions of moving_edge_between, each times what goes linearly from the one number to the other.
-GNOMON_KERNEL GNOMON_T(bernstein_cubic) moving_edges_combined(GNOMON_T(moving_edges) e, Real a0, Real a1, Real b0,
-                                                              Real b1, Real c0, Real c1)
+GNOMON_KERNEL GNOMON_T(bernstein_cubic) moving_edges_combine(GNOMON_T(moving_edges) e, Real a0, Real a1, Real b0,
+                                                             Real b1, Real c0, Real c1)
 {
     GNOMON_T(bernstein_cubic) r;
     r.c0 = (e.a.e0 * a0 + e.b.e0 * b0) + e.c.e0 * c0;
@@ -195,8 +195,8 @@ GNOMON_KERNEL GNOMON_T(depth_line) moving_depth_line(GNOMON_T(moving_triangle) m
     x.b = moving_edge_between(e.b, begin, end);
     x.c = moving_edge_between(e.c, begin, end);
     GNOMON_T(bernstein_cubic)
-    n = moving_edges_combined(x, m.a.z0 * b + m.a.z1 * begin, m.a.z0 * f + m.a.z1 * end, m.b.z0 * b + m.b.z1 * begin,
-                              m.b.z0 * f + m.b.z1 * end, m.c.z0 * b + m.c.z1 * begin, m.c.z0 * f + m.c.z1 * end);
+    n = moving_edges_combine(x, m.a.z0 * b + m.a.z1 * begin, m.a.z0 * f + m.a.z1 * end, m.b.z0 * b + m.b.z1 * begin,
+                             m.b.z0 * f + m.b.z1 * end, m.c.z0 * b + m.c.z1 * begin, m.c.z0 * f + m.c.z1 * end);
     Real a_w0 = m.a.w0 * b + m.a.w1 * begin;
     Real a_w1 = m.a.w0 * f + m.a.w1 * end;
     Real b_w0 = m.b.w0 * b + m.b.w1 * begin;
@@ -207,9 +207,9 @@ GNOMON_KERNEL GNOMON_T(depth_line) moving_depth_line(GNOMON_T(moving_triangle) m
         Real(0) < a_w0 && Real(0) < a_w1 && Real(0) < b_w0 && Real(0) < b_w1 && Real(0) < c_w0 && Real(0) < c_w1;
     GNOMON_MASK by_w = Real(0) < divided;
     GNOMON_T(bernstein_cubic)
-    d = moving_edges_combined(x, gnomon_select(by_w, a_w0, Real(1)), gnomon_select(by_w, a_w1, Real(1)),
-                              gnomon_select(by_w, b_w0, Real(1)), gnomon_select(by_w, b_w1, Real(1)),
-                              gnomon_select(by_w, c_w0, Real(1)), gnomon_select(by_w, c_w1, Real(1)));
+    d = moving_edges_combine(x, gnomon_select(by_w, a_w0, Real(1)), gnomon_select(by_w, a_w1, Real(1)),
+                             gnomon_select(by_w, b_w0, Real(1)), gnomon_select(by_w, b_w1, Real(1)),
+                             gnomon_select(by_w, c_w0, Real(1)), gnomon_select(by_w, c_w1, Real(1)));
     Real free0 = n.c0 / d.c0;
     Real free1 = n.c3 / d.c3;
     Real turn0 = d.c1 - d.c0;
@@ -218,7 +218,7 @@ GNOMON_KERNEL GNOMON_T(depth_line) moving_depth_line(GNOMON_T(moving_triangle) m
     Real p1 = (n.c1 + n.c2) - (free0 * d.c2 + free1 * d.c1);
     Real p2 = (n.c2 - free1 * turn1) - free0 * d.c3;
     Real most = gnomon_max(gnomon_max(gnomon_abs(p0), gnomon_abs(p2)), Real(0.5) * gnomon_abs(p1));
-    Real bend = gnomon_select(before, depth_bend(most, d.c0, d.c3, turn0, turn1), Real(4));
+    Real bend = gnomon_select(before, depth_nonlinearity(most, d.c0, d.c3, turn0, turn1), Real(4));
     return depth_line_within(moving_depth_at(m, e, begin, divided), moving_depth_at(m, e, end, divided), free0, free1,
                              bend, Real(-1), Real(1));
 }
@@ -285,7 +285,7 @@ GNOMON_KERNEL GNOMON_T(depth_piece) moving_depth_piece(GNOMON_T(moving_triangle)
                                                        Real begin, Real end, Real passed, GNOMON_SETTING divided,
                                                        GNOMON_SETTING tolerance)
 {
-    GNOMON_T(depth_trial) r = depth_trial_begin(begin, end, passed);
+    depth_trial r = depth_trial_begin(begin, end, passed);
     for (int i = 0; i < 6; ++i) {
         if (gnomon_any(r.settled < Real(1)))
             r = depth_trial_next(r, moving_depth_line(m, e, r.piece.t0, r.piece.t1, divided), begin, end, tolerance);

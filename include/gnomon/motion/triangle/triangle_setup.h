@@ -9,24 +9,24 @@
 // edge function is at most the one with these coefficients, at all times. So moving_coverage of such edges contains
 // all times at which the triangle covers any sample of the block: one kernel shades and culls, in space and in time.
 //
-//     field = moving_field_of(triangle, origin_x, origin_y);                    once for a tile
-//     blocks = moving_field_around(field, h_x, h_y, facing);
-//     times = moving_coverage(moving_field_edges(blocks, s_x, s_y), facing);   none: skip the block
-//     times = moving_coverage(moving_field_edges(field, s_x, s_y), facing);
+//     field = triangle_setup_make(triangle, origin_x, origin_y);                    once for a tile
+//     blocks = triangle_setup_around(field, h_x, h_y, facing);
+//     times = moving_coverage(triangle_setup_edges(blocks, s_x, s_y), facing);   none: skip the block
+//     times = moving_coverage(triangle_setup_edges(field, s_x, s_y), facing);
 //
 // Vertices that move alike have edge functions that are linear in time: the cross product of their motions, which is
 // e0 - 2 e1 + e2, vanishes. Then two planes do for an edge, and a quotient for its time. Whether they move alike enough
 // is asked once for each edge, in its own right, so that both triangles there get one answer and no crack opens:
 //
-//     linear = moving_edge_bend(b, c) <= tolerance, and so on
-//     times = linear_coverage(linear_field_edges(field, s_x, s_y))
+//     linear = moving_edge_nonlinearity(b, c) <= tolerance, and so on
+//     times = linear_coverage(triangle_setup_edges_linear(field, s_x, s_y))
 //
 // Depth follows suit. With z linear in view distance, and measured from that of vertex c,
 //     z(t) = z_c(t) + N(t) / D(t),   N = e_a (z_a - z_c) + e_b (z_b - z_c),   D = e_a + e_b + e_c
 // N is a cubic whose four Bernstein coefficients are affine in the sample, too, and D is at hand: a third of the
 // operations that the vertices' mean takes (moving_triangle.h), and nothing large cancels.
 //
-//     curve = moving_depth_curve(depths, edges, s_x, s_y);   depths = depth_field_of(field, triangle), once for a tile
+//     curve = moving_depth_curve(depths, edges, s_x, s_y);   depths = depth_setup_make(field, triangle), once for a tile
 //     z = depth_curve_at(curve, t);   linear_depth_at, where the depths move alike as well
 //
 // Lines stand for it where they are near enough, else lines of pieces, as for moving_depth_line:
@@ -40,24 +40,24 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// c + x s_x + y s_y.
-GNOMON_STRUCT sample_plane { Real x, y, c; };
+GNOMON_STRUCT(sample_plane) { Real x, y, c; };
 
 /// Bernstein coefficients of an edge function, over the samples.
-GNOMON_STRUCT edge_field { GNOMON_T(sample_plane) e0, e1, e2; };
+GNOMON_STRUCT(edge_equation) { GNOMON_T(sample_plane) e0, e1, e2; };
 
 /// Those across from the vertices a, b, c of a triangle.
-GNOMON_STRUCT moving_field { GNOMON_T(edge_field) a, b, c; };
+GNOMON_STRUCT(triangle_setup) { GNOMON_T(edge_equation) a, b, c; };
 
 /// Bernstein coefficients of N over the samples, the middle ones times 3; z_c at shutter open and close; the least and
 /// the most of all vertices' depths, in [-1, 1].
-GNOMON_STRUCT depth_field
+GNOMON_STRUCT(depth_setup)
 {
     GNOMON_T(sample_plane) n0, n1, n2, n3;
     Real z0, z1, least, most;
 };
 
 /// The same at a sample, and the coefficients of D, the middle one times 2.
-GNOMON_STRUCT depth_curve { Real n0, n1, n2, n3, d0, d1, d2, z0, z1, least, most; };
+GNOMON_STRUCT(depth_curve) { Real n0, n1, n2, n3, d0, d1, d2, z0, z1, least, most; };
 
 /// The line through two points of the plane, homogeneous.
 GNOMON_KERNEL GNOMON_T(sample_plane) homogeneous_line(Real a_x, Real a_y, Real a_w, Real b_x, Real b_y, Real b_w)
@@ -70,11 +70,11 @@ GNOMON_KERNEL GNOMON_T(sample_plane) homogeneous_line(Real a_x, Real a_y, Real a
 }
 
 /// The edge from a to b. Exchanging a and b negates it bit for bit.
-GNOMON_KERNEL GNOMON_T(edge_field) edge_field_of(GNOMON_T(moving_vertex) a, GNOMON_T(moving_vertex) b)
+GNOMON_KERNEL GNOMON_T(edge_equation) edge_equation_make(GNOMON_T(moving_vertex) a, GNOMON_T(moving_vertex) b)
 {
-    GNOMON_T(sample_plane) early = homogeneous_line(a.x0, a.y0, a.w0, b.x1, b.y1, b.w1);
-    GNOMON_T(sample_plane) late = homogeneous_line(a.x1, a.y1, a.w1, b.x0, b.y0, b.w0);
-    GNOMON_T(edge_field) f;
+    sample_plane early = homogeneous_line(a.x0, a.y0, a.w0, b.x1, b.y1, b.w1);
+    sample_plane late = homogeneous_line(a.x1, a.y1, a.w1, b.x0, b.y0, b.w0);
+    GNOMON_T(edge_equation) f;
     f.e0 = homogeneous_line(a.x0, a.y0, a.w0, b.x0, b.y0, b.w0);
     f.e1.x = Real(0.5) * (early.x + late.x);
     f.e1.y = Real(0.5) * (early.y + late.y);
@@ -84,9 +84,9 @@ GNOMON_KERNEL GNOMON_T(edge_field) edge_field_of(GNOMON_T(moving_vertex) a, GNOM
 }
 
 /// The same vertex as seen from an origin on the map, in the units of x / w.
-GNOMON_KERNEL GNOMON_T(moving_vertex) moving_vertex_from(GNOMON_T(moving_vertex) v, Real origin_x, Real origin_y)
+GNOMON_KERNEL GNOMON_T(moving_vertex) moving_vertex_translate(GNOMON_T(moving_vertex) v, Real origin_x, Real origin_y)
 {
-    GNOMON_T(sheared_vertex) s = moving_vertex_sheared(v, origin_x, origin_y);
+    sheared_vertex s = moving_vertex_shear(v, origin_x, origin_y);
     v.x0 = s.x0;
     v.y0 = s.y0;
     v.x1 = s.x1;
@@ -99,7 +99,7 @@ GNOMON_KERNEL GNOMON_T(moving_vertex) moving_vertex_from(GNOMON_T(moving_vertex)
 /// vertices. The same from b to a, bit for bit; NaN for an edge without length. Error: 16 2^-p of the result, and 32
 /// 2^-p times the products X_i Y_j + Y_i X_j by which errors of coefficients are given, over the least slope of the
 /// edge function.
-GNOMON_KERNEL Real moving_edge_bend(GNOMON_T(moving_vertex) a, GNOMON_T(moving_vertex) b)
+GNOMON_KERNEL Real moving_edge_nonlinearity(GNOMON_T(moving_vertex) a, GNOMON_T(moving_vertex) b)
 {
     Real a_x0 = a.x0 / a.w0;
     Real a_x1 = a.x1 / a.w1;
@@ -115,9 +115,9 @@ GNOMON_KERNEL Real moving_edge_bend(GNOMON_T(moving_vertex) a, GNOMON_T(moving_v
     Real high_y = gnomon_max(gnomon_max(a_y0, a_y1), gnomon_max(b_y0, b_y1));
     Real x = Real(0.5) * (low_x + high_x);
     Real y = Real(0.5) * (low_y + high_y);
-    GNOMON_T(moving_vertex) p = moving_vertex_from(a, x, y);
-    GNOMON_T(moving_vertex) q = moving_vertex_from(b, x, y);
-    GNOMON_T(edge_field) f = edge_field_of(p, q);
+    moving_vertex p = moving_vertex_translate(a, x, y);
+    moving_vertex q = moving_vertex_translate(b, x, y);
+    edge_equation f = edge_equation_make(p, q);
     GNOMON_T(sample_plane)
     bend = homogeneous_line(p.x1 - p.x0, p.y1 - p.y0, p.w1 - p.w0, q.x1 - q.x0, q.y1 - q.y0, q.w1 - q.w0);
     Real most = gnomon_abs(bend.c) +
@@ -135,15 +135,15 @@ GNOMON_KERNEL Real moving_edge_bend(GNOMON_T(moving_vertex) a, GNOMON_T(moving_v
 /// Samples are then given relative to the origin, best one near them. Error of a coefficient at sample s, like that of
 /// the covered times: 64 2^-p (X_i Y_j + Y_i X_j), X = max(|x| + (|origin_x| + |s_x|) |w|) over the shutter's ends and
 /// Y alike, p the bits of the significand.
-GNOMON_KERNEL GNOMON_T(moving_field) moving_field_of(GNOMON_T(moving_triangle) m, Real origin_x, Real origin_y)
+GNOMON_KERNEL GNOMON_T(triangle_setup) triangle_setup_make(GNOMON_T(moving_triangle) m, Real origin_x, Real origin_y)
 {
-    GNOMON_T(moving_vertex) a = moving_vertex_from(m.a, origin_x, origin_y);
-    GNOMON_T(moving_vertex) b = moving_vertex_from(m.b, origin_x, origin_y);
-    GNOMON_T(moving_vertex) c = moving_vertex_from(m.c, origin_x, origin_y);
-    GNOMON_T(moving_field) f;
-    f.a = edge_field_of(b, c);
-    f.b = edge_field_of(c, a);
-    f.c = edge_field_of(a, b);
+    moving_vertex a = moving_vertex_translate(m.a, origin_x, origin_y);
+    moving_vertex b = moving_vertex_translate(m.b, origin_x, origin_y);
+    moving_vertex c = moving_vertex_translate(m.c, origin_x, origin_y);
+    GNOMON_T(triangle_setup) f;
+    f.a = edge_equation_make(b, c);
+    f.b = edge_equation_make(c, a);
+    f.c = edge_equation_make(a, b);
     return f;
 }
 
@@ -153,7 +153,7 @@ GNOMON_KERNEL Real sample_plane_at(GNOMON_T(sample_plane) p, Real s_x, Real s_y)
     return (gnomon_product(p.x, s_x) + gnomon_product(p.y, s_y)) + p.c;
 }
 
-GNOMON_KERNEL GNOMON_T(moving_edge) edge_field_at(GNOMON_T(edge_field) f, Real s_x, Real s_y)
+GNOMON_KERNEL GNOMON_T(moving_edge) edge_equation_at(GNOMON_T(edge_equation) f, Real s_x, Real s_y)
 {
     GNOMON_T(moving_edge) e;
     e.e0 = sample_plane_at(f.e0, s_x, s_y);
@@ -164,17 +164,17 @@ GNOMON_KERNEL GNOMON_T(moving_edge) edge_field_at(GNOMON_T(edge_field) f, Real s
 
 /// The edge functions at a sample, for moving_coverage: two triangles that share an edge cover each sample near it
 /// exactly one at a time, as with moving_triangle_edges.
-GNOMON_KERNEL GNOMON_T(moving_edges) moving_field_edges(GNOMON_T(moving_field) f, Real s_x, Real s_y)
+GNOMON_KERNEL GNOMON_T(moving_edges) triangle_setup_edges(GNOMON_T(triangle_setup) f, Real s_x, Real s_y)
 {
     GNOMON_T(moving_edges) e;
-    e.a = edge_field_at(f.a, s_x, s_y);
-    e.b = edge_field_at(f.b, s_x, s_y);
-    e.c = edge_field_at(f.c, s_x, s_y);
+    e.a = edge_equation_at(f.a, s_x, s_y);
+    e.b = edge_equation_at(f.b, s_x, s_y);
+    e.c = edge_equation_at(f.c, s_x, s_y);
     return e;
 }
 
 /// The same for an edge function that is linear in time: its middle coefficient is the mean of the others.
-GNOMON_KERNEL GNOMON_T(moving_edge) linear_field_at(GNOMON_T(edge_field) f, Real s_x, Real s_y)
+GNOMON_KERNEL GNOMON_T(moving_edge) linear_edge_at(GNOMON_T(edge_equation) f, Real s_x, Real s_y)
 {
     GNOMON_T(moving_edge) e;
     e.e0 = sample_plane_at(f.e0, s_x, s_y);
@@ -184,12 +184,12 @@ GNOMON_KERNEL GNOMON_T(moving_edge) linear_field_at(GNOMON_T(edge_field) f, Real
 }
 
 /// For linear_coverage.
-GNOMON_KERNEL GNOMON_T(moving_edges) linear_field_edges(GNOMON_T(moving_field) f, Real s_x, Real s_y)
+GNOMON_KERNEL GNOMON_T(moving_edges) triangle_setup_edges_linear(GNOMON_T(triangle_setup) f, Real s_x, Real s_y)
 {
     GNOMON_T(moving_edges) e;
-    e.a = linear_field_at(f.a, s_x, s_y);
-    e.b = linear_field_at(f.b, s_x, s_y);
-    e.c = linear_field_at(f.c, s_x, s_y);
+    e.a = linear_edge_at(f.a, s_x, s_y);
+    e.b = linear_edge_at(f.b, s_x, s_y);
+    e.c = linear_edge_at(f.c, s_x, s_y);
     return e;
 }
 
@@ -201,7 +201,8 @@ GNOMON_KERNEL GNOMON_T(sample_plane) sample_plane_around(GNOMON_T(sample_plane) 
     return p;
 }
 
-GNOMON_KERNEL GNOMON_T(edge_field) edge_field_around(GNOMON_T(edge_field) f, Real h_x, Real h_y, GNOMON_SETTING facing)
+GNOMON_KERNEL GNOMON_T(edge_equation) edge_equation_around(GNOMON_T(edge_equation) f, Real h_x, Real h_y,
+                                                           GNOMON_SETTING facing)
 {
     f.e0 = sample_plane_around(f.e0, h_x, h_y, facing);
     f.e1 = sample_plane_around(f.e1, h_x, h_y, facing);
@@ -213,17 +214,17 @@ GNOMON_KERNEL GNOMON_T(edge_field) edge_field_around(GNOMON_T(edge_field) f, Rea
 /// where it is -1. Asked at (s_x, s_y), moving_coverage with the same facing has all times at which a triangle of this
 /// facing covers any sample of the block around it. Rounding may take 8 2^-p of the extents of the tile from h_x and
 /// h_y: ask for a little more.
-GNOMON_KERNEL GNOMON_T(moving_field) moving_field_around(GNOMON_T(moving_field) f, Real h_x, Real h_y,
-                                                         GNOMON_SETTING facing)
+GNOMON_KERNEL GNOMON_T(triangle_setup) triangle_setup_around(GNOMON_T(triangle_setup) f, Real h_x, Real h_y,
+                                                             GNOMON_SETTING facing)
 {
-    f.a = edge_field_around(f.a, h_x, h_y, facing);
-    f.b = edge_field_around(f.b, h_x, h_y, facing);
-    f.c = edge_field_around(f.c, h_x, h_y, facing);
+    f.a = edge_equation_around(f.a, h_x, h_y, facing);
+    f.b = edge_equation_around(f.b, h_x, h_y, facing);
+    f.c = edge_equation_around(f.c, h_x, h_y, facing);
     return f;
 }
 
 /// The plane a times k_a and b times k_b.
-GNOMON_KERNEL GNOMON_T(sample_plane) sample_planes_weighed(GNOMON_T(sample_plane) a, Real k_a, GNOMON_T(sample_plane) b,
+GNOMON_KERNEL GNOMON_T(sample_plane) sample_planes_combine(GNOMON_T(sample_plane) a, Real k_a, GNOMON_T(sample_plane) b,
                                                            Real k_b)
 {
     GNOMON_T(sample_plane) r;
@@ -234,26 +235,26 @@ GNOMON_KERNEL GNOMON_T(sample_plane) sample_planes_weighed(GNOMON_T(sample_plane
 }
 
 /// Twice the middle coefficient of an edge times the one end of a depth, and an outer one times the other end.
-GNOMON_KERNEL GNOMON_T(sample_plane) depth_field_middle(GNOMON_T(sample_plane) outer, Real across,
+GNOMON_KERNEL GNOMON_T(sample_plane) depth_setup_middle(GNOMON_T(sample_plane) outer, Real across,
                                                         GNOMON_T(sample_plane) middle, Real beside)
 {
-    return sample_planes_weighed(outer, across, middle, Real(2) * beside);
+    return sample_planes_combine(outer, across, middle, Real(2) * beside);
 }
 
 /// Depths of the triangle that the field is of; its z is linear in view distance. Samples are the field's.
-GNOMON_KERNEL GNOMON_T(depth_field) depth_field_of(GNOMON_T(moving_field) f, GNOMON_T(moving_triangle) m)
+GNOMON_KERNEL GNOMON_T(depth_setup) depth_setup_make(GNOMON_T(triangle_setup) f, GNOMON_T(moving_triangle) m)
 {
     Real a0 = m.a.z0 - m.c.z0;
     Real a1 = m.a.z1 - m.c.z1;
     Real b0 = m.b.z0 - m.c.z0;
     Real b1 = m.b.z1 - m.c.z1;
-    GNOMON_T(depth_field) d;
-    d.n0 = sample_planes_weighed(f.a.e0, a0, f.b.e0, b0);
-    d.n1 = sample_planes_weighed(depth_field_middle(f.a.e0, a1, f.a.e1, a0), Real(1),
-                                 depth_field_middle(f.b.e0, b1, f.b.e1, b0), Real(1));
-    d.n2 = sample_planes_weighed(depth_field_middle(f.a.e2, a0, f.a.e1, a1), Real(1),
-                                 depth_field_middle(f.b.e2, b0, f.b.e1, b1), Real(1));
-    d.n3 = sample_planes_weighed(f.a.e2, a1, f.b.e2, b1);
+    GNOMON_T(depth_setup) d;
+    d.n0 = sample_planes_combine(f.a.e0, a0, f.b.e0, b0);
+    d.n1 = sample_planes_combine(depth_setup_middle(f.a.e0, a1, f.a.e1, a0), Real(1),
+                                 depth_setup_middle(f.b.e0, b1, f.b.e1, b0), Real(1));
+    d.n2 = sample_planes_combine(depth_setup_middle(f.a.e2, a0, f.a.e1, a1), Real(1),
+                                 depth_setup_middle(f.b.e2, b0, f.b.e1, b1), Real(1));
+    d.n3 = sample_planes_combine(f.a.e2, a1, f.b.e2, b1);
     d.z0 = m.c.z0;
     d.z1 = m.c.z1;
     Real least = gnomon_min(gnomon_min(gnomon_min(m.a.z0, m.a.z1), gnomon_min(m.b.z0, m.b.z1)), gnomon_min(d.z0, d.z1));
@@ -263,8 +264,8 @@ GNOMON_KERNEL GNOMON_T(depth_field) depth_field_of(GNOMON_T(moving_field) f, GNO
     return d;
 }
 
-/// Edge functions as of moving_field_edges, at the same sample.
-GNOMON_KERNEL GNOMON_T(depth_curve) moving_depth_curve(GNOMON_T(depth_field) d, GNOMON_T(moving_edges) e, Real s_x,
+/// Edge functions as of triangle_setup_edges, at the same sample.
+GNOMON_KERNEL GNOMON_T(depth_curve) moving_depth_curve(GNOMON_T(depth_setup) d, GNOMON_T(moving_edges) e, Real s_x,
                                                        Real s_y)
 {
     GNOMON_T(depth_curve) r;
@@ -327,7 +328,7 @@ GNOMON_KERNEL GNOMON_T(depth_line) depth_curve_line(GNOMON_T(depth_curve) c, Rea
     Real q1 = n3 / d2;
     Real p0 = (n1 - q0 * d1) - q1 * d0;
     Real p1 = (n2 - q1 * d1) - q0 * d2;
-    Real bend = depth_bend(gnomon_max(gnomon_abs(p0), gnomon_abs(p1)), d0, d2, d1, d1);
+    Real bend = depth_nonlinearity(gnomon_max(gnomon_abs(p0), gnomon_abs(p1)), d0, d2, d1, d1);
     Real free0 = (c.z0 * b + c.z1 * begin) + q0;
     Real free1 = (c.z0 * f + c.z1 * end) + q1;
     Real z0 = gnomon_max(gnomon_min(free0, c.most), c.least);
@@ -344,7 +345,7 @@ GNOMON_KERNEL GNOMON_T(depth_line) linear_depth_line(GNOMON_T(depth_curve) c, Re
     Real d1 = c.d0 * f + c.d2 * end;
     Real q0 = (c.n0 * b + c.n3 * begin) / d0;
     Real q1 = (c.n0 * f + c.n3 * end) / d1;
-    Real bend = depth_bend(gnomon_abs((q1 - q0) * (d1 - d0)), d0, d1, d0 + d1, d0 + d1);
+    Real bend = depth_nonlinearity(gnomon_abs((q1 - q0) * (d1 - d0)), d0, d1, d0 + d1, d0 + d1);
     Real free0 = (c.z0 * b + c.z1 * begin) + q0;
     Real free1 = (c.z0 * f + c.z1 * end) + q1;
     Real z0 = gnomon_max(gnomon_min(free0, c.most), c.least);
@@ -356,7 +357,7 @@ GNOMON_KERNEL GNOMON_T(depth_line) linear_depth_line(GNOMON_T(depth_curve) c, Re
 GNOMON_KERNEL GNOMON_T(depth_piece) depth_curve_piece(GNOMON_T(depth_curve) c, Real begin, Real end, Real passed,
                                                       GNOMON_SETTING tolerance)
 {
-    GNOMON_T(depth_trial) r = depth_trial_begin(begin, end, passed);
+    depth_trial r = depth_trial_begin(begin, end, passed);
     for (int i = 0; i < 6; ++i) {
         if (gnomon_any(r.settled < Real(1)))
             r = depth_trial_next(r, depth_curve_line(c, r.piece.t0, r.piece.t1), begin, end, tolerance);

@@ -33,10 +33,10 @@ struct box_shutter {
 
 /// A receiver at rest at texel position (x, y); add(state, range) is the shutter.
 template <class T, class Add = box_shutter>
-T static_shadow(const range_map<T>& map, T x, T y, static_receiver<T> state, int look_ups = 1, const Add& add = {})
+T static_intensity(const range_map<T>& map, T x, T y, static_receiver<T> state, int look_ups = 1, const Add& add = {})
 {
     detail::for_each_static_texel(map, x, y, look_ups, [&](T weight, std::size_t texel) {
-        state = static_receiver_weigh(state, weight);
+        state = static_receiver_set_weight(state, weight);
         if constexpr (std::is_same_v<Add, box_shutter>) {
             if (map.totals.empty() || !detail::add_total_box(state, map.totals[texel]))
                 detail::add_list_box(state, map[texel]);
@@ -47,15 +47,15 @@ T static_shadow(const range_map<T>& map, T x, T y, static_receiver<T> state, int
     return static_receiver_end(state);
 }
 
-/// static_shadow(map, x, y, state, look_ups) of each receiver, whose taps are read many at a time. Without totals it
+/// static_intensity(map, x, y, state, look_ups) of each receiver, whose taps are read many at a time. Without totals it
 /// has the same bits; what totals say is added first.
 template <class T>
-void static_shadows(const range_map<T>& map, std::span<const placed_receiver<T>> receivers, std::span<T> shadows,
-                    int look_ups = 1)
+void static_intensities(const range_map<T>& map, std::span<const placed_receiver<T>> receivers, std::span<T> shadows,
+                        int look_ups = 1)
 {
-    GNOMON_EXPECTS(shadows.size() == receivers.size(),
-                   mismatch("static_shadows", "shadows.size()", shadows.size(), "receivers.size()", receivers.size()));
-    check_shape(map, "static_shadows");
+    GNOMON_EXPECTS(shadows.size() == receivers.size(), mismatch("static_intensities", "shadows.size()", shadows.size(),
+                                                                "receivers.size()", receivers.size()));
+    check_shape(map, "static_intensities");
     for (std::size_t i = 0; i < receivers.size(); ++i) shadows[i] = receivers[i].state.shadowed;
     detail::static_taps<T> taps(map, receivers, shadows);
     for (std::size_t i = 0; i < receivers.size(); ++i)
@@ -67,11 +67,11 @@ void static_shadows(const range_map<T>& map, std::span<const placed_receiver<T>>
 
 /// A receiver on its way from time t0 to t1 of the path, in the exposure from begin to end. Error: moving_receiver_end.
 template <class T, class Add = box_shutter>
-T moving_shadow(const range_map<T>& map, const receiver_path<T>& path, T begin, T end, int look_ups = 1,
-                const Add& add = {})
+T moving_intensity(const range_map<T>& map, const receiver_path<T>& path, T begin, T end, int look_ups = 1,
+                   const Add& add = {})
 {
     const T k = T(look_ups);
-    const receiver_path<T> shifted = receiver_path_shifted(path, T(-0.5) * k, T(-0.5) * k);
+    const receiver_path<T> shifted = receiver_path_shift(path, T(-0.5) * k, T(-0.5) * k);
     texel_sweep<T> sweep = texel_sweep_over(shifted, -k, -k, T(map.width), T(map.height)); // beyond is lit
     if (!(sweep.t_begin < sweep.t_last)) return T(0);
     moving_receiver<T> state = moving_receiver_begin(path, begin, end);
@@ -109,7 +109,7 @@ T moving_shadow(const range_map<T>& map, const receiver_path<T>& path, T begin, 
 }
 
 /// At one time; lists need not be resolved.
-template <class T> T shadow_at(const range_map<T>& map, const receiver_path<T>& path, T t, T bias, int look_ups = 1)
+template <class T> T intensity_at(const range_map<T>& map, const receiver_path<T>& path, T t, T bias, int look_ups = 1)
 {
     const T z = range_depth(path.depth, t);
     const texel_position<T> at = receiver_path_at(path, t);
@@ -125,13 +125,13 @@ template <class T> T shadow_at(const range_map<T>& map, const receiver_path<T>& 
 
 /// By n = max(2 |p_e - p_s|, 5) samples in time, at most `most` (Palmer 2011, 4.1), in the middle of their strata.
 template <class T>
-T sampled_shadow(const range_map<T>& map, const receiver_path<T>& path, T bias, T most, int look_ups = 1)
+T sampled_intensity(const range_map<T>& map, const receiver_path<T>& path, T bias, T most, int look_ups = 1)
 {
     const T n = receiver_sample_count(path, most);
     sampled_receiver<T> state = sampled_receiver_begin(n);
     for (T k = 0; k < n; ++k)
-        state =
-            sampled_receiver_add(state, shadow_at(map, path, receiver_sample_time(path, k, n, T(0.5)), bias, look_ups));
+        state = sampled_receiver_add(state,
+                                     intensity_at(map, path, receiver_sample_time(path, k, n, T(0.5)), bias, look_ups));
     return sampled_receiver_end(state);
 }
 

@@ -32,7 +32,7 @@ template <class T> struct range_map {
     std::size_t width = 0, height = 0;
     std::span<const std::uint32_t> first;
     std::span<const depth_time_range<T>> ranges;
-    std::span<const range_total<T>> totals = {}; // of each texel's ranges, for receivers at rest; or none
+    std::span<const range_summary<T>> totals = {}; // of each texel's ranges, for receivers at rest; or none
 
     static constexpr std::size_t tile = 32, block = 4, texels_per_tile = tile * tile;
     static constexpr std::size_t tiles(std::size_t texels) { return (texels + tile - 1) / tile; }
@@ -71,9 +71,9 @@ template <class T> void check_shape(const range_map<T>& map, std::string_view pa
 
 /// The total of a resolved list. What it hides from a receiver behind it is 1 if its spans fill the time from 0 to 1,
 /// and only then.
-template <class T> range_total<T> total_of(std::span<const depth_time_range<T>> list, range_ids ids)
+template <class T> range_summary<T> total_of(std::span<const depth_time_range<T>> list, range_ids ids)
 {
-    range_total<T> total = range_total_begin(T(-1));
+    range_summary<T> total = range_summary_begin(T(-1));
     depth_time_range<T> front = range_empty(T(range_nothing));
     T filled = 0;
     bool layers = false;
@@ -84,7 +84,7 @@ template <class T> range_total<T> total_of(std::span<const depth_time_range<T>> 
             continue;
         }
         front = r;
-        total = range_total_add(total, r);
+        total = range_summary_add(total, r);
         if (r.t0 <= filled && filled < r.t1) filled = r.t1;
     }
     total.shadowed = filled < 1 ? gnomon_min(total.shadowed, 1 - std::numeric_limits<T>::epsilon()) : T(1);
@@ -93,7 +93,7 @@ template <class T> range_total<T> total_of(std::span<const depth_time_range<T>> 
 }
 
 /// The totals of a map's resolved lists, one for each texel.
-template <class T> void set_totals(const range_map<T>& map, std::span<range_total<T>> totals, range_ids ids)
+template <class T> void set_totals(const range_map<T>& map, std::span<range_summary<T>> totals, range_ids ids)
 {
     check_shape(map, "range totals");
     GNOMON_EXPECTS(

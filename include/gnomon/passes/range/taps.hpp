@@ -84,19 +84,19 @@ template <class T> void add_list_box(static_receiver<T>& state, std::span<const 
             return;
         }
         const T share = saturate_or_zero(r.t1) - saturate_or_zero(r.t0);
-        state.shadowed += state.weight * receiver_loss(r, state.id, T(0), share);
+        state.shadowed += state.weight * receiver_lost_light(r, state.id, T(0), share);
     });
 }
 
 /// Adds a total to a receiver at rest if it decides on it; false if not.
-template <class T> bool add_total_box(static_receiver<T>& state, const range_total<T>& total)
+template <class T> bool add_total_box(static_receiver<T>& state, const range_summary<T>& total)
 {
     if (receiver_is_in_front(state.depth, total) > 0) return true;
     static_receiver<T> exposed = state;
     const bool always = total.shadowed >= 1 && 0 <= state.begin && state.begin < state.end && state.end <= 1;
     if (always) exposed.begin = 0, exposed.end = 1; // what hides at all times hides in any exposure
     if (!(static_receiver_is_behind(exposed, total) > 0)) return false;
-    state = static_receiver_add_total(state, total);
+    state = static_receiver_add_summary(state, total);
     return true;
 }
 
@@ -120,7 +120,7 @@ template <class T> class static_taps {
     {
         const auto used = [&] { return std::span(taps_).first(count_); };
         const auto change = [&](const tap& t, const auto& add) {
-            static_receiver<T> state = static_receiver_weigh(receivers_[t.receiver].state, t.weight);
+            static_receiver<T> state = static_receiver_set_weight(receivers_[t.receiver].state, t.weight);
             state.shadowed = shadows_[t.receiver];
             const bool changed = add(state);
             if (changed) shadows_[t.receiver] = state.shadowed;
@@ -129,7 +129,7 @@ template <class T> class static_taps {
         if (!map_.totals.empty()) {
             std::size_t left = 0;
             for (const tap& t : used()) {
-                const range_total<T>& total = map_.totals[t.texel];
+                const range_summary<T>& total = map_.totals[t.texel];
                 const bool decided = change(t, [&](static_receiver<T>& state) { return add_total_box(state, total); });
                 taps_[left] = t;
                 left += !decided;
@@ -229,7 +229,7 @@ template <class T> class moving_taps {
     }
 
     /// Adds a total if it decides; false if not.
-    bool add_total(const tap& t, const range_total<T>& total)
+    bool add_total(const tap& t, const range_summary<T>& total)
     {
         if (receiver_is_in_front(t.cell->farthest, total) > 0) return true;
         const auto behind = static_receiver_begin(t.cell->nearest, state_.course.id, T(0), T(1));
@@ -295,7 +295,7 @@ template <class T> class moving_taps {
         if (!map_.totals.empty()) {
             std::size_t left = 0;
             for (const tap& t : used()) {
-                const range_total<T>& total = map_.totals[t.texel];
+                const range_summary<T>& total = map_.totals[t.texel];
                 if (add_total(t, total)) continue;
                 taps_[left] = t;
                 taps_[left++].single = total.id == T(range_nothing);

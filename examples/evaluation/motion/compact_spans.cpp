@@ -1,4 +1,4 @@
-#include "packed_spans.hpp"
+#include "compact_spans.hpp"
 
 #include <fmt/format.h>
 
@@ -87,7 +87,7 @@ std::vector<stretch> stretches_of(std::span<const range> list)
     return joined;
 }
 
-void add(double begin, double z0, double z1, std::uint64_t id, packed_spans& to)
+void add(double begin, double z0, double z1, std::uint64_t id, compact_spans& to)
 {
     to.begins.push_back(static_cast<std::uint16_t>(begin));
     to.bodies.push_back(depth_code(z0) | depth_code(z1) << 20 | id << 40);
@@ -95,7 +95,7 @@ void add(double begin, double z0, double z1, std::uint64_t id, packed_spans& to)
 
 // The owner's line, moved as far in front as others need. A short one's would lead anywhere beyond its ends, and one
 // that the near plane limits may not be moved: these become level.
-void add_line(std::span<const range> list, const stretch& s, packed_spans& to)
+void add_line(std::span<const range> list, const stretch& s, compact_spans& to)
 {
     const range& own = list[s.owner];
     double ahead = 0;
@@ -109,22 +109,22 @@ void add_line(std::span<const range> list, const stretch& s, packed_spans& to)
 
 } // namespace
 
-std::size_t packed_spans::begin(std::size_t list) const
+std::size_t compact_spans::begin(std::size_t list) const
 {
     return list < lists.size() ? groups[list / group] + lists[list] : begins.size();
 }
 
-std::size_t packed_spans::bytes() const
+std::size_t compact_spans::bytes() const
 {
     return begins.size() * sizeof begins[0] + bodies.size() * sizeof bodies[0] + groups.size() * sizeof groups[0] +
            lists.size() * sizeof lists[0];
 }
 
-void packed_spans::clear() { begins.clear(), bodies.clear(), groups.clear(), lists.clear(); }
+void compact_spans::clear() { begins.clear(), bodies.clear(), groups.clear(), lists.clear(); }
 
-void pack_spans(std::span<const range> resolved, packed_spans& to)
+void compact_list(std::span<const range> resolved, compact_spans& to)
 {
-    if (to.lists.size() % packed_spans::group == 0) to.groups.push_back(static_cast<std::uint32_t>(to.begins.size()));
+    if (to.lists.size() % compact_spans::group == 0) to.groups.push_back(static_cast<std::uint32_t>(to.begins.size()));
     const std::size_t begin = to.begins.size() - to.groups.back();
     if (begin > 0xffff) throw std::length_error("packed spans: more than 2^16 in 64 lists");
     to.lists.push_back(static_cast<std::uint16_t>(begin));

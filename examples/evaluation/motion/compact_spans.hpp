@@ -22,7 +22,7 @@ inline constexpr double span_depths = 1 << 20;          // steps from near to fa
 inline constexpr std::uint32_t span_nothing = 0xffffff; // ids without a surface,
 inline constexpr std::uint32_t span_mixed = 0xfffffe;   // of several surfaces
 
-struct packed_spans {
+struct compact_spans {
     static constexpr std::size_t group = 64; // lists whose begins are told from one number
 
     std::vector<std::uint16_t> begins;
@@ -37,10 +37,10 @@ struct packed_spans {
 
 // One more list, in order of time and without overlaps; ids are below span_mixed, or range_mixed. Throws
 // std::invalid_argument for others, std::length_error where a group has more than 2^16 spans.
-void pack_spans(std::span<const depth_time_range<float>> resolved, packed_spans& to);
+void compact_list(std::span<const depth_time_range<float>> resolved, compact_spans& to);
 
 // Calls visit(range) for each of a list.
-template <class Visit> void for_each_span(const packed_spans& from, std::size_t list, const Visit& visit)
+template <class Visit> void for_each_span(const compact_spans& from, std::size_t list, const Visit& visit)
 {
     constexpr std::uint64_t mask = (std::uint64_t(1) << 20) - 1;
     const auto depth = [&](std::uint64_t code) { return float(double(code & mask) * (2 / span_depths) - 1); };
