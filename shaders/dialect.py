@@ -10,10 +10,11 @@ HEADER = re.compile(HEAD + r"(?P<includes>(?:#include [^\n]*\n|\n)*)"
                     r"(?:GNOMON_NAMESPACE_BEGIN\n\n(?P<body>.*)\nGNOMON_NAMESPACE_END\n)?#endif\n", re.DOTALL)
 PRELUDE = re.compile(HEAD + r"(?P<rest>.*)#endif\n", re.DOTALL)
 MACRO = re.compile(r"#define (GNOMON_\w+|Real)(?:\(([^)]*)\))?(?: (.*))?")
+SAME = re.compile(r"^#define (GNOMON_\w+) (GNOMON_\w+)$", re.MULTILINE) # a word that is another one in every language
 NUMBER = r"-?\d+(?:\.\d*)?(?:e[+-]?\d+)?"
 CONSTANT = re.compile(r"^GNOMON_CONSTANT\((\w+),.*\n", re.MULTILINE)
-DEFINED = re.compile(r"^GNOMON_(?:(?:LIST_)?KERNEL\s+(?:GNOMON_(?:LIST_)?T\(\w+\)|\w+)\s+|(?:LIST_)?STRUCT\(|CONSTANT\()(\w+)",
-                     re.MULTILINE)
+DEFINED = re.compile(r"^GNOMON_(?:(?:DETAIL_)?(?:LIST_)?KERNEL\s+(?:GNOMON_(?:LIST_)?T\(\w+\)|\w+)\s+"
+                     r"|(?:LIST_)?STRUCT\(|CONSTANT\()(\w+)", re.MULTILINE)
 DECIDED = re.compile(r"^( *)if \((?:(true|false)|(\d+) > (\d+))\) \{\n(.*?)^\1\}(?: else \{\n(.*?)^\1\})?\n",
                      re.DOTALL | re.MULTILINE)
 
@@ -104,6 +105,7 @@ class Prelude:
     def read(path):
         file = parsed(PRELUDE, path)
         prelude = Prelude(file["comment"], file["guard"])
+        prelude.macros = {name: (None, value) for name, value in SAME.findall((path.parent.parent / "portable.h").read_text())}
         for block in blocks(file["rest"]):
             code = re.sub(r"^//.*\n", "", block, flags=re.MULTILINE)
             if code.startswith("#if") and "#define GNOMON_" in code:

@@ -4,11 +4,14 @@
 // between them is spelled by the prelude, and only by it:
 //
 //   GNOMON_KERNEL                    head of a function: a template over Real in C++
+//   GNOMON_DETAIL_KERNEL             the same for a part of other kernels: no user calls it, no table of kernels has a line
+//                                    for it, and packages of languages without namespaces give its name a prefix
 //   GNOMON_STRUCT(name)              head of a struct, a template over Real in C++
 //   GNOMON_T(name)                   that struct for this Real; not needed where a variable is initialised, whose
 //                                    type C++ deduces: double_word p = two_product(a, b);
-//   GNOMON_LIST_KERNEL, _STRUCT(name)  the same for a list of at most GNOMON_CAPACITY, of which it holds an array; the
-//   GNOMON_LIST_T(name)              capacity is a template parameter after Real in C++, a macro elsewhere
+//   GNOMON_LIST_KERNEL, GNOMON_DETAIL_LIST_KERNEL, GNOMON_LIST_STRUCT(name), GNOMON_LIST_T(name)
+//                                    the same for a list of at most GNOMON_CAPACITY, of which it holds an array; the
+//                                    capacity is a template parameter after Real in C++, a macro elsewhere
 //   GNOMON_MASK                      what a comparison of two Reals gives: bool, or one bool per lane
 //   GNOMON_SETTING                   a Real parameter that takes no part in deduction, so that packs accept scalars
 //   GNOMON_CONSTANT(name, value)     a named number; GNOMON_LITERAL(name) is that number as a Real, rounded once
@@ -49,5 +52,8 @@
 #else
 #error "gnomon: unknown language; an HLSL compiler that defines no macro of its own needs GNOMON_HLSL"
 #endif
+
+#define GNOMON_DETAIL_KERNEL GNOMON_KERNEL
+#define GNOMON_DETAIL_LIST_KERNEL GNOMON_LIST_KERNEL
 
 #endif

@@ -106,7 +106,8 @@ def rounds_once(decimal):
 
 def main():
     language, include, packages = sys.argv[1], *map(Path, sys.argv[2:])
-    kernels = Headers(path for path in (include / "gnomon").rglob("*.h") if path.parent.name != "portable").kernels
+    found = Headers(path for path in (include / "gnomon").rglob("*.h") if path.parent.name != "portable")
+    kernels = found.kernels + [kernel for kernel in found.details if "GNOMON_MASK" not in [kernel.result, *kernel.parameters]]
     texts = {path.stem: path.read_text() for path in sorted(packages.glob(f"*.{ROUTES[language].package}"))}
     faults, functions = [], {}
     with tempfile.TemporaryDirectory() as folder:

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 TYPE = r"(?:GNOMON_(?:LIST_)?T\(\w+\)|\w+)"
+HEAD = r"GNOMON_(DETAIL_)?(?:LIST_)?KERNEL"
 CAPACITY = r"^#define GNOMON_\w+_CAPACITY (\d+)"
 
 
@@ -28,10 +29,10 @@ class Line(NamedTuple):
 
 
 class Headers:
-    """The structs, member by member as (type, name), and the kernels of some headers, in their order."""
+    """The structs, member by member as (type, name), the kernels of some headers, in their order, and those that are parts."""
 
     def __init__(self, headers):
-        self.structs, self.kernels = {}, []
+        self.structs, self.kernels, self.details = {}, [], []
         for header in sorted(headers):
             text = re.sub(r"//.*", "", Path(header).read_text())
             name = re.fullmatch(r".*/(gnomon/.*)", Path(header).as_posix())[1] # the clone may be in a folder gnomon, too
@@ -41,13 +42,14 @@ class Headers:
                                         for member_type, members in re.findall(rf"({TYPE})\s+([\w\s,\[\]]+);", body)
                                         for member in members.split(",")
                                         for element in elements(member.strip(), capacity)]
-            found = re.findall(rf"^GNOMON_(?:LIST_)?KERNEL\s+({TYPE})\s+(\w+)\(((?:[^()]|\(\w+\))*)\)", text, re.MULTILINE)
-            if len(found) != len(re.findall(r"^GNOMON_(?:LIST_)?KERNEL\b", text, re.MULTILINE)):
+            found = re.findall(rf"^{HEAD}\s+({TYPE})\s+(\w+)\(((?:[^()]|\(\w+\))*)\)", text, re.MULTILINE)
+            if len(found) != len(re.findall(rf"^{HEAD}\b", text, re.MULTILINE)):
                 raise ValueError(f"{header}: a kernel's head that is not understood")
-            for result, kernel, parameters in found:
+            for detail, result, kernel, parameters in found:
                 types = [type_name(parameter.split()[0]) for parameter in parameters.split(",")]
-                if "GNOMON_MASK" not in [result, *types]: # a part of kernels: a mask is no number
-                    self.kernels.append(Kernel(kernel, name, type_name(result), types))
+                if "GNOMON_MASK" in [result, *types] and not detail:
+                    raise ValueError(f"{header}: {kernel} has a mask, which no table can hold: make it a GNOMON_DETAIL_KERNEL")
+                (self.details if detail else self.kernels).append(Kernel(kernel, name, type_name(result), types))
 
     def numbers(self, type_):
         """The numbers of a type as member accesses, such as .phase.cosine; of a Real, the value itself."""
@@ -85,11 +87,13 @@ def table(path):
 def read(path, headers):
     """The headers' contents and the table's lines, which name the same kernels."""
     found, lines = Headers(headers), table(path)
-    names = {kernel.name for kernel in found.kernels}
+    names, details = ({kernel.name for kernel in kernels} for kernels in (found.kernels, found.details))
     for kernel in found.kernels:
         if kernel.name not in lines:
             raise ValueError(f"{path}: no line for {kernel.name} ({kernel.header})")
     for name, line in lines.items():
+        if name in details:
+            raise ValueError(f"{path}:{line.number}: {name} is a GNOMON_DETAIL_KERNEL, which runs as a part of others: no line")
         if name not in names:
             raise ValueError(f"{path}:{line.number}: no header defines {name}")
     return found, lines

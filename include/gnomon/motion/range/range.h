@@ -72,8 +72,8 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_clip(GNOMON_T(depth_time_range) r
 }
 
 /// a where the mask is set, b elsewhere.
-GNOMON_KERNEL GNOMON_T(depth_time_range) range_select(GNOMON_MASK mask, GNOMON_T(depth_time_range) a,
-                                                      GNOMON_T(depth_time_range) b)
+GNOMON_DETAIL_KERNEL GNOMON_T(depth_time_range) range_select(GNOMON_MASK mask, GNOMON_T(depth_time_range) a,
+                                                             GNOMON_T(depth_time_range) b)
 {
     GNOMON_T(depth_time_range) r;
     r.t0 = gnomon_select(mask, a.t0, b.t0);
@@ -85,13 +85,13 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_select(GNOMON_MASK mask, GNOMON_T
 }
 
 /// r where the mask is set, elsewhere nothing: an empty range that begins after all others.
-GNOMON_KERNEL GNOMON_T(depth_time_range) range_keep_if(GNOMON_MASK mask, GNOMON_T(depth_time_range) r)
+GNOMON_DETAIL_KERNEL GNOMON_T(depth_time_range) range_keep_if(GNOMON_MASK mask, GNOMON_T(depth_time_range) r)
 {
     return range_select(mask, r, range_empty(GNOMON_LITERAL(range_nothing)));
 }
 
 /// A total order: by begin, end, depth at begin and at end, id. Which argument comes first cannot change it.
-GNOMON_KERNEL GNOMON_MASK range_less(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+GNOMON_DETAIL_KERNEL GNOMON_MASK range_less(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
 {
     GNOMON_MASK by_id = a.id < b.id;
     GNOMON_MASK by_z1 = a.z1 < b.z1 || (a.z1 == b.z1 && by_id);
@@ -103,7 +103,7 @@ GNOMON_KERNEL GNOMON_MASK range_less(GNOMON_T(depth_time_range) a, GNOMON_T(dept
 /// Whether a hides b for as long as b lasts, as far as comparisons tell: all of a is in front of all of b, or both have
 /// the same times and a has the nearer ends. Equal ones the lower id hides. Nothing is rounded, so what hides b hides
 /// all that b hides: what is left of many ranges when the hidden ones go depends on no order.
-GNOMON_KERNEL GNOMON_MASK range_occludes(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+GNOMON_DETAIL_KERNEL GNOMON_MASK range_occludes(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
 {
     GNOMON_MASK during = a.t0 <= b.t0 && b.t1 <= a.t1;
     GNOMON_MASK apart = gnomon_max(a.z0, a.z1) <= gnomon_min(b.z0, b.z1);

@@ -42,7 +42,7 @@ GNOMON_KERNEL GNOMON_T(range_summary) range_summary_add(GNOMON_T(range_summary) 
 
 /// True where r, the next one of a resolved list, is of the second layer behind front, the last one that was not. Those
 /// are seen while front lasts and no longer; spans in front that rounding has overlap are not.
-GNOMON_KERNEL GNOMON_MASK range_is_second_layer(GNOMON_T(depth_time_range) front, GNOMON_T(depth_time_range) r)
+GNOMON_DETAIL_KERNEL GNOMON_MASK range_is_second_layer(GNOMON_T(depth_time_range) front, GNOMON_T(depth_time_range) r)
 {
     return front.t0 <= r.t0 && r.t0 < front.t1 && r.t1 <= front.t1;
 }
