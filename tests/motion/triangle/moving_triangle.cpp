@@ -81,7 +81,7 @@ TEST_CASE_TEMPLATE("lines of depth end on it, and are straight for what is at re
         const moving_edges<T> e = moving_triangle_edges(m, s_x, s_y);
         const coverage_intervals<T> x = moving_coverage(e, 1);
         if (x.count == 0) return;
-        const depth_line<T> line = moving_triangle_depth_line(m, e, x.begin0, x.end0);
+        const depth_line<T> line = moving_depth_line(m, e, x.begin0, x.end0, T(1));
         REQUIRE(line.z0 == moving_triangle_depth(m, e, x.begin0));
         REQUIRE(line.z1 == moving_triangle_depth(m, e, x.end0));
         if (how != movement::still || e.a.e0 + e.b.e0 + e.c.e0 < T(0.01)) return;
@@ -124,7 +124,7 @@ TEST_CASE("still, edge-on, touching and carried triangles")
     CHECK(numbers(coverage(still, 2, 0)) == nothing);      // on an edge's extension
     const auto edges = moving_triangle_edges(still, 0.25, 0.25);
     CHECK(moving_triangle_depth(still, edges, 0.75) == 0.25);
-    const depth_line<double> line = moving_triangle_depth_line(still, edges, 0.0, 1.0);
+    const depth_line<double> line = moving_depth_line(still, edges, 0.0, 1.0, 1.0);
     CHECK(line.z0 == -0.5);
     CHECK(line.z1 == 0.5);
     CHECK(line.deviation == 0);
@@ -171,7 +171,7 @@ TEST_CASE_TEMPLATE("anything in gives intervals in order and depths in [-1, 1]",
         require_in_order(x);
         const T t = bits.chance(0.5) ? hostile.pattern() : T(bits.uniform(0, 1));
         REQUIRE(std::abs(moving_triangle_depth(m, e, t)) <= 1);
-        const depth_line<T> line = moving_triangle_depth_line(m, e, x.begin0, t);
+        const depth_line<T> line = moving_depth_line(m, e, x.begin0, t, T(1));
         REQUIRE(std::abs(line.z0) <= 1);
         REQUIRE(std::abs(line.z1) <= 1);
         REQUIRE((line.deviation >= 0 && line.deviation <= 2));

@@ -1,36 +1,37 @@
 // Texels that one surface covers for the whole shutter, in front of everything else: the coverage map of Hong & Oh
-// ("Efficient motion blurred shadows using a temporal shadow map", 2017). All other ranges of such a texel are hidden
-// at all times and need not be stored. A cover is a range from 0 to 1 with the id of its surface. Where there is no
-// cover, the range is empty and has the id -1.
+// ("Efficient motion blurred shadows using a temporal shadow map", 2017). All other ranges of such a texel are occluded
+// at all times and need not be stored. A cover is a range from 0 to 1 with the id of its surface. A texel without a
+// cover has an empty range with the id -1.
 //
-// The paper needs three passes (comparators/three_pass_cover.h) and leaves one pass for future work. This text takes
-// one pass over ranges, in any order:
+// The paper needs three passes (comparators/three_pass_cover.h) and leaves a single pass for future work. These kernels
+// take one pass over ranges, in any order:
 //
 //     state = range_cover_begin(1);              state = range_cover_add(state, r);            for all r
 //     cover = range_cover_end(state);
 //
-// Ranges for which range_cover_occludes returns 1 may be left out of the list. The cover stays in the list or stands for
-// it:
+// Ranges for which range_cover_occludes returns 1 may be left out of the list. The cover stays in the list, or a
+// look-up tests it first:
 //
-//     answer = range_cover_answer(cover, t, z, id, bias);   the list is asked where answer.decided is 0
+//     answer = range_cover_answer(cover, t, z, id, bias);   if answer.decided is 0, test the list
 #ifndef GNOMON_MOTION_RANGE_RANGE_COVER_H
 #define GNOMON_MOTION_RANGE_RANGE_COVER_H
 #include "range.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// The best cover so far, and the nearest depth of all others.
+/// The best cover so far, and the nearest depth of all other ranges.
 GNOMON_STRUCT(range_cover)
 {
     GNOMON_T(depth_time_range) best;
     Real front, far_plane;
 };
 
-/// What a cover says of a receiver: shadow intensity, 0 or 1, and whether that is all (1) or the list has to be asked.
+/// The answer of a cover for one receiver: shadow intensity, 0 or 1, and decided, which is 1 if that is the answer of
+/// the whole texel and 0 if the list has to be tested.
 GNOMON_STRUCT(cover_answer) { Real intensity, decided; };
 
 GNOMON_CONSTANT(cover_margin, 0.0000019073486328125); // 2^-19, 32 2^-p in float
 
-/// The depth that covers must not be behind, 1.
+/// Begin without a range. Covers must not lie behind far_plane, which is 1.
 GNOMON_KERNEL GNOMON_T(range_cover) range_cover_begin(Real far_plane)
 {
     GNOMON_T(range_cover) state;
@@ -40,11 +41,12 @@ GNOMON_KERNEL GNOMON_T(range_cover) range_cover_begin(Real far_plane)
     return state;
 }
 
-/// One range, whole: a range is cut into pieces (moving_depth_piece) once it is known not to cover. The best of those
-/// from 0 to 1 is that with the least farthest depth: if any of them is in front of all others, that one is. On a tie
-/// that with the nearer end, then the lesser id. What is not the best counts among the others, whatever its id. A range
-/// that shadows nothing, for its times are not in order or a depth is NaN, counts as none; a cover needs depths within
-/// [-far_plane, far_plane] and an id from 0.
+/// Add one range, as a whole: cut it into pieces (moving_depth_piece) only after it is known not to be the cover. The
+/// best of the ranges from 0 to 1 is the one with the least farthest depth; if any range is in front of all others,
+/// this one is. Ties go to the nearer end, then to the lesser id. All other ranges count as others, whatever their ids.
+/// A range whose times are out of order adds nothing.
+/// Domain: a cover needs depths within [-far_plane, far_plane] and an id of at least 0.
+/// NaN: a range with a NaN adds nothing.
 GNOMON_KERNEL GNOMON_T(range_cover) range_cover_add(GNOMON_T(range_cover) state, GNOMON_T(depth_time_range) r)
 {
     Real near_depth = gnomon_min(r.z0, r.z1);
@@ -65,18 +67,19 @@ GNOMON_KERNEL GNOMON_T(range_cover) range_cover_add(GNOMON_T(range_cover) state,
     return state;
 }
 
-/// The cover, or none: whether the best was in front of all others, none of which is ever nearer than its farther end.
+/// The cover, or an empty range with the id -1: the best range if no other one is ever nearer than its farther end.
 GNOMON_KERNEL GNOMON_T(depth_time_range) range_cover_end(GNOMON_T(range_cover) state)
 {
     GNOMON_MASK covers = gnomon_max(state.best.z0, state.best.z1) <= state.front;
     return range_select(covers, state.best, range_empty(Real(-1)));
 }
 
-/// 1 where a range may be left out of a list that keeps the cover: one that is never nearer than the cover's farther
-/// end, or shadows nothing. At each time a receiver that is behind it is behind the cover, too, and shadowed by that,
-/// whatever range_depth rounds: that is what the margin is for, which also keeps a level cover from hiding itself. So a
+/// 1 where r may be left out of a list that keeps the cover: r is never nearer than the cover's farther end, or shadows
+/// nothing. A receiver behind r is then behind the cover at all times, and shadowed by the cover, in spite of the
+/// rounding of range_depth: the margin outweighs that rounding, and keeps a level cover from occluding itself. So a
 /// receiver gets the answer of all ranges, unless it has the cover's id and the cover is in front of it by more than
-/// its bias: ids are for what range_list.h says. Domain: depths in [-1, 1], times in [0, 1].
+/// its bias (see range_list.h for ids).
+/// Domain: depths in [-1, 1], times in [0, 1].
 GNOMON_KERNEL Real range_cover_occludes(GNOMON_T(depth_time_range) cover, GNOMON_T(depth_time_range) r)
 {
     GNOMON_MASK some = r.t0 <= r.t1 && r.z0 == r.z0 && r.z1 == r.z1;
@@ -85,12 +88,13 @@ GNOMON_KERNEL Real range_cover_occludes(GNOMON_T(depth_time_range) cover, GNOMON
     return gnomon_select(hidden || !some, Real(1), Real(0));
 }
 
-/// The shadow test at time t and depth z on the surface with the given id; where it is decided, the answer of all
-/// ranges that the cover is of, bit for bit. Shadowed where z is more than the bias behind the cover, whose own surface
-/// is not shadowed by it; lit where z is within the bias, or less by 2^-19, of the cover's farther end, which nothing
-/// else is in front of. In between, and without a cover, undecided. The paper asks no depth, and shadows a neighbouring
-/// triangle that the shadow map's resolution puts into the cover's texel, in front of it. Domain: times in [0, 1],
-/// depths in [-1, 1], bias in [0, 1].
+/// Shadow test at time t and depth z on the surface with the given id. Where decided, the answer is that of all ranges
+/// of the texel, bit for bit. The receiver is shadowed where z is more than the bias behind the cover and the cover has
+/// another id. The receiver is lit where z is within the bias, less 2^-19, of the cover's farther end, since nothing
+/// else is in front of the cover. Between the two, and without a cover, the answer is undecided. The paper compares no
+/// depths: its test shadows a neighbouring triangle that lies in front of the cover, but falls into the cover's texel
+/// by the map's resolution.
+/// Domain: times in [0, 1], depths in [-1, 1], bias in [0, 1].
 GNOMON_KERNEL GNOMON_T(cover_answer) range_cover_answer(GNOMON_T(depth_time_range) cover, Real t, Real z, Real id,
                                                         GNOMON_SETTING bias)
 {

@@ -1,22 +1,25 @@
-// What a texel keeps of the surfaces that pass it while the shutter is open: a list of few depth-time ranges (Gribel et
-// al. 2010; Hong & Oh 2017), and its lower envelope, what the light sees when (the resolve of Palmer 2011, 2.4).
+// Lists of a few depth-time ranges, one list for a texel: the surfaces that pass the texel while the shutter is open
+// (Gribel et al. 2010; Hong & Oh 2017), and the lower envelope of the list, which is visible from the light at each
+// time (the resolve of Palmer 2011, 2.4).
 //
-//     list = range_list_make(range);                  list = range_list_insert(list, range) for every other one
-//     resolved = range_list_resolve(list);          or span by span, t = 0; span = range_list_front(list, t);
-//                                                   t = span.t1 as long as t < 1
+//     list = range_list_make(range);                  list = range_list_insert(list, range) for every other range
+//     resolved = range_list_resolve(list);
+//     or span by span: t = 0; span = range_list_front(list, t); t = span.t1 as long as t < 1
 //
-// A list holds ranges as they were inserted, less those that another one hides by mere comparison (range_occludes). Hence,
-// as long as they fit, neither the order of insertion nor rounding has a say in what it holds, nor in the resolve. When
-// one too many comes, first whatever several others hide together goes, then the two most similar ranges become one
-// in front of both (range_merge.h): what is in shadow stays in shadow, and what was lit and is not is counted.
+// A list stores inserted ranges unchanged and drops those that another range provably occludes (range_occludes). Until
+// the list overflows, neither its contents nor its resolved form depend on the order of insertion or on rounding. On
+// overflow it first drops a range that several others jointly occlude. Failing that, it merges the two most similar
+// ranges into one in front of both (range_merge.h): what is in shadow stays in shadow, and what was lit and becomes
+// shadowed is counted.
 //
-// Hidden ranges go whatever their ids. So a receiver gets the answer of all ranges, unless a range of its own id is in
-// front of it by more than its bias: this one does not shadow it, and what it hides is no longer there to do so. Hence
-// an id is for a surface none of whose points is ever behind another of its points: a triangle, a plane, the lit side
-// of a convex part. With one id for a whole object, its farther sides lose shadows that others cast on them.
+// Occluded ranges are dropped regardless of their ids. So a receiver gets the answer of all ranges, unless a range of
+// its own id lies in front of it by more than its bias: that range does not shadow the receiver, and ranges that it
+// occluded are no longer in the list. Hence one id should be a surface none of whose points is ever behind another: a
+// triangle, a plane, the lit side of a convex part. With one id for a whole object, its far sides lose the shadows that
+// other objects cast on them.
 //
-// The capacity is GNOMON_RANGE_CAPACITY, if that is defined before inclusion, else 8; in C++ it is a template parameter
-// with this default.
+// The capacity is GNOMON_RANGE_CAPACITY, if defined before inclusion, else 8. In C++ the capacity is a template
+// parameter with this default.
 #ifndef GNOMON_MOTION_RANGE_RANGE_LIST_H
 #define GNOMON_MOTION_RANGE_RANGE_LIST_H
 #include "range_merge.h"
@@ -26,15 +29,17 @@ GNOMON_NAMESPACE_BEGIN
 #define GNOMON_RANGE_CAPACITY 8
 #endif
 
-/// In the order of range_less, with empty ranges between them. What merging has cost is bounded from above: for
-/// all but a time of time_added there is something where something was, in front of it by depth_added at most.
+/// Ranges in the order of range_less, with empty ranges between them, and upper bounds of what merging has cost: except
+/// for a total time of time_added, wherever the list has a range now, some range was there before, at most depth_added
+/// behind it.
 GNOMON_LIST_STRUCT(range_list)
 {
     GNOMON_T(depth_time_range) ranges[GNOMON_CAPACITY];
     Real time_added, depth_added;
 };
 
-/// It as lists hold it; nothing where it is empty, not within [0, 1], NaN or beyond 2^60.
+/// r in the canonical form of a list. An empty range if r is empty, leaves [0, 1], has a NaN, or has a depth beyond
+/// 2^60.
 GNOMON_KERNEL GNOMON_T(depth_time_range) range_canonical(GNOMON_T(depth_time_range) r)
 {
     r.id = gnomon_max(r.id, GNOMON_LITERAL(range_mixed));
@@ -42,9 +47,9 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_canonical(GNOMON_T(depth_time_ran
     return range_keep_if(Real(0) <= r.t0 && r.t0 < r.t1 && r.t1 <= Real(1) && known, r);
 }
 
-/// r moved to the front, or to the back where side is 1 instead of -1, by more than rounding can do to it in up to 18
-/// cuts: 2^-16, since depths at the cuts are rounded, and all that it covers of depth in a time of 2^-21, since times
-/// are. That is 268 2^-p of depth and 4 2^-p of time for two ranges together.
+/// r moved towards the light, or away from it where side is 1 instead of -1. The distance exceeds the accumulated
+/// rounding of up to 18 cuts: 2^-16, since depths at the cuts are rounded, plus the change of depth within a time of
+/// 2^-21, since times are rounded. For two ranges together that rounding is 268 2^-p of depth and 4 2^-p of time.
 GNOMON_KERNEL GNOMON_T(depth_time_range) range_offset(GNOMON_T(depth_time_range) r, GNOMON_SETTING side)
 {
     Real change = gnomon_abs(r.z1 - r.z0);
@@ -55,7 +60,7 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_offset(GNOMON_T(depth_time_range)
     return r;
 }
 
-/// Counts what a merge has cost.
+/// Add the cost of a merge to the list's counts.
 GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_count_merge(GNOMON_LIST_T(range_list) list,
                                                                     GNOMON_T(range_pair) p)
 {
@@ -64,7 +69,7 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_count_merge(GNOMON_LIST_
     return list;
 }
 
-/// One more range, at its place among the others, into a list with an empty one, which range_list_insert sees to.
+/// Insert r at its place in the order, into a list that has an empty range (see range_list_insert).
 GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_place(GNOMON_LIST_T(range_list) list,
                                                               GNOMON_T(depth_time_range) r)
 {
@@ -86,10 +91,12 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_place(GNOMON_LIST_T(rang
     return list;
 }
 
-/// One more range; times outside of [0, 1] are cut off. NaN, or a depth beyond 2^60, inserts nothing. Without an
-/// overflow the ranges of the list depend on no order, bit for bit but for the sign of a zero. With one they do, but at
-/// no time is the front farther than that of all ranges inserted: strictly, by their lines without rounding, however
-/// steep and brief they are, as long as times are in [0, 1], depths in [-1, 1] and the capacity is not above 16.
+/// Insert r, clipped to times in [0, 1]. Without an overflow the ranges of the list do not depend on the order of
+/// insertion, bit for bit, except for the sign of a zero. With an overflow they do, but at no time is the front farther
+/// than that of all inserted ranges. That holds strictly, for exact depth lines, however steep and brief the ranges
+/// are.
+/// Domain: times in [0, 1], depths in [-1, 1], a capacity of at most 16.
+/// NaN: a range with a NaN, or with a depth beyond 2^60, is not inserted.
 GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_insert(GNOMON_LIST_T(range_list) list,
                                                                GNOMON_T(depth_time_range) r)
 {
@@ -105,22 +112,23 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_insert(GNOMON_LIST_T(ran
     }
     GNOMON_MASK full = r.t0 < r.t1 && room < Real(1);
     if (gnomon_any(full)) {
-        // Whatever the others hide together, even if it were a margin nearer and they a margin farther.
-        range_list hiding = list;
-        for (int h = 0; h < GNOMON_CAPACITY; ++h) hiding.ranges[h] = range_offset(list.ranges[h], Real(1));
+        // Drop ranges that the others jointly occlude, even if the range were a margin nearer and the others a margin
+        // farther.
+        range_list occluders = list;
+        for (int h = 0; h < GNOMON_CAPACITY; ++h) occluders.ranges[h] = range_offset(list.ranges[h], Real(1));
         depth_time_range farther = range_offset(r, Real(1));
         for (int j = 0; j < GNOMON_CAPACITY; ++j) {
             depth_time_range s = range_trim(range_offset(list.ranges[j], Real(-1)), farther);
-            for (int k = 0; k < GNOMON_CAPACITY; ++k) s = range_trim(s, hiding.ranges[k]);
+            for (int k = 0; k < GNOMON_CAPACITY; ++k) s = range_trim(s, occluders.ranges[k]);
             GNOMON_MASK seen = !full || s.t0 < s.t1;
             list.ranges[j] = range_keep_if(seen, list.ranges[j]);
-            hiding.ranges[j] = range_keep_if(seen, hiding.ranges[j]);
+            occluders.ranges[j] = range_keep_if(seen, occluders.ranges[j]);
         }
         depth_time_range left = range_offset(r, Real(-1));
-        for (int m = 0; m < GNOMON_CAPACITY; ++m) left = range_trim(left, hiding.ranges[m]);
+        for (int m = 0; m < GNOMON_CAPACITY; ++m) left = range_trim(left, occluders.ranges[m]);
         r = range_keep_if(!full || left.t0 < left.t1, r);
 
-        // The most similar pair, the new one's place being -1. Where there is room now, one of the pair is empty.
+        // Find the most similar pair; r has place -1. If there is room now, one range of the pair is empty.
         range_pair best = range_pair_empty(r);
         Real first = Real(-1);
         Real second = Real(-1);
@@ -153,7 +161,7 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_insert(GNOMON_LIST_T(ran
     return range_list_place(list, r);
 }
 
-/// The list of one range; of none where it is empty.
+/// The list of one range; an empty list if the range is empty.
 GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_make(GNOMON_T(depth_time_range) r)
 {
     GNOMON_LIST_T(range_list) list;
@@ -163,10 +171,11 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_make(GNOMON_T(depth_time
     return range_list_insert(list, r);
 }
 
-/// The span that the light sees from time t on: of the range that is in front just after t, what lasts until it ends or
-/// another one gets in front. Where there is none, until the next begins, range_nothing at the far plane. It ends after
-/// t, but for t = 1, whatever the list holds: by begins, ends and crossings there are at most (N + 1) (N + 2) / 2 spans
-/// from 0 to 1, N the capacity. A t outside of [0, 1] is moved there, NaN to 0.
+/// Span of the lower envelope from time t on: the range in front just after t, until it ends or another range passes in
+/// front. If no range lasts just after t, the span has the id range_nothing, the depth of the far plane, and lasts
+/// until the next begin. The span ends after t unless t is 1. From 0 to 1 there are at most (N + 1) (N + 2) / 2 spans,
+/// N the capacity, since each ends at a begin, an end or a crossing. A t outside of [0, 1] is clamped.
+/// NaN: t is then 0.
 GNOMON_LIST_KERNEL GNOMON_T(depth_time_range) range_list_front(GNOMON_LIST_T(range_list) list, Real t)
 {
     Real begin = saturate_or_zero(t);
@@ -190,7 +199,8 @@ GNOMON_LIST_KERNEL GNOMON_T(depth_time_range) range_list_front(GNOMON_LIST_T(ran
         depth_time_range ahead = range_visible_part(r, front);
         Real next = gnomon_select(some, ahead.t0, r.t0);
         end = gnomon_select(begin < next, gnomon_min(end, next), end);
-        // Where three meet, rounding may have each in front of the next. That all are as near lasts as long as it does.
+        // Where three ranges meet, rounding may put each in front of the next. The tie lasts as long as all comparisons
+        // do.
         GNOMON_MASK circle = ahead.t0 <= begin && begin < ahead.t1;
         end = gnomon_select(circle, gnomon_min(end, unchanged), end);
     }
@@ -200,12 +210,13 @@ GNOMON_LIST_KERNEL GNOMON_T(depth_time_range) range_list_front(GNOMON_LIST_T(ran
     return span;
 }
 
-/// One more range, after all of the others, which are apart and in order of time. Where there is no room two neighbours
-/// become one.
+/// Append r, which begins after all ranges of the list, disjoint and in order of time. If there is no room, merge two
+/// neighbours.
 GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_append(GNOMON_LIST_T(range_list) list,
                                                                GNOMON_T(depth_time_range) r)
 {
-    // The last and r are neighbours, too. Places count from the end; two of which one is empty come first.
+    // The last range and r are neighbours, too. Places count from the end; of all pairs one with an empty range is
+    // merged first.
     range_pair best = range_pair_empty(r);
     Real at = Real(0);
     Real place = Real(0);
@@ -230,8 +241,8 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_append(GNOMON_LIST_T(ran
     return range_list_count_merge(list, best);
 }
 
-/// What the light sees: ranges apart from one another, in order of time, so that static_receiver.h may add them up.
-/// What does not fit is merged with its neighbour, and counted. Empty ones come first.
+/// The lower envelope of the list: disjoint ranges in order of time, which static_receiver.h adds up. Ranges that do
+/// not fit are merged with a neighbour, and counted. Empty ranges come first.
 GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_resolve(GNOMON_LIST_T(range_list) list)
 {
     Real t = Real(0);
@@ -248,7 +259,8 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_resolve(GNOMON_LIST_T(ra
     return resolved;
 }
 
-/// Shadow intensity, 0 or 1, at time t and depth z on the surface with the given id; see range_intensity.
+/// Shadow intensity, 0 or 1, at time t and depth z on the surface with the given id (see range_intensity).
+/// NaN: 0, lit.
 GNOMON_LIST_KERNEL Real range_list_intensity(GNOMON_LIST_T(range_list) list, Real t, Real z, Real id,
                                              GNOMON_SETTING bias)
 {

@@ -1,17 +1,17 @@
-// One range for two, as lists of few ranges need it when they are full (the compression of Gribel et al. 2010): it
-// lasts from the begin of the earlier to the end of the later, and its depth line is in front of both, so that what was
-// in shadow stays there. Which two are the most similar Gribel et al. judge by the gap between them, and by how depth,
-// slope and duration differ, each with its weight. Here one measure takes all of them in, and has no weights: the area
-// of the plane of time and depth that falls into shadow though no range was in front of it. It is, up to a factor, what
-// goes wrong for a receiver of which nothing is known. To it add the times for which a surface comes to be shadowed by
-// its own range, because what belongs to two surfaces belongs to neither.
+// One range that replaces two, for full lists of few ranges (the compression of Gribel et al. 2010). It lasts from the
+// begin of the earlier range to the end of the later one, and its depth line is in front of both, so that all that was
+// shadowed stays shadowed. To find the two most similar ranges, Gribel et al. weight the gap between them and their
+// differences in depth, slope and duration. Here a single measure without weights covers all of these: the area of the
+// plane of time and depth that becomes shadowed although no range was in front of it. Up to a factor, this is the
+// expected error for a receiver of unknown depth. The time for which a surface becomes shadowed by its own range is
+// added, since a range of two surfaces has the id of neither.
 #ifndef GNOMON_MOTION_RANGE_RANGE_MERGE_H
 #define GNOMON_MOTION_RANGE_RANGE_MERGE_H
 #include "range.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// Two ranges as one, the time between them that it fills, how far at most it is in front of what was, and what it
-/// costs altogether.
+/// The range that replaces two; gap, the time between the two that it fills; shift, the largest distance by which it is
+/// in front of both; and the total cost.
 GNOMON_STRUCT(range_pair)
 {
     GNOMON_T(depth_time_range) merged;
@@ -20,10 +20,11 @@ GNOMON_STRUCT(range_pair)
 
 GNOMON_CONSTANT(range_merge_margin, 0.000003814697265625); // 2^-18, exact
 
-/// One range for both: of the line between the outer ends, moved to the front until it is before both, and the level
-/// line through the nearest end, the one that darkens less. The margin on top, 2^-18 of the largest depth, outweighs
-/// what rounding does to any of the lines in float, 59 2^-24: at no time, by range_depth, is it behind either. The id
-/// is theirs if they share it, else range_mixed. Where one is empty, the other as it is.
+/// One range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
+/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
+/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
+/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
+/// the result is the other one, unchanged.
 GNOMON_KERNEL GNOMON_T(depth_time_range) range_merge(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
 {
     GNOMON_T(depth_time_range) hull;
@@ -54,13 +55,13 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_merge(GNOMON_T(depth_time_range) 
     return range_select(some_a && some_b, hull, range_select(some_a, a, b));
 }
 
-/// The area behind it as far as the far plane.
+/// Area between the range and the far plane, in time and depth.
 GNOMON_KERNEL Real range_area(GNOMON_T(depth_time_range) r)
 {
     return range_duration(r) * (Real(1) - Real(0.5) * (r.z0 + r.z1));
 }
 
-/// How far it is behind the other at its ends, where that lies farther; 0 where it is empty.
+/// Largest distance of an end of r behind the range `nearer`, 0 if none is behind or r is empty.
 GNOMON_KERNEL Real range_distance(GNOMON_T(depth_time_range) r, GNOMON_T(depth_time_range) nearer)
 {
     Real distance0 = r.z0 - range_depth(nearer, r.t0);
@@ -68,9 +69,10 @@ GNOMON_KERNEL Real range_distance(GNOMON_T(depth_time_range) r, GNOMON_T(depth_t
     return gnomon_select(r.t0 < r.t1, gnomon_max(gnomon_max(distance0, distance1), Real(0)), Real(0));
 }
 
-/// What the two become, and for how much. Gap and shift are exact but for rounding. The cost is the area behind the
-/// merged range that was behind neither, and the times for which a surface loses its id; where one is empty, so that
-/// there is nothing to merge, it is -1, and gap and shift 0.
+/// The merge of a and b, with its costs. The cost is the area behind the merged range that was behind neither a nor b,
+/// plus the time for which a surface loses its id. If one range is empty, there is nothing to merge: the cost is -1,
+/// gap and shift are 0.
+/// Error: gap and shift are exact except for rounding.
 GNOMON_KERNEL GNOMON_T(range_pair) range_pair_make(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
 {
     GNOMON_T(range_pair) p;
@@ -78,11 +80,12 @@ GNOMON_KERNEL GNOMON_T(range_pair) range_pair_make(GNOMON_T(depth_time_range) a,
     GNOMON_MASK some = a.t0 < a.t1 && b.t0 < b.t1;
     Real gap = gnomon_max(a.t0, b.t0) - gnomon_min(a.t1, b.t1);
     p.gap = gnomon_select(some, gnomon_max(gap, Real(0)), Real(0));
-    // What the other one hides was in shadow already.
+    // Ignore the parts that the other range occludes: they were in shadow already.
     Real shift = gnomon_max(range_distance(range_trim(a, b), p.merged), range_distance(range_trim(b, a), p.merged));
     p.shift = gnomon_select(some, shift, Real(0));
 
-    // Behind both is what is behind the farther one, which is at (a + b + |a - b|) / 2; |x| from x0 to x1, on average:
+    // The area behind both is that behind the farther range, at (a + b + |a - b|) / 2. The mean of |x| from x0 to x1
+    // is:
     depth_time_range near_a = range_clip_to(a, b);
     depth_time_range near_b = range_clip_to(b, a);
     Real x0 = near_a.z0 - near_b.z0;
@@ -99,7 +102,7 @@ GNOMON_KERNEL GNOMON_T(range_pair) range_pair_make(GNOMON_T(depth_time_range) a,
     return p;
 }
 
-/// r by itself, at a cost above that of any pair: where a search for the cheapest begins.
+/// r alone, at a cost above that of any pair: the start of a search for the cheapest pair.
 GNOMON_KERNEL GNOMON_T(range_pair) range_pair_empty(GNOMON_T(depth_time_range) r)
 {
     GNOMON_T(range_pair) p;
@@ -110,7 +113,7 @@ GNOMON_KERNEL GNOMON_T(range_pair) range_pair_empty(GNOMON_T(depth_time_range) r
     return p;
 }
 
-/// The one with the lower cost; a where both cost the same.
+/// The pair with the lower cost; a if the costs are equal.
 GNOMON_KERNEL GNOMON_T(range_pair) range_pair_cheaper(GNOMON_T(range_pair) a, GNOMON_T(range_pair) b)
 {
     GNOMON_MASK cheaper = b.cost < a.cost;

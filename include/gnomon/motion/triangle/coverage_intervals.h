@@ -1,56 +1,59 @@
-// When a sample is covered by a triangle whose edge functions are quadratics in time (moving_triangle.h): at most four
-// intervals of the shutter for either facing (Gribel et al. 2010; Palmer 2011, 2.1).
+// Times at which a triangle covers a sample, for edge functions that are quadratic in time (moving_triangle.h): at most
+// four intervals of the shutter for either facing (Gribel et al. 2010; Palmer 2011, 2.1).
 //
-// An edge function is held by its Bernstein coefficients, e(t) = e0 (1 - t)^2 + 2 e1 t (1 - t) + e2 t^2, so that e0
-// and e2 are its values at shutter open and close, and a root t = u / (1 + u) belongs to a root u >= 0 of
+// An edge function is stored by its Bernstein coefficients, e(t) = e0 (1 - t)^2 + 2 e1 t (1 - t) + e2 t^2. So e0 and e2
+// are its values at shutter open and close, and a root t = u / (1 + u) belongs to a root u >= 0 of
 //     e2 u^2 + 2 e1 u + e0 = 0,   u = q / e2 or e0 / q,   q = -(e1 + sign(e1) sqrt(e1^2 - e0 e2))
-// which gives t = q / (q + e2) or e0 / (e0 + q): sums of like signs, so nothing cancels, neither near 0 nor near 1.
-// Where e >= 0 is one interval, or, when e is positive at both ends, everything but one gap. Three edges leave one
-// interval less three gaps, hence four intervals. No signs are sampled in between: of two triangles that share an edge
-// one has e, the other -e, both have the same roots bit for bit, and one covers exactly when the other does not.
+// This gives t = q / (q + e2) or e0 / (e0 + q). Both are sums of like signs, so nothing cancels, neither near 0 nor
+// near 1. The set of times with e >= 0 is a single interval, or, if e is positive at both ends, everything except one
+// gap. Three edges leave one interval less three gaps, hence four intervals. No sign is sampled in between. Of two
+// triangles that share an edge, one has e and the other -e. Both find the same roots bit for bit, so one triangle
+// covers the sample exactly when the other does not.
 #ifndef GNOMON_MOTION_TRIANGLE_COVERAGE_INTERVALS_H
 #define GNOMON_MOTION_TRIANGLE_COVERAGE_INTERVALS_H
 #include "../../numerics/select.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// e(t) = e0 (1 - t)^2 + 2 e1 t (1 - t) + e2 t^2.
+/// A quadratic by its Bernstein coefficients: e(t) = e0 (1 - t)^2 + 2 e1 t (1 - t) + e2 t^2.
 GNOMON_STRUCT(moving_edge) { Real e0, e1, e2; };
 
-/// The edge functions across from the vertices a, b, c of a triangle.
+/// The edge functions opposite to the vertices a, b, c of a triangle.
 GNOMON_STRUCT(moving_edges) { GNOMON_T(moving_edge) a, b, c; };
 
-/// From begin to end, but not from gap_begin to gap_end; without a gap both of these are coverage_none, and where
-/// nothing is left begin is 1 and end 0.
+/// The times from begin to end, except those from gap_begin to gap_end. Without a gap, both of these are coverage_none.
+/// An empty set has begin 1 and end 0.
 GNOMON_STRUCT(edge_intervals) { Real begin, end, gap_begin, gap_end; };
 
-/// From begin to end; nothing where end is not after begin.
+/// The times from begin to end; none unless begin < end.
 GNOMON_STRUCT(linear_interval) { Real begin, end; };
 
-/// Four numbers in order.
+/// Four numbers in ascending order.
 GNOMON_STRUCT(ordered4) { Real first, second, third, fourth; };
 
-/// As many intervals as count says, in order and apart; the others begin and end at coverage_none.
+/// Disjoint intervals in order, `count` of them; the others begin and end at coverage_none.
 GNOMON_STRUCT(coverage_intervals) { Real count, begin0, end0, begin1, end1, begin2, end2, begin3, end3; };
 
 GNOMON_CONSTANT(coverage_none, 2.0);                       // after the shutter has closed
 GNOMON_CONSTANT(moving_edge_limit, 1152921504606846976.0); // 2^60: squares of coefficients are finite in float
 
-/// e(t), t in [0, 1] (de Casteljau). Error: 6 2^-p times the largest coefficient; odd in e, bit for bit.
+/// Value e(t) at time t in [0, 1], by de Casteljau's algorithm. Odd in e, bit for bit.
+/// Error: 6 2^-p times the largest coefficient.
 GNOMON_KERNEL Real moving_edge_at(GNOMON_T(moving_edge) e, Real t)
 {
     Real s = Real(1) - t;
     return (e.e0 * s + e.e1 * t) * s + (e.e1 * s + e.e2 * t) * t;
 }
 
-/// How large its coefficients are; infinite or NaN where one is.
+/// Sum of the absolute coefficients; infinite or NaN if one is.
 GNOMON_KERNEL Real moving_edge_size(GNOMON_T(moving_edge) e)
 {
     return (gnomon_abs(e.e0) + gnomon_abs(e.e1)) + gnomon_abs(e.e2);
 }
 
-/// The times in [0, 1] at which e >= 0; at which e <= 0 where facing is negative. They are exact for coefficients that
-/// differ by 16 2^-p of the largest, which is between 2^-50 and 2^58 in float. Where e is 0 throughout, all times.
-/// Coefficients beyond that, or NaN: none.
+/// Times in [0, 1] at which e >= 0, or at which e <= 0 if facing is negative; all times if e is 0 throughout.
+/// Domain: the largest coefficient is between 2^-50 and 2^58 in float; none for larger ones.
+/// NaN: none.
+/// Error: the times are exact for coefficients that differ by 16 2^-p of the largest.
 GNOMON_KERNEL GNOMON_T(edge_intervals) moving_edge_inside(GNOMON_T(moving_edge) e, GNOMON_SETTING facing)
 {
     Real side = gnomon_select(facing < Real(0), Real(-1), Real(1));
@@ -65,12 +68,11 @@ GNOMON_KERNEL GNOMON_T(edge_intervals) moving_edge_inside(GNOMON_T(moving_edge) 
     GNOMON_MASK before = c0 < Real(0); // outside at shutter open
     GNOMON_MASK after = c2 < Real(0);
     if (gnomon_any(before || after || c1 < Real(0))) {
-        // The sign of q is that of -e1. Where e1 is 0 it is that of e0, which keeps q odd in e and finds the root in
-        // [0, 1].
+        // q has the sign of -e1. Where e1 is 0, q has that of e0, which keeps q odd in e and finds the root in [0, 1].
         GNOMON_MASK up = Real(0) < c1 || (c1 == Real(0) && before);
         GNOMON_MASK late = (before && !up) || (up && !before);
         GNOMON_MASK once = (before && !after) || (after && !before);
-        // Otherwise there are two roots, in the order of the formulas, or none where all coefficients have one sign.
+        // Otherwise there are two roots, in the order of the formulas, or none if all coefficients have one sign.
         GNOMON_MASK twice = !(once || late);
         Real r = gnomon_sqrt(gnomon_max(c1 * c1 - c0 * c2, Real(0)));
         Real q = gnomon_select(up, Real(-1) * (c1 + r), r - c1);
@@ -93,8 +95,11 @@ GNOMON_KERNEL GNOMON_T(edge_intervals) moving_edge_inside(GNOMON_T(moving_edge) 
     return x;
 }
 
-/// The times in [0, 1] at which an edge function that is linear in time, from e0 to e2, is >= 0; on the other side of
-/// the edge ask for -e0 and -e2. Error: 4 2^-p. Coefficients that differ by 2^60 or more, or NaN: none.
+/// Times in [0, 1] at which an edge function that is linear in time, from e0 to e2, is >= 0. For the other side of the
+/// edge, call with -e0 and -e2.
+/// Domain: none for coefficients that differ by 2^60 or more.
+/// NaN: none.
+/// Error: 4 2^-p.
 GNOMON_KERNEL GNOMON_T(linear_interval) linear_edge_inside(Real e0, Real e2)
 {
     GNOMON_MASK before = e0 < Real(0);
@@ -108,7 +113,7 @@ GNOMON_KERNEL GNOMON_T(linear_interval) linear_edge_inside(Real e0, Real e2)
     return x;
 }
 
-/// The times at which three of them are >= 0 together, for a triangle that is translated or at rest.
+/// Times at which three linear edge functions are all >= 0, for a triangle that is translated or static.
 GNOMON_KERNEL GNOMON_T(linear_interval) linear_coverage(GNOMON_T(moving_edges) e)
 {
     linear_interval a = linear_edge_inside(e.a.e0, e.a.e2);
@@ -119,7 +124,8 @@ GNOMON_KERNEL GNOMON_T(linear_interval) linear_coverage(GNOMON_T(moving_edges) e
     return a;
 }
 
-/// By a network of five exchanges; numbers, not NaN.
+/// Sort four numbers by a network of five exchanges.
+/// Domain: no NaN.
 GNOMON_KERNEL GNOMON_T(ordered4) ordered4_make(Real a, Real b, Real c, Real d)
 {
     Real low0 = gnomon_min(a, b);
@@ -136,7 +142,7 @@ GNOMON_KERNEL GNOMON_T(ordered4) ordered4_make(Real a, Real b, Real c, Real d)
     return x;
 }
 
-/// The times at which the sample is on the inside of all three edges.
+/// Times at which the sample is on the inner side of all three edges.
 GNOMON_KERNEL GNOMON_T(coverage_intervals) intersect_edge_intervals(GNOMON_T(edge_intervals) a,
                                                                     GNOMON_T(edge_intervals) b,
                                                                     GNOMON_T(edge_intervals) c)
@@ -159,15 +165,16 @@ GNOMON_KERNEL GNOMON_T(coverage_intervals) intersect_edge_intervals(GNOMON_T(edg
     GNOMON_MASK gap_b = b.gap_begin < none;
     GNOMON_MASK gap_c = c.gap_begin < none;
     if (gnomon_any(some && (gap_a || gap_b || gap_c))) {
-        // What comes from elsewhere may have ends without begins: in a pack no lane depends on the others.
+        // Intervals that a caller made may have a gap's end without a begin. Ignore such ends, so that no lane of a
+        // pack depends on the others.
         a.gap_begin = gnomon_select(gap_a, a.gap_begin, none);
         b.gap_begin = gnomon_select(gap_b, b.gap_begin, none);
         c.gap_begin = gnomon_select(gap_c, c.gap_begin, none);
         a.gap_end = gnomon_select(gap_a, a.gap_end, none);
         b.gap_end = gnomon_select(gap_b, b.gap_end, none);
         c.gap_end = gnomon_select(gap_c, c.gap_end, none);
-        // In order, each by itself, the gaps' begins and ends bound what is outside of all gaps: a time is there when
-        // as many have begun as have ended.
+        // Sorted separately, the begins and ends of gaps bound the times outside of all gaps: a time is outside when as
+        // many gaps have begun as have ended.
         ordered4 starts = ordered4_make(a.gap_begin, b.gap_begin, c.gap_begin, none);
         ordered4 stops = ordered4_make(a.gap_end, b.gap_end, c.gap_end, none);
         Real begin1 = gnomon_max(begin, stops.first);
@@ -180,7 +187,7 @@ GNOMON_KERNEL GNOMON_T(coverage_intervals) intersect_edge_intervals(GNOMON_T(edg
         GNOMON_MASK some1 = some && begin1 < end1;
         GNOMON_MASK some2 = some && begin2 < end2;
         GNOMON_MASK some3 = some && begin3 < end;
-        // The empty ones go to the end, the others keep their order.
+        // Move empty intervals to the end, and keep the order of the others.
         starts = ordered4_make(gnomon_select(some0, begin, none), gnomon_select(some1, begin1, none),
                                gnomon_select(some2, begin2, none), gnomon_select(some3, begin3, none));
         stops = ordered4_make(gnomon_select(some0, end0, none), gnomon_select(some1, end1, none),
@@ -199,10 +206,12 @@ GNOMON_KERNEL GNOMON_T(coverage_intervals) intersect_edge_intervals(GNOMON_T(edg
     return x;
 }
 
-/// The times at which the three edge functions are >= 0 together, or, where facing is negative, <= 0: the sample is
-/// then covered by a triangle that turns this side to it. On the border it is covered; by a triangle without any area,
-/// three edge functions that are 0 throughout, it is not. Errors as for moving_edge_inside; anything NaN or out of
-/// range gives none.
+/// Times at which a triangle that turns this side to the sample covers it: all three edge functions are >= 0, or <= 0
+/// if facing is negative. A sample on the border is covered. A triangle without area, with three edge functions that
+/// are 0 throughout, covers nothing.
+/// Domain: none for coefficients that moving_edge_inside refuses.
+/// NaN: none.
+/// Error: that of moving_edge_inside.
 GNOMON_KERNEL GNOMON_T(coverage_intervals) moving_coverage(GNOMON_T(moving_edges) e, GNOMON_SETTING facing)
 {
     edge_intervals a = moving_edge_inside(e.a, facing);
@@ -211,7 +220,7 @@ GNOMON_KERNEL GNOMON_T(coverage_intervals) moving_coverage(GNOMON_T(moving_edges
     return intersect_edge_intervals(a, moving_edge_inside(e.b, facing), moving_edge_inside(e.c, facing));
 }
 
-/// How much of the shutter interval they last together, in [0, 1].
+/// Total duration of the intervals, in [0, 1].
 GNOMON_KERNEL Real coverage_duration(GNOMON_T(coverage_intervals) x)
 {
     return saturate_or_zero(((x.end0 - x.begin0) + (x.end1 - x.begin1)) + ((x.end2 - x.begin2) + (x.end3 - x.begin3)));

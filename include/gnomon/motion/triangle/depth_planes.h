@@ -1,37 +1,39 @@
-// When the point of a moving triangle that a sample sees lies between the near and the far plane: a surface that passes
-// one of them is there for a part of its covered times, whose ends are cut, and not its depths.
+// Times at which the point of a moving triangle that a sample sees lies between the near and the far plane. A surface
+// that passes one of the planes is visible for a part of its covered times: its times are clipped, not its depths.
 //
-// With depth z = z_c + N / D (edge_equation.h) and D > 0 where the triangle faces the sample by its positive side, z is
-// at least p exactly where
+// With depth z = z_c + N / D (triangle_setup.h) and D > 0 where the triangle turns its positive side to the sample, z
+// is at least p exactly where
 //     h(t) = N(t) + (z_c(t) - p) D(t) >= 0
-// a cubic in t. Its turning points, the roots of a quadratic, part [0, 1] into three intervals in which h goes one way;
-// each has one root or none, which bisection finds. A cubic is positive in two intervals at most, so the answer is an
-// edge_intervals, as for an edge.
+// This is a cubic in t. Its turning points, the roots of a quadratic, divide [0, 1] into three intervals in which h is
+// monotonic. Each interval has one root or none; bisection finds the root. A cubic is positive in at most two
+// intervals, so the result is an edge_intervals, as for an edge.
 //
 //     near = depth_intervals_beyond(curve, -1, facing);   far = depth_intervals_before(curve, 1, facing);
-//     of every covered interval: edge_intervals_part(near, 0, begin, end), and 1; of each of them the same with far
+//     for every covered interval: edge_intervals_part(near, 0, begin, end), and part 1; each of them alike with far
 #ifndef GNOMON_MOTION_TRIANGLE_DEPTH_PLANES_H
 #define GNOMON_MOTION_TRIANGLE_DEPTH_PLANES_H
 #include "triangle_setup.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// h0 s^3 + h1 s^2 t + h2 s t^2 + h3 t^3, s = 1 - t.
+/// A cubic: h0 s^3 + h1 s^2 t + h2 s t^2 + h3 t^3, s = 1 - t.
 GNOMON_STRUCT(moving_cubic) { Real h0, h1, h2, h3; };
 
-/// A root between two times, if there is one (1 or 0).
+/// A root between two times, and whether there is one, 1 or 0.
 GNOMON_STRUCT(cubic_root) { Real t, found; };
 
 GNOMON_CONSTANT(cubic_third, 0.333333333333333333333);
 
-/// The value of h at time t in [0, 1]. Error: 8 2^-p times the largest coefficient.
+/// Value of h at time t in [0, 1].
+/// Error: 8 2^-p times the largest coefficient.
 GNOMON_KERNEL Real moving_cubic_at(GNOMON_T(moving_cubic) h, Real t)
 {
     Real s = Real(1) - t;
     return (h.h0 * s + h.h1 * t) * (s * s) + (h.h2 * s + h.h3 * t) * (t * t);
 }
 
-/// The time at which the sign of h changes between two times in order, at which h has the values at_begin and at_end
-/// and between which it goes one way. 24 halvings: within 2^-24 of the interval.
+/// Time at which the sign of h changes between begin and end, where h has the values at_begin and at_end and is
+/// monotonic between them. By 24 halvings.
+/// Error: 2^-24 of the interval.
 GNOMON_KERNEL GNOMON_T(cubic_root) moving_cubic_root(GNOMON_T(moving_cubic) h, Real begin, Real end, Real at_begin,
                                                      Real at_end)
 {
@@ -48,18 +50,20 @@ GNOMON_KERNEL GNOMON_T(cubic_root) moving_cubic_root(GNOMON_T(moving_cubic) h, R
         high = gnomon_select(left, high, middle);
     }
     GNOMON_T(cubic_root) r;
-    // The end that is inside, so that no time is given at which it is negative.
+    // Return the end that is inside, so that h is not negative at the time.
     r.t = gnomon_select(before, high, low);
     r.found = gnomon_select(some, Real(1), Real(0));
     return r;
 }
 
-/// The times in [0, 1] at which h is >= 0. Error of a time: those of the cubic's value over its slope there, and
-/// 2^-24; where h only touches 0 within its error, as if h did not. NaN: none.
+/// Times in [0, 1] at which h >= 0.
+/// NaN: none.
+/// Error: the error of the cubic's value over its slope at that time, and 2^-24. If h only touches 0 within its error,
+/// as if it did not.
 GNOMON_KERNEL GNOMON_T(edge_intervals) moving_cubic_inside(GNOMON_T(moving_cubic) h)
 {
     Real none = GNOMON_LITERAL(coverage_none);
-    // A third of its slope, by Bernstein coefficients; the ends of where it rises are the turning points.
+    // A third of the slope, by Bernstein coefficients. The ends of the times at which h rises are the turning points.
     Real b1 = h.h1 * GNOMON_LITERAL(cubic_third);
     Real b2 = h.h2 * GNOMON_LITERAL(cubic_third);
     GNOMON_T(moving_edge) slope;
@@ -89,8 +93,8 @@ GNOMON_KERNEL GNOMON_T(edge_intervals) moving_cubic_inside(GNOMON_T(moving_cubic
     GNOMON_MASK open = Real(0) <= h.h0;
     GNOMON_T(edge_intervals) x;
     x.begin = gnomon_select(open, Real(0), gnomon_min(root0, Real(1)));
-    // A gap goes from the first root to the second if h is positive at shutter open, else from the second to the
-    // third. Without the latter of them the times end there.
+    // A gap lasts from the first root to the second if h is positive at shutter open, else from the second to the
+    // third. Without its second root there is no gap, and the times end at its first.
     Real leaves = gnomon_select(open, root0, root1);
     Real returns = gnomon_select(open, root1, root2);
     Real leaves_again = gnomon_select(open, root2, none);
@@ -106,7 +110,7 @@ GNOMON_KERNEL GNOMON_T(edge_intervals) moving_cubic_inside(GNOMON_T(moving_cubic
     return x;
 }
 
-/// N + (z_c - plane) D times side.
+/// The cubic N + (z_c - plane) D, times side.
 GNOMON_KERNEL GNOMON_T(moving_cubic) depth_over_plane(GNOMON_T(depth_curve) c, Real plane, Real side)
 {
     Real z0 = c.z0 - plane;
@@ -119,23 +123,28 @@ GNOMON_KERNEL GNOMON_T(moving_cubic) depth_over_plane(GNOMON_T(depth_curve) c, R
     return h;
 }
 
-/// When the depth of a triangle is at least that of the plane, among the times at which this facing (1 or -1) covers
-/// the sample.
+/// Times at which the depth of a triangle is at least that of the plane, among the times at which a triangle of this
+/// facing, 1 or -1, covers the sample.
+/// NaN: none.
+/// Error: that of moving_cubic_inside.
 GNOMON_KERNEL GNOMON_T(edge_intervals) depth_intervals_beyond(GNOMON_T(depth_curve) c, GNOMON_SETTING plane,
                                                               GNOMON_SETTING facing)
 {
     return moving_cubic_inside(depth_over_plane(c, plane, facing));
 }
 
-/// When it is at most that.
+/// Times at which the depth of a triangle is at most that of the plane, among the times at which a triangle of this
+/// facing, 1 or -1, covers the sample.
+/// NaN: none.
+/// Error: that of moving_cubic_inside.
 GNOMON_KERNEL GNOMON_T(edge_intervals) depth_intervals_before(GNOMON_T(depth_curve) c, GNOMON_SETTING plane,
                                                               GNOMON_SETTING facing)
 {
     return moving_cubic_inside(depth_over_plane(c, plane, Real(-1) * facing));
 }
 
-/// The part of an interval that falls into times: before their gap (part 0) or after it (part 1); nothing where the end
-/// is not after the begin. Without a gap all of it is in part 0.
+/// The part of the interval from begin to end that lies in x: before its gap (part 0) or after the gap (part 1). Empty
+/// unless begin < end. Without a gap everything is in part 0.
 GNOMON_KERNEL GNOMON_T(linear_interval) edge_intervals_part(GNOMON_T(edge_intervals) x, GNOMON_SETTING part, Real begin,
                                                             Real end)
 {

@@ -2,48 +2,50 @@
 // one sample of a shadow map sees it: edge functions, coverage, depth.
 //
 // A vertex is p(t) = (1 - t) q + t r. Sheared by the sample (s_x, s_y), its coordinates (x - s_x w, y - s_y w) are
-// linear in t as well, and 0 where the vertex projects to the sample; an edge function is the cross product of two of
-// them, a quadratic in t in perspective, too (w is 1 in an orthographic view):
+// linear in t as well, and 0 where the vertex projects to the sample. An edge function is the cross product of two
+// sheared vertices, a quadratic in t, also in perspective (w is 1 in an orthographic view):
 //     e(t) = p_i(t) x p_j(t) = (1 - t)^2 q_i x q_j + t (1 - t) (q_i x r_j + r_i x q_j) + t^2 r_i x r_j
-// It is the homogeneous edge function of Laine & Karras 2011, and the point of the triangle that the sample sees is the
-// mean of the vertices weighted by the edge functions across from them. So its depth is a cubic over a cubic,
+// This is the homogeneous edge function of Laine & Karras 2011. The point of the triangle that the sample sees is the
+// mean of the vertices, each weighted by the edge function opposite to it. So depth is a cubic over a cubic,
 //     z / w = sum_k e_k(t) z_k(t) / sum_k e_k(t) w_k(t)
-// and depth that is linear in view distance, being affine in the point, with 1 for w_k, a cubic over a quadratic. Lists
-// of intervals approximate it by lines (Palmer 2011, 2.1 and 2.3.2), as many as a tolerance asks for (chapter 5). How
-// far the depth departs from a line is bounded, not sampled. With depth N / D and the line h through it at both ends of
-// an interval, u from 0 to 1 there, N - h D vanishes at both and is u (1 - u) P(u); D / (u (1 - u)) is no less than
-// some c. So |N / D - h| is at most |P| / c, and equal to it for a parabola.
+// Depth that is linear in view distance is affine in the point, so its w_k is 1 and it is a cubic over a quadratic.
+// Lists of ranges approximate depth by lines (Palmer 2011, 2.1 and 2.3.2), as many as a tolerance requires (chapter 5).
+//
+// The deviation of depth from a line is bounded, not sampled. Let depth be N / D, let h be the line through it at both
+// ends of an interval, and let u go from 0 to 1 there. N - h D vanishes at both ends, so it is u (1 - u) P(u). D / (u
+// (1 - u)) is at least some constant c. So |N / D - h| is at most |P| / c, with equality for a parabola.
 #ifndef GNOMON_MOTION_TRIANGLE_MOVING_TRIANGLE_H
 #define GNOMON_MOTION_TRIANGLE_MOVING_TRIANGLE_H
 #include "coverage_intervals.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// In clip space, at shutter open (x0, ...) and at shutter close (x1, ...).
+/// A vertex in clip space, at shutter open (x0, ...) and at shutter close (x1, ...).
 GNOMON_STRUCT(moving_vertex) { Real x0, y0, z0, w0, x1, y1, z1, w1; };
 
+/// A triangle of three moving vertices.
 GNOMON_STRUCT(moving_triangle) { GNOMON_T(moving_vertex) a, b, c; };
 
-/// Relative to a sample, at shutter open and at shutter close.
+/// A vertex relative to a sample, at shutter open and at shutter close.
 GNOMON_STRUCT(sheared_vertex) { Real x0, y0, x1, y1; };
 
-/// Depth at the ends of an interval, and how far at most the depth between departs from the line.
+/// Depths at the ends of an interval, and an upper bound of the distance between depth and the line through them.
 GNOMON_STRUCT(depth_line) { Real z0, z1, deviation; };
 
-/// A line of depth from time t0 to t1, and how much of the interval that it is a piece of has passed by then.
+/// A line of depth from time t0 to time t1, and the fraction of the whole interval that has passed at t1.
 GNOMON_STRUCT(depth_piece) { Real t0, t1, z0, z1, passed; };
 
-/// A piece that begins where start of an interval has passed, while a length for it is searched: the share of the
-/// interval that it has now, and whether it is settled, 1 or 0.
+/// A search for the length of a piece: the piece so far, the fraction of the interval at which it starts, the share of
+/// the interval that it has, and whether it is settled, 1 or 0.
 GNOMON_STRUCT(depth_trial)
 {
     GNOMON_T(depth_piece) piece;
     Real start, share, settled;
 };
 
-/// Bernstein coefficients of a cubic, those in the middle times 3.
+/// Bernstein coefficients of a cubic, the middle ones times 3.
 GNOMON_STRUCT(bernstein_cubic) { Real c0, c1, c2, c3; };
 
-/// The sample is in the same units as x / w.
+/// The vertex relative to the sample (s_x, s_y), which is in the units of x / w.
 GNOMON_KERNEL GNOMON_T(sheared_vertex) moving_vertex_shear(GNOMON_T(moving_vertex) v, Real s_x, Real s_y)
 {
     GNOMON_T(sheared_vertex) r;
@@ -54,13 +56,14 @@ GNOMON_KERNEL GNOMON_T(sheared_vertex) moving_vertex_shear(GNOMON_T(moving_verte
     return r;
 }
 
-/// Odd in the two vectors bit for bit, whatever the compiler contracts.
+/// Cross product of two vectors. Odd in the two vectors bit for bit, with and without contraction by the compiler.
 GNOMON_KERNEL Real sheared_cross(Real a_x, Real a_y, Real b_x, Real b_y)
 {
     return gnomon_product(a_x, b_y) - gnomon_product(a_y, b_x);
 }
 
-/// The edge from a to b: positive where the sample is on its left. Exchanging a and b negates it bit for bit.
+/// Edge function from a to b: positive where the sample is on the left of the edge. Exchanging a and b negates it bit
+/// for bit.
 GNOMON_KERNEL GNOMON_T(moving_edge) moving_edge_make(GNOMON_T(sheared_vertex) a, GNOMON_T(sheared_vertex) b)
 {
     GNOMON_T(moving_edge) e;
@@ -70,9 +73,10 @@ GNOMON_KERNEL GNOMON_T(moving_edge) moving_edge_make(GNOMON_T(sheared_vertex) a,
     return e;
 }
 
-/// All three, for moving_coverage. Positive where the triangle runs counterclockwise around the sample. Error of a
-/// coefficient, like that of the covered times: 32 2^-p (X_i Y_j + Y_i X_j), X = max(|x| + |s_x w|) and Y = max(|y| +
-/// |s_y w|) over the shutter's ends, p the bits of the significand.
+/// The three edge functions of a triangle, for moving_coverage. Positive where the triangle runs counterclockwise
+/// around the sample.
+/// Error: 32 2^-p (X_i Y_j + Y_i X_j) for a coefficient; the covered times are exact for coefficients that differ by as
+/// much; X = max(|x| + |s_x w|) and Y = max(|y| + |s_y w|) over the shutter's ends, p the bits of the significand.
 GNOMON_KERNEL GNOMON_T(moving_edges) moving_triangle_edges(GNOMON_T(moving_triangle) m, Real s_x, Real s_y)
 {
     sheared_vertex a = moving_vertex_shear(m.a, s_x, s_y);
@@ -85,13 +89,15 @@ GNOMON_KERNEL GNOMON_T(moving_edges) moving_triangle_edges(GNOMON_T(moving_trian
     return e;
 }
 
-/// Depth of the point at the sample at time t, limited to [-1, 1]; e as of moving_triangle_edges. Divided is 1 where z
-/// is of clip space, for depth z / w, and 0 where z is linear in view distance already: the point's own z is the mean.
-/// Edge functions against the triangle's facing, as rounding and times outside of the coverage make them, count as 0,
-/// so that the depth stays between those of the vertices where all w > 0. Where all three vanish, the depth of the
-/// centroid. Where the point is behind the light, w <= 0, or anything is NaN, the far plane, 1.
+/// Depth of the triangle's point at the sample at time t, in [-1, 1]; e from moving_triangle_edges. divided is 1 for
+/// depth z / w, with z in clip space, and 0 for a z that is linear in view distance: the result is then the mean of the
+/// vertices' z. Edge functions against the triangle's facing, which arise from rounding and outside of the covered
+/// times, count as 0, so that the result lies between the depths of the vertices if all w > 0. If all three vanish, the
+/// result is the depth of the centroid.
+/// Domain: 1, the far plane, where the point is behind the light, w <= 0.
+/// NaN: 1.
 /// Error: that of the edge functions times sum_k |z_k - z v_k| / |sum_k e_k v_k|, and 16 2^-p of the largest |z_k /
-/// v_k|, v = w where divided, else 1.
+/// v_k|; v = w where divided, else 1.
 GNOMON_KERNEL Real moving_depth_at(GNOMON_T(moving_triangle) m, GNOMON_T(moving_edges) e, Real t,
                                    GNOMON_SETTING divided)
 {
@@ -115,23 +121,27 @@ GNOMON_KERNEL Real moving_depth_at(GNOMON_T(moving_triangle) m, GNOMON_T(moving_
     return gnomon_select(Real(0) < w, depth, Real(1));
 }
 
-/// Depth z / w of a triangle in clip space, not linear in view distance in perspective.
+/// Depth z / w at time t of a triangle in clip space. In perspective this depth is not linear in view distance. See
+/// moving_depth_at.
 GNOMON_KERNEL Real moving_triangle_depth(GNOMON_T(moving_triangle) m, GNOMON_T(moving_edges) e, Real t)
 {
     return moving_depth_at(m, e, t, Real(1));
 }
 
-/// Depth linear in view distance, of vertices that have it for z: a cubic over a quadratic in perspective, too, and
-/// linear in time for a plane across the light's axis that moves along it.
+/// Depth at time t of a triangle whose vertices have a z that is linear in view distance. A cubic over a quadratic,
+/// also in perspective; linear in time for a plane across the light's axis that moves along the axis. See
+/// moving_depth_at.
 GNOMON_KERNEL Real moving_triangle_linear_depth(GNOMON_T(moving_triangle) m, GNOMON_T(moving_edges) e, Real t)
 {
     return moving_depth_at(m, e, t, Real(0));
 }
 
-/// The most that N / D departs from its chord, where N - chord D = u (1 - u) P(u), |P| <= most, and D is a cubic with
-/// Bernstein coefficients d0, d0 + turn0, d3 + turn1, d3, those in the middle times 3. With turn the lesser of the two
+/// Upper bound of the deviation of N / D from its chord, where N - chord D = u (1 - u) P(u), |P| <= most, and D is a
+/// cubic with the Bernstein coefficients d0, d0 + turn0, d3 + turn1, d3, the middle ones times 3. With turn the lesser
+/// of the two, for positive D,
 ///     D(u) / (u (1 - u)) >= d0 / u + d3 / (1 - u) + turn - d0 - d3 >= turn + 2 sqrt(d0 d3)
-/// for positive D, and the same with -D. 4, more than all depths, where D may vanish or anything is NaN.
+/// The same holds for negative D, with -D. If D may vanish, the bound is 4, more than all depths.
+/// NaN: 4.
 GNOMON_KERNEL Real depth_nonlinearity(Real most, Real d0, Real d3, Real turn0, Real turn1)
 {
     GNOMON_MASK negative = d0 < Real(0);
@@ -142,9 +152,10 @@ GNOMON_KERNEL Real depth_nonlinearity(Real most, Real d0, Real d3, Real turn0, R
     return gnomon_select(known, most / least, Real(4));
 }
 
-/// The line from depth z0 to z1, between limits. Without limits depth would be free0 and free1 at the ends, and depart
-/// by bend from the line between these. A limit that is passed on the way adds no more than its distance from either
-/// end; and nothing departs by more than the limits allow.
+/// The line from depth z0 to depth z1, with a bound of its deviation. Depths are limited to [least, most]. Without
+/// these limits depth would be free0 and free1 at the ends, and deviate by bend from the line between them. A limit
+/// that is passed in between adds no more than the distance of either end from its free depth; and no deviation exceeds
+/// the limits.
 GNOMON_KERNEL GNOMON_T(depth_line) depth_line_within(Real z0, Real z1, Real free0, Real free1, Real bend, Real least,
                                                      Real most)
 {
@@ -157,7 +168,7 @@ GNOMON_KERNEL GNOMON_T(depth_line) depth_line_within(Real z0, Real z1, Real free
     return r;
 }
 
-/// The edge function from begin to end, by its Bernstein coefficients there, the middle one times 2.
+/// Edge function between the times begin and end, by its Bernstein coefficients there, the middle one times 2.
 GNOMON_KERNEL GNOMON_T(moving_edge) moving_edge_between(GNOMON_T(moving_edge) e, Real begin, Real end)
 {
     Real left = Real(1) - end;
@@ -168,7 +179,8 @@ GNOMON_KERNEL GNOMON_T(moving_edge) moving_edge_between(GNOMON_T(moving_edge) e,
     return r;
 }
 
-/// The sum of edge functions of moving_edge_between, each times what goes linearly from the one number to the other.
+/// Sum of the three edge functions from moving_edge_between, each times a linear function: from a0 to a1, from b0 to
+/// b1, from c0 to c1.
 GNOMON_KERNEL GNOMON_T(bernstein_cubic) moving_edges_combine(GNOMON_T(moving_edges) e, Real a0, Real a1, Real b0,
                                                              Real b1, Real c0, Real c1)
 {
@@ -180,11 +192,12 @@ GNOMON_KERNEL GNOMON_T(bernstein_cubic) moving_edges_combine(GNOMON_T(moving_edg
     return r;
 }
 
-/// The line that stands for the depth between two times, exact at both, and a bound of how far the depth departs from
-/// it. Divided as for moving_depth_at. Where the point may get behind the light, or D near 0, all that depths in
-/// [-1, 1] can depart by. Domain: begin <= end, both within one interval of moving_coverage.
-/// Error: 64 2^-p sum_k e_k (z_k + (1 + deviation) v_k) / |D|, D = sum_k e_k(t) v_k(t) where it is least and in the
-/// numerator the largest coefficients of e_k, |z_k| and |v_k|, v = w where divided, else 1.
+/// Line through the depths at the times begin and end, and an upper bound of the deviation of depth from it. For
+/// divided, see moving_depth_at. If the point may get behind the light, or D near 0, the bound is the largest deviation
+/// of depths in [-1, 1].
+/// Domain: begin <= end, both within one interval of moving_coverage.
+/// Error: 64 2^-p sum_k e_k (z_k + (1 + deviation) v_k) / |D|; D = sum_k e_k(t) v_k(t) where |D| is least, and in the
+/// numerator the largest coefficients of e_k, |z_k| and |v_k|; v = w where divided, else 1.
 GNOMON_KERNEL GNOMON_T(depth_line) moving_depth_line(GNOMON_T(moving_triangle) m, GNOMON_T(moving_edges) e, Real begin,
                                                      Real end, GNOMON_SETTING divided)
 {
@@ -194,8 +207,8 @@ GNOMON_KERNEL GNOMON_T(depth_line) moving_depth_line(GNOMON_T(moving_triangle) m
     x.a = moving_edge_between(e.a, begin, end);
     x.b = moving_edge_between(e.b, begin, end);
     x.c = moving_edge_between(e.c, begin, end);
-    GNOMON_T(bernstein_cubic)
-    n = moving_edges_combine(x, m.a.z0 * b + m.a.z1 * begin, m.a.z0 * f + m.a.z1 * end, m.b.z0 * b + m.b.z1 * begin,
+    bernstein_cubic n =
+        moving_edges_combine(x, m.a.z0 * b + m.a.z1 * begin, m.a.z0 * f + m.a.z1 * end, m.b.z0 * b + m.b.z1 * begin,
                              m.b.z0 * f + m.b.z1 * end, m.c.z0 * b + m.c.z1 * begin, m.c.z0 * f + m.c.z1 * end);
     Real a_w0 = m.a.w0 * b + m.a.w1 * begin;
     Real a_w1 = m.a.w0 * f + m.a.w1 * end;
@@ -206,10 +219,9 @@ GNOMON_KERNEL GNOMON_T(depth_line) moving_depth_line(GNOMON_T(moving_triangle) m
     GNOMON_MASK before =
         Real(0) < a_w0 && Real(0) < a_w1 && Real(0) < b_w0 && Real(0) < b_w1 && Real(0) < c_w0 && Real(0) < c_w1;
     GNOMON_MASK by_w = Real(0) < divided;
-    GNOMON_T(bernstein_cubic)
-    d = moving_edges_combine(x, gnomon_select(by_w, a_w0, Real(1)), gnomon_select(by_w, a_w1, Real(1)),
-                             gnomon_select(by_w, b_w0, Real(1)), gnomon_select(by_w, b_w1, Real(1)),
-                             gnomon_select(by_w, c_w0, Real(1)), gnomon_select(by_w, c_w1, Real(1)));
+    bernstein_cubic d = moving_edges_combine(x, gnomon_select(by_w, a_w0, Real(1)), gnomon_select(by_w, a_w1, Real(1)),
+                                             gnomon_select(by_w, b_w0, Real(1)), gnomon_select(by_w, b_w1, Real(1)),
+                                             gnomon_select(by_w, c_w0, Real(1)), gnomon_select(by_w, c_w1, Real(1)));
     Real free0 = n.c0 / d.c0;
     Real free1 = n.c3 / d.c3;
     Real turn0 = d.c1 - d.c0;
@@ -223,20 +235,14 @@ GNOMON_KERNEL GNOMON_T(depth_line) moving_depth_line(GNOMON_T(moving_triangle) m
                              bend, Real(-1), Real(1));
 }
 
-/// The same for depth z / w.
-GNOMON_KERNEL GNOMON_T(depth_line) moving_triangle_depth_line(GNOMON_T(moving_triangle) m, GNOMON_T(moving_edges) e,
-                                                              Real begin, Real end)
-{
-    return moving_depth_line(m, e, begin, end, Real(1));
-}
-
-/// When so much of an interval has passed: begin and end themselves where passed is 0 and 1, in order between.
+/// Time at which the fraction `passed` of an interval has passed: begin for 0, end for 1, in order between.
 GNOMON_KERNEL Real moving_depth_time(Real begin, Real end, Real passed)
 {
     return gnomon_select(passed < Real(1), begin + gnomon_product(end - begin, passed), end);
 }
 
-/// All that is left of an interval of which so much has passed; NaN counts as 0.
+/// The rest of an interval from the fraction `passed` on, as the first trial.
+/// NaN: passed is then 0.
 GNOMON_KERNEL GNOMON_T(depth_trial) depth_trial_begin(Real begin, Real end, Real passed)
 {
     GNOMON_T(depth_trial) r;
@@ -251,10 +257,10 @@ GNOMON_KERNEL GNOMON_T(depth_trial) depth_trial_begin(Real begin, Real end, Real
     return r;
 }
 
-/// Settled where its line deviates by no more than the tolerance, or it is no longer than 33/1024: 31 such pieces and
-/// what is then left are the most, for all that passed is rounded. Else shortened to a half, or to a third where a half
-/// would not do: lines of a parabola deviate by the squares of their lengths. What is settled stays so, by the same
-/// line.
+/// The next trial. It is settled if its line deviates by at most the tolerance, or if its share is at most 33/1024:
+/// there are at most 31 such pieces and a rest, since `passed` is rounded. Otherwise the piece is shortened to a half,
+/// or to a third if a half would not suffice: lines of a parabola deviate by the squares of their lengths. A settled
+/// trial stays so, with the same line.
 GNOMON_KERNEL GNOMON_T(depth_trial) depth_trial_next(GNOMON_T(depth_trial) trial, GNOMON_T(depth_line) fit, Real begin,
                                                      Real end, GNOMON_SETTING tolerance)
 {
@@ -272,15 +278,16 @@ GNOMON_KERNEL GNOMON_T(depth_trial) depth_trial_next(GNOMON_T(depth_trial) trial
     return trial;
 }
 
-/// A piece of an interval whose line deviates by no more than the tolerance, from where it is passed on: all that is
-/// left, or a half or a third of that, and so on. Lines of unlike length fit where they can and get shorter where they
-/// must (Palmer 2011, chapter 5):
+/// The next piece of an interval, from the fraction `passed` on, whose line deviates by at most the tolerance: the rest
+/// of the interval, or a half or a third of that, and so on. Pieces are as long as their lines fit (Palmer 2011,
+/// chapter 5):
 ///     for (passed = 0; passed < 1; passed = piece.passed)
 ///         piece = moving_depth_piece(m, e, begin, end, passed, divided, tolerance);
-/// gives 1 to 32 pieces. Each begins where the one before has ended, bit for bit, the first at begin, the last ends at
-/// end. Deviation is that of moving_depth_line, with its error. A piece of 33/1024 of the interval is taken whatever it
-/// deviates: beside a turn of the facing no line is near. A tolerance that is NaN or below 0 gives 32 pieces, passed
-/// that is NaN counts as 0.
+/// The loop gives 1 to 32 pieces. Each begins where the one before ends, bit for bit; the first begins at begin, the
+/// last ends at end. Pieces before the last are never shorter than 33/1024 of the interval, even if the tolerance is
+/// missed: where the triangle turns edge-on, no line fits. A tolerance below 0 gives 32 pieces.
+/// NaN: a NaN tolerance gives 32 pieces; passed is then 0.
+/// Error: that of moving_depth_line, for the deviation.
 GNOMON_KERNEL GNOMON_T(depth_piece) moving_depth_piece(GNOMON_T(moving_triangle) m, GNOMON_T(moving_edges) e,
                                                        Real begin, Real end, Real passed, GNOMON_SETTING divided,
                                                        GNOMON_SETTING tolerance)

@@ -1,35 +1,36 @@
-// The edge functions of a moving triangle over many samples: how a rasterizer asks for all texels of a tile, and for
-// whole blocks of them at once.
+// The edge functions of a moving triangle over many samples: coverage and depth for all texels of a rasterizer's tile,
+// and for whole blocks of texels at once.
 //
 // The edge function of moving_triangle.h, (p_i - s w_i) x (p_j - s w_j) for a sample s, is the homogeneous line through
-// p_i and p_j applied to (s_x, s_y, 1), so each of its three Bernstein coefficients is affine in the sample:
+// p_i and p_j applied to (s_x, s_y, 1). So each of its three Bernstein coefficients is affine in the sample:
 //     e(s) = c + x s_x + y s_y,   (x, y, c) = (X_i, Y_i, W_i) x (X_j, Y_j, W_j)
-// Nine numbers for each edge then serve a whole tile. Over a block of samples a coefficient is at most its value at the
-// middle plus |x| and |y| times half of the block's extents, and, since Bernstein polynomials are not negative, the
-// edge function is at most the one with these coefficients, at all times. So moving_coverage of such edges contains
+// Nine numbers for each edge serve a whole tile. Over a block of samples a coefficient is at most its value at the
+// middle plus |x| and |y| times half of the block's extents. Bernstein polynomials are not negative, so the edge
+// function is at all times at most the one with these bounds as coefficients. So moving_coverage of such edges contains
 // all times at which the triangle covers any sample of the block: one kernel shades and culls, in space and in time.
 //
-//     field = triangle_setup_make(triangle, origin_x, origin_y);                    once for a tile
-//     blocks = triangle_setup_around(field, h_x, h_y, facing);
+//     setup = triangle_setup_make(triangle, origin_x, origin_y);                 once for a tile
+//     blocks = triangle_setup_around(setup, h_x, h_y, facing);
 //     times = moving_coverage(triangle_setup_edges(blocks, s_x, s_y), facing);   none: skip the block
-//     times = moving_coverage(triangle_setup_edges(field, s_x, s_y), facing);
+//     times = moving_coverage(triangle_setup_edges(setup, s_x, s_y), facing);
 //
-// Vertices that move alike have edge functions that are linear in time: the cross product of their motions, which is
-// e0 - 2 e1 + e2, vanishes. Then two planes do for an edge, and a quotient for its time. Whether they move alike enough
-// is asked once for each edge, in its own right, so that both triangles there get one answer and no crack opens:
+// Vertices with equal motions have edge functions that are linear in time: the cross product of their motions, e0 - 2
+// e1 + e2, vanishes. Then two planes serve for an edge, and a quotient for its time. Decide for each edge alone whether
+// it is linear enough, so that both triangles at the edge decide alike and no crack opens:
 //
-//     linear = moving_edge_nonlinearity(b, c) <= tolerance, and so on
-//     times = linear_coverage(triangle_setup_edges_linear(field, s_x, s_y))
+//     linear = moving_edge_nonlinearity(b, c) <= tolerance, and so on for the other edges
+//     times = linear_coverage(triangle_setup_edges_linear(setup, s_x, s_y))
 //
-// Depth follows suit. With z linear in view distance, and measured from that of vertex c,
+// Depth that is linear in view distance is measured from that of vertex c:
 //     z(t) = z_c(t) + N(t) / D(t),   N = e_a (z_a - z_c) + e_b (z_b - z_c),   D = e_a + e_b + e_c
-// N is a cubic whose four Bernstein coefficients are affine in the sample, too, and D is at hand: a third of the
-// operations that the vertices' mean takes (moving_triangle.h), and nothing large cancels.
+// N is a cubic whose four Bernstein coefficients are affine in the sample, too, and D follows from the edge functions.
+// This takes a third of the operations of the vertices' mean (moving_triangle.h), and nothing large cancels.
 //
-//     curve = moving_depth_curve(depths, edges, s_x, s_y);   depths = depth_setup_make(field, triangle), once for a tile
-//     z = depth_curve_at(curve, t);   linear_depth_at, where the depths move alike as well
+//     depths = depth_setup_make(setup, triangle);   once for a tile
+//     curve = moving_depth_curve(depths, edges, s_x, s_y);
+//     z = depth_curve_at(curve, t);   linear_depth_at, if edges and depths are linear
 //
-// Lines stand for it where they are near enough, else lines of pieces, as for moving_depth_line:
+// Lines approximate depth where they are near enough, else lines of pieces, as for moving_depth_line:
 //
 //     line = depth_curve_line(curve, begin, end);   if (line.deviation <= tolerance), else
 //     for (passed = 0; passed < 1; passed = piece.passed)
@@ -39,27 +40,28 @@
 #include "moving_triangle.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// c + x s_x + y s_y.
+/// An affine function of the sample: c + x s_x + y s_y.
 GNOMON_STRUCT(sample_plane) { Real x, y, c; };
 
-/// Bernstein coefficients of an edge function, over the samples.
+/// Bernstein coefficients of an edge function, as affine functions of the sample.
 GNOMON_STRUCT(edge_equation) { GNOMON_T(sample_plane) e0, e1, e2; };
 
-/// Those across from the vertices a, b, c of a triangle.
+/// The edge equations opposite to the vertices a, b, c of a triangle.
 GNOMON_STRUCT(triangle_setup) { GNOMON_T(edge_equation) a, b, c; };
 
-/// Bernstein coefficients of N over the samples, the middle ones times 3; z_c at shutter open and close; the least and
-/// the most of all vertices' depths, in [-1, 1].
+/// Bernstein coefficients of N as affine functions of the sample, the middle ones times 3; z_c at shutter open and
+/// close; the least and the largest depth of all vertices, in [-1, 1].
 GNOMON_STRUCT(depth_setup)
 {
     GNOMON_T(sample_plane) n0, n1, n2, n3;
     Real z0, z1, least, most;
 };
 
-/// The same at a sample, and the coefficients of D, the middle one times 2.
+/// Depth at one sample: the coefficients of N, the coefficients of D with the middle one times 2, and the rest as in
+/// depth_setup.
 GNOMON_STRUCT(depth_curve) { Real n0, n1, n2, n3, d0, d1, d2, z0, z1, least, most; };
 
-/// The line through two points of the plane, homogeneous.
+/// Homogeneous line through two points of the plane.
 GNOMON_KERNEL GNOMON_T(sample_plane) homogeneous_line(Real a_x, Real a_y, Real a_w, Real b_x, Real b_y, Real b_w)
 {
     GNOMON_T(sample_plane) r;
@@ -69,7 +71,7 @@ GNOMON_KERNEL GNOMON_T(sample_plane) homogeneous_line(Real a_x, Real a_y, Real a
     return r;
 }
 
-/// The edge from a to b. Exchanging a and b negates it bit for bit.
+/// Edge equation from a to b. Exchanging a and b negates it bit for bit.
 GNOMON_KERNEL GNOMON_T(edge_equation) edge_equation_make(GNOMON_T(moving_vertex) a, GNOMON_T(moving_vertex) b)
 {
     sample_plane early = homogeneous_line(a.x0, a.y0, a.w0, b.x1, b.y1, b.w1);
@@ -83,7 +85,7 @@ GNOMON_KERNEL GNOMON_T(edge_equation) edge_equation_make(GNOMON_T(moving_vertex)
     return f;
 }
 
-/// The same vertex as seen from an origin on the map, in the units of x / w.
+/// The vertex relative to an origin on the map, in the units of x / w.
 GNOMON_KERNEL GNOMON_T(moving_vertex) moving_vertex_translate(GNOMON_T(moving_vertex) v, Real origin_x, Real origin_y)
 {
     sheared_vertex s = moving_vertex_shear(v, origin_x, origin_y);
@@ -94,11 +96,13 @@ GNOMON_KERNEL GNOMON_T(moving_vertex) moving_vertex_translate(GNOMON_T(moving_ve
     return v;
 }
 
-/// How far, in the units of x / w, the edge from a to b is at most from one whose function is linear in time and the
-/// same at both ends: where all w > 0, among the samples between the least and the greatest x / w and y / w of its
-/// vertices. The same from b to a, bit for bit; NaN for an edge without length. Error: 16 2^-p of the result, and 32
-/// 2^-p times the products X_i Y_j + Y_i X_j by which errors of coefficients are given, over the least slope of the
-/// edge function.
+/// Upper bound of the distance, in the units of x / w, of the edge from a to b from an edge that is linear in time and
+/// equal at both ends. It holds among the samples between the least and the largest x / w and y / w of both vertices.
+/// The same from b to a, bit for bit.
+/// Domain: all w > 0.
+/// NaN: the result for an edge without length is NaN.
+/// Error: 16 2^-p of the result, and 32 2^-p times the products X_i Y_j + Y_i X_j of triangle_setup_make's error, over
+/// the least slope of the edge function.
 GNOMON_KERNEL Real moving_edge_nonlinearity(GNOMON_T(moving_vertex) a, GNOMON_T(moving_vertex) b)
 {
     Real a_x0 = a.x0 / a.w0;
@@ -118,11 +122,10 @@ GNOMON_KERNEL Real moving_edge_nonlinearity(GNOMON_T(moving_vertex) a, GNOMON_T(
     moving_vertex p = moving_vertex_translate(a, x, y);
     moving_vertex q = moving_vertex_translate(b, x, y);
     edge_equation f = edge_equation_make(p, q);
-    GNOMON_T(sample_plane)
-    bend = homogeneous_line(p.x1 - p.x0, p.y1 - p.y0, p.w1 - p.w0, q.x1 - q.x0, q.y1 - q.y0, q.w1 - q.w0);
+    sample_plane bend = homogeneous_line(p.x1 - p.x0, p.y1 - p.y0, p.w1 - p.w0, q.x1 - q.x0, q.y1 - q.y0, q.w1 - q.w0);
     Real most = gnomon_abs(bend.c) +
                 Real(0.5) * (gnomon_abs(bend.x) * (high_x - low_x) + gnomon_abs(bend.y) * (high_y - low_y));
-    // A distance is the value over the slope, which in between is least where it is nearest to 0 on a line.
+    // Distance is value over slope. Between the ends, the slope is least where its line is nearest to 0.
     Real turn_x = f.e2.x - f.e0.x;
     Real turn_y = f.e2.y - f.e0.y;
     Real turn = turn_x * turn_x + turn_y * turn_y;
@@ -132,9 +135,10 @@ GNOMON_KERNEL Real moving_edge_nonlinearity(GNOMON_T(moving_vertex) a, GNOMON_T(
     return Real(0.25) * most / gnomon_sqrt(slope_x * slope_x + slope_y * slope_y);
 }
 
-/// Samples are then given relative to the origin, best one near them. Error of a coefficient at sample s, like that of
-/// the covered times: 64 2^-p (X_i Y_j + Y_i X_j), X = max(|x| + (|origin_x| + |s_x|) |w|) over the shutter's ends and
-/// Y alike, p the bits of the significand.
+/// Edge equations of a triangle. Samples are relative to the origin, which is best near them.
+/// Error: 64 2^-p (X_i Y_j + Y_i X_j) for a coefficient at sample s; the covered times are exact for coefficients that
+/// differ by as much. X = max(|x| + (|origin_x| + |s_x|) |w|) over the shutter's ends, Y likewise, p the bits of the
+/// significand.
 GNOMON_KERNEL GNOMON_T(triangle_setup) triangle_setup_make(GNOMON_T(moving_triangle) m, Real origin_x, Real origin_y)
 {
     moving_vertex a = moving_vertex_translate(m.a, origin_x, origin_y);
@@ -147,12 +151,13 @@ GNOMON_KERNEL GNOMON_T(triangle_setup) triangle_setup_make(GNOMON_T(moving_trian
     return f;
 }
 
-/// Odd in the plane, bit for bit.
+/// Value of the affine function p at the sample. Odd in p, bit for bit.
 GNOMON_KERNEL Real sample_plane_at(GNOMON_T(sample_plane) p, Real s_x, Real s_y)
 {
     return (gnomon_product(p.x, s_x) + gnomon_product(p.y, s_y)) + p.c;
 }
 
+/// Edge function at a sample.
 GNOMON_KERNEL GNOMON_T(moving_edge) edge_equation_at(GNOMON_T(edge_equation) f, Real s_x, Real s_y)
 {
     GNOMON_T(moving_edge) e;
@@ -162,8 +167,8 @@ GNOMON_KERNEL GNOMON_T(moving_edge) edge_equation_at(GNOMON_T(edge_equation) f, 
     return e;
 }
 
-/// The edge functions at a sample, for moving_coverage: two triangles that share an edge cover each sample near it
-/// exactly one at a time, as with moving_triangle_edges.
+/// Edge functions at a sample, for moving_coverage. Two triangles that share an edge cover each sample near it exactly
+/// one at a time, as with moving_triangle_edges.
 GNOMON_KERNEL GNOMON_T(moving_edges) triangle_setup_edges(GNOMON_T(triangle_setup) f, Real s_x, Real s_y)
 {
     GNOMON_T(moving_edges) e;
@@ -173,7 +178,8 @@ GNOMON_KERNEL GNOMON_T(moving_edges) triangle_setup_edges(GNOMON_T(triangle_setu
     return e;
 }
 
-/// The same for an edge function that is linear in time: its middle coefficient is the mean of the others.
+/// Edge function at a sample, for an edge function that is linear in time: its middle coefficient is the mean of the
+/// others.
 GNOMON_KERNEL GNOMON_T(moving_edge) linear_edge_at(GNOMON_T(edge_equation) f, Real s_x, Real s_y)
 {
     GNOMON_T(moving_edge) e;
@@ -183,7 +189,7 @@ GNOMON_KERNEL GNOMON_T(moving_edge) linear_edge_at(GNOMON_T(edge_equation) f, Re
     return e;
 }
 
-/// For linear_coverage.
+/// Edge functions at a sample, for linear_coverage: all three are linear in time.
 GNOMON_KERNEL GNOMON_T(moving_edges) triangle_setup_edges_linear(GNOMON_T(triangle_setup) f, Real s_x, Real s_y)
 {
     GNOMON_T(moving_edges) e;
@@ -193,7 +199,8 @@ GNOMON_KERNEL GNOMON_T(moving_edges) triangle_setup_edges_linear(GNOMON_T(triang
     return e;
 }
 
-/// The plane that is as much higher everywhere as this one rises within h_x and h_y; lower where facing is -1.
+/// Upper bound of the affine function p over the samples within h_x and h_y of each sample; the lower bound if facing
+/// is -1.
 GNOMON_KERNEL GNOMON_T(sample_plane) sample_plane_around(GNOMON_T(sample_plane) p, Real h_x, Real h_y,
                                                          GNOMON_SETTING facing)
 {
@@ -201,6 +208,7 @@ GNOMON_KERNEL GNOMON_T(sample_plane) sample_plane_around(GNOMON_T(sample_plane) 
     return p;
 }
 
+/// Bounds of an edge function, as of triangle_setup_around.
 GNOMON_KERNEL GNOMON_T(edge_equation) edge_equation_around(GNOMON_T(edge_equation) f, Real h_x, Real h_y,
                                                            GNOMON_SETTING facing)
 {
@@ -210,10 +218,10 @@ GNOMON_KERNEL GNOMON_T(edge_equation) edge_equation_around(GNOMON_T(edge_equatio
     return f;
 }
 
-/// Bounds of the edge functions over the samples within h_x and h_y of each sample: above where facing is 1, below
-/// where it is -1. Asked at (s_x, s_y), moving_coverage with the same facing has all times at which a triangle of this
-/// facing covers any sample of the block around it. Rounding may take 8 2^-p of the extents of the tile from h_x and
-/// h_y: ask for a little more.
+/// Bounds of the edge functions over the samples within h_x and h_y of each sample: upper bounds if facing is 1, lower
+/// bounds if facing is -1. moving_coverage at (s_x, s_y), with the same facing, contains all times at which a triangle
+/// of this facing covers any sample of the block around (s_x, s_y).
+/// Error: rounding may reduce h_x and h_y by 8 2^-p of the tile's extents; pass a little more.
 GNOMON_KERNEL GNOMON_T(triangle_setup) triangle_setup_around(GNOMON_T(triangle_setup) f, Real h_x, Real h_y,
                                                              GNOMON_SETTING facing)
 {
@@ -223,7 +231,7 @@ GNOMON_KERNEL GNOMON_T(triangle_setup) triangle_setup_around(GNOMON_T(triangle_s
     return f;
 }
 
-/// The plane a times k_a and b times k_b.
+/// The sum of a times k_a and b times k_b.
 GNOMON_KERNEL GNOMON_T(sample_plane) sample_planes_combine(GNOMON_T(sample_plane) a, Real k_a, GNOMON_T(sample_plane) b,
                                                            Real k_b)
 {
@@ -234,14 +242,15 @@ GNOMON_KERNEL GNOMON_T(sample_plane) sample_planes_combine(GNOMON_T(sample_plane
     return r;
 }
 
-/// Twice the middle coefficient of an edge times the one end of a depth, and an outer one times the other end.
+/// Twice the middle coefficient of an edge times one end of a depth, plus an outer coefficient times the other end.
 GNOMON_KERNEL GNOMON_T(sample_plane) depth_setup_middle(GNOMON_T(sample_plane) outer, Real across,
                                                         GNOMON_T(sample_plane) middle, Real beside)
 {
     return sample_planes_combine(outer, across, middle, Real(2) * beside);
 }
 
-/// Depths of the triangle that the field is of; its z is linear in view distance. Samples are the field's.
+/// Depths of the triangle that the setup is of. The vertices' z is linear in view distance; samples are those of the
+/// setup.
 GNOMON_KERNEL GNOMON_T(depth_setup) depth_setup_make(GNOMON_T(triangle_setup) f, GNOMON_T(moving_triangle) m)
 {
     Real a0 = m.a.z0 - m.c.z0;
@@ -264,7 +273,7 @@ GNOMON_KERNEL GNOMON_T(depth_setup) depth_setup_make(GNOMON_T(triangle_setup) f,
     return d;
 }
 
-/// Edge functions as of triangle_setup_edges, at the same sample.
+/// Depth as a function of time at a sample; e are the edge functions at the same sample, from triangle_setup_edges.
 GNOMON_KERNEL GNOMON_T(depth_curve) moving_depth_curve(GNOMON_T(depth_setup) d, GNOMON_T(moving_edges) e, Real s_x,
                                                        Real s_y)
 {
@@ -283,36 +292,42 @@ GNOMON_KERNEL GNOMON_T(depth_curve) moving_depth_curve(GNOMON_T(depth_setup) d, 
     return r;
 }
 
-/// Depth of the point at the sample at time t in [0, 1], where the triangle covers it and all w > 0; within the limits
-/// of all vertices' depths whatever comes. Where D is 0, as at a turn of the facing, one of these limits.
-/// Error: 32 2^-p (S_a |z_a - z_c| + S_b |z_b - z_c| + |z - z_c| (S_a + S_b + S_c)) / |D| and 8 2^-p, S_k the products
-/// X_i Y_j + Y_i X_j that the error of edge k is given by, |z_k - z_c| the larger one of the shutter's ends.
+/// Depth of the triangle's point at the sample at time t in [0, 1], always within the limits of all vertices' depths.
+/// Where D is 0, such as where the triangle turns edge-on, one of these limits.
+/// Domain: the triangle covers the sample at time t, and all w > 0.
+/// NaN: the farthest depth of the vertices.
+/// Error: 32 2^-p (S_a |z_a - z_c| + S_b |z_b - z_c| + |z - z_c| (S_a + S_b + S_c)) / |D| and 8 2^-p; S_k the products
+/// X_i Y_j + Y_i X_j of edge k in triangle_setup_make's error, |z_k - z_c| the larger one of both ends of the shutter.
 GNOMON_KERNEL Real depth_curve_at(GNOMON_T(depth_curve) c, Real t)
 {
     Real s = Real(1) - t;
     Real numerator = (c.n0 * s + c.n1 * t) * (s * s) + (c.n2 * s + c.n3 * t) * (t * t);
     Real denominator = (c.d0 * s + c.d1 * t) * s + c.d2 * (t * t);
     Real z = (c.z0 * s + c.z1 * t) + numerator / denominator;
-    return gnomon_max(gnomon_min(z, c.most), c.least); // a NaN becomes the most
+    return gnomon_max(gnomon_min(z, c.most), c.least); // a NaN becomes the farthest
 }
 
-/// The same where N and D are linear in time: edges are, and depths of vertices move alike. Error: as above.
+/// Depth at time t as of depth_curve_at, for N and D that are linear in time: edges are linear, and depths of vertices
+/// change alike.
+/// NaN: the farthest depth of the vertices.
+/// Error: that of depth_curve_at.
 GNOMON_KERNEL Real linear_depth_at(GNOMON_T(depth_curve) c, Real t)
 {
     Real s = Real(1) - t;
     Real z = (c.z0 * s + c.z1 * t) + (c.n0 * s + c.n3 * t) / (c.d0 * s + c.d2 * t);
-    return gnomon_max(gnomon_min(z, c.most), c.least); // a NaN becomes the most
+    return gnomon_max(gnomon_min(z, c.most), c.least); // a NaN becomes the farthest
 }
 
-/// The line that stands for the depth between two times, that of depth_curve_at at both, and a bound of how far the
-/// depth between departs from it. Where D may vanish, all that the limits allow. Domain: begin <= end, in [0, 1].
-/// Error: 24 2^-p (n + d (r + deviation)) / |D| and 8 2^-p of the largest depth: n and d the largest coefficients of N
-/// and D, those in the middle as means, not times 3 and 2; r the larger |N / D| at an end, |D| where it is least.
+/// Line through the depths of depth_curve_at at the times begin and end, and an upper bound of the deviation of depth
+/// from it. Where D may vanish, the bound is the largest deviation within the limits.
+/// Domain: begin <= end, both in [0, 1].
+/// Error: 24 2^-p (n + d (r + deviation)) / |D| and 8 2^-p of the largest depth; n and d the largest coefficients of N
+/// and D, the middle ones as means, not times 3 and 2; r the larger |N / D| at an end, |D| where it is least.
 GNOMON_KERNEL GNOMON_T(depth_line) depth_curve_line(GNOMON_T(depth_curve) c, Real begin, Real end)
 {
     Real b = Real(1) - begin;
     Real f = Real(1) - end;
-    // Bernstein coefficients between the times: blossoms.
+    // Bernstein coefficients between the two times, by blossoming.
     Real three0 = Real(3) * c.n0;
     Real three3 = Real(3) * c.n3;
     Real n0 = (c.n0 * b + c.n1 * begin) * (b * b) + (c.n2 * b + c.n3 * begin) * (begin * begin);
@@ -336,7 +351,8 @@ GNOMON_KERNEL GNOMON_T(depth_line) depth_curve_line(GNOMON_T(depth_curve) c, Rea
     return depth_line_within(z0, z1, free0, free1, bend, c.least, c.most);
 }
 
-/// The same where N and D are linear in time, with depths of linear_depth_at; the bound is attained.
+/// Line through the depths of linear_depth_at at the times begin and end, and the largest deviation of depth from it,
+/// for N and D that are linear in time. The bound is attained.
 GNOMON_KERNEL GNOMON_T(depth_line) linear_depth_line(GNOMON_T(depth_curve) c, Real begin, Real end)
 {
     Real b = Real(1) - begin;
@@ -353,7 +369,7 @@ GNOMON_KERNEL GNOMON_T(depth_line) linear_depth_line(GNOMON_T(depth_curve) c, Re
     return depth_line_within(z0, z1, free0, free1, bend, c.least, c.most);
 }
 
-/// As moving_depth_piece, of lines of depth_curve_line, for what is linear, too.
+/// The next piece of an interval, as of moving_depth_piece, with lines of depth_curve_line; for linear N and D, too.
 GNOMON_KERNEL GNOMON_T(depth_piece) depth_curve_piece(GNOMON_T(depth_curve) c, Real begin, Real end, Real passed,
                                                       GNOMON_SETTING tolerance)
 {
