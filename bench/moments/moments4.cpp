@@ -82,7 +82,7 @@ struct fast : moments {
     static constexpr bool has_error = true;
     template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
     {
-        return hamburger4_lower(hankel4_plain(biased(moments4<Real>{b1, b2, b3, b4})), z_f);
+        return hamburger4_lower(hankel4_from_moments(biased(moments4<Real>{b1, b2, b3, b4})), z_f);
     }
 };
 

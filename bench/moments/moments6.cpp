@@ -57,7 +57,7 @@ struct fast : moments {
     template <class Real>
     static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real b5, Real b6, Real z_f)
     {
-        return hamburger6_lower(hankel6_plain(biased(moments6<Real>{b1, b2, b3, b4, b5, b6})), z_f);
+        return hamburger6_lower(hankel6_from_moments(biased(moments6<Real>{b1, b2, b3, b4, b5, b6})), z_f);
     }
 };
 

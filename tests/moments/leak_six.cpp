@@ -115,8 +115,8 @@ TEST_CASE("shorter formats leak no more than with the paper's bias")
     const auto paper = [](double weight) {
         return [=](auto c) {
             using T = decltype(c.b1);
-            return hankel6_plain(moments6_add_bias(theta6_inverse(c), T(bias6_paper_b2), T(bias6_paper_b4),
-                                                   T(bias6_paper_b6), T(weight)));
+            return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), T(bias6_paper_b2), T(bias6_paper_b4),
+                                                          T(bias6_paper_b6), T(weight)));
         };
     };
     CHECK(compare<moments6_unorm16>({}, false, paper(8e-5)).leak <= 1.02);

@@ -91,17 +91,7 @@ TEST_CASE_TEMPLATE("two_difference_ordered out of order is off by a rounding of 
     });
 }
 
-TEST_CASE_TEMPLATE("a b - c d: 2 roundings", T, float, double)
-{
-    check_summit(2 + double(u<T>), 5, evaluations, [&](const place& p) {
-        const T a = number<T>(p[0], 4), b = number<T>(p[1], 4), d = number<T>(p[2], 4);
-        const T c = p[4] < 0.3 ? number<T>(p[3], 4) : close_to(T(a * b / d), p[3]);
-        const exact value = exact(a) * exact(b) - exact(c) * exact(d);
-        return ratio(exact(difference_of_products(a, b, c, d)) - value, u<T> * value);
-    });
-}
-
-// Lows of up to 16 u of their highs.
+// Low words of up to 16 u of their high ones.
 TEST_CASE_TEMPLATE("minors of double words: 2^8 u^2, as a number two roundings more", T, float, double)
 {
     const exact square = u<T> * u<T>;

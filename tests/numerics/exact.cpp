@@ -124,13 +124,6 @@ TEST_CASE_TEMPLATE("differences with products under cancellation", T, float, dou
         REQUIRE(abs(sum(subtract_product(c, a, b)) - difference) <= 2 * unit<T> * unit<T> * scale);
         const exact once = exact(subtract_product_rounded(c, a, b));
         REQUIRE(abs(once - difference) <= (2 * unit<T> + 8 * unit<T> * unit<T>)*abs(difference));
-
-        const T d = draw();
-        const T quotient = draw.bits().chance(0.7) ? a * b / d : draw();
-        const exact determinant = exact(a) * exact(b) - exact(quotient) * exact(d);
-        const exact rounded = exact(difference_of_products(a, b, quotient, d));
-        // Two roundings to nearest: (1 + u)^2 - 1 of the exact value.
-        REQUIRE(abs(rounded - determinant) <= (2 * unit<T> + unit<T> * unit<T>)*abs(determinant));
     }
 }
 
@@ -159,19 +152,17 @@ TEST_CASE_TEMPLATE("exact products have the same bits for every Real", T, float,
 {
     constexpr std::size_t block = 64;
     magnitudes<T> draw(8, -domain<T> / 4, domain<T> / 4);
-    std::array<std::array<T, block>, 4> in;
+    std::array<std::array<T, block>, 3> in;
     for (std::int64_t i = 0; i < effort(10'000); i += block) {
         for (auto& column : in)
             for (T& x : column) x = draw();
-        std::array<std::array<T, block>, 3> expected{}, got{};
+        std::array<std::array<T, block>, 2> expected{}, got{};
         const auto run = [&]<class Real>(auto& out) {
             for (std::size_t k = 0; k < block; k += lanes<Real>()) {
-                const Real a = load<Real>(&in[0][k]), b = load<Real>(&in[1][k]), c = load<Real>(&in[2][k]),
-                           d = load<Real>(&in[3][k]);
+                const Real a = load<Real>(&in[0][k]), b = load<Real>(&in[1][k]), c = load<Real>(&in[2][k]);
                 const double_word<Real> p = subtract_product(c, a, b);
                 store(p.high, &out[0][k]);
                 store(p.low, &out[1][k]);
-                store(difference_of_products(a, b, c, d), &out[2][k]);
             }
         };
         run.template operator()<T>(expected);

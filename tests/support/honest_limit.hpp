@@ -55,7 +55,7 @@ template <class Norm> double honest_limit(const moments4<double>& b, double z_f,
         return certified_mean(certificate_of_nodes(z_f, std::exp(x[0]), between ? behind : -behind), b, norm);
     };
     for (const double scale : {0.2, 1.0, 5.0}) {
-        const auto h = hankel4_plain(moments4_add_bias(b, bias, bias, scale * weight));
+        const auto h = hankel4_from_moments(moments4_add_bias(b, bias, bias, scale * weight));
         const auto d = hamburger4_distribution(h, z_f);
         const double y1 = d.depth1 - z_f, y2 = d.depth2 - z_f;
         if (!(y1 < 0)) continue;

@@ -74,7 +74,7 @@ inline constexpr input_family<T> input_families[] = {
     {"covariances6", 12, [](auto put, const situation& s, bit_source&) { put(covariances6_from_moments(moments6_in<T>(s))); }},
     {"certificate4", 6,
      [](auto put, const situation& s, bit_source& bits) {
-         put(certificate4_plain(any_hankel4<T>(s, bits), T(s.receiver)));
+         put(certificate4_make(any_hankel4<T>(s, bits), T(s.receiver)));
      }},
     {"interval", 2,
      [](auto put, const situation& s, bit_source& bits) {

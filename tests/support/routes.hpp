@@ -108,7 +108,7 @@ template <class F> void for_each_route(F f)
 {
     const auto four = [&](const char* name, auto factor) { f(route4<decltype(factor)>{{}, name, factor}); };
     const auto six = [&](const char* name, auto factor) { f(route6<decltype(factor)>{{}, name, factor}); };
-    four("hankel4_plain", [](auto b) { return hankel4_plain(b); });
+    four("hankel4_from_moments", [](auto b) { return hankel4_from_moments(b); });
     four("hankel4_constant_bias", [](auto b) {
         return hankel4_constant_bias(b, GNOMON_TEST_SETTING(bias4_raw_paper_b2),
                                      GNOMON_TEST_SETTING(bias4_raw_paper_b4), GNOMON_TEST_SETTING(3e-7));
@@ -123,7 +123,7 @@ template <class F> void for_each_route(F f)
     certified("certified4_half", [](auto b, auto z_f) { return certified4_half(b, z_f); });
     certified("certified4_half_filtered", [](auto b, auto z_f) { return certified4_half_filtered(b, z_f); });
     certified("certified4_float", [](auto b, auto z_f) { return certified4_float(b, z_f); });
-    six("hankel6_plain", [](auto b) { return hankel6_plain(b); });
+    six("hankel6_from_moments", [](auto b) { return hankel6_from_moments(b); });
     six("hankel6_constant_bias", [](auto b) {
         return hankel6_constant_bias(b, GNOMON_TEST_SETTING(bias6_raw_b2), GNOMON_TEST_SETTING(bias6_raw_b4),
                                      GNOMON_TEST_SETTING(bias6_raw_b6), GNOMON_TEST_SETTING(5e-6));

@@ -66,7 +66,7 @@ template <class T> hankel4<T> any_hankel4(const situation& s, bit_source& bits)
     const moments4<T> b = moments4_in<T>(s);
     switch (bits.below(4)) {
         case 0:
-            return hankel4_plain(b);
+            return hankel4_from_moments(b);
         case 1:
             return hankel4_from_half(b);
         case 2:
@@ -81,7 +81,7 @@ template <class T> hankel6<T> any_hankel6(const situation& s, bit_source& bits)
     const moments6<T> b = moments6_in<T>(s);
     switch (bits.below(3)) {
         case 0:
-            return hankel6_plain(b);
+            return hankel6_from_moments(b);
         case 1:
             return hankel6_constant_bias(b, T(bias6_raw_b2), T(bias6_raw_b4), T(bias6_raw_b6), T(stored6_float_weight));
         default:

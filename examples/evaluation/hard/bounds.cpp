@@ -121,8 +121,8 @@ void bounds(const settings& how)
                      {"weights", r.weights},
                      {"bounds",
                       {facts_of(2, two_moments{{b.b1, b.b2}}),
-                       facts_of(4, four_moments{hankel4_plain(moments4<double>{b.b1, b.b2, b.b3, b.b4})}),
-                       facts_of(6, six_moments{hankel6_plain(b)})}}};
+                       facts_of(4, four_moments{hankel4_from_moments(moments4<double>{b.b1, b.b2, b.b3, b.b4})}),
+                       facts_of(6, six_moments{hankel6_from_moments(b)})}}};
     renderer::write_file(how.out / "gallery" / "bounds" / "facts.json", facts.dump(1));
 }
 

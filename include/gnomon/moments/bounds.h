@@ -1,23 +1,28 @@
-// From bounds on a depth distribution to the shadow intensity that is shown.
+// The shadow intensity that is shown, from bounds on a depth distribution (Peters et al. 2017, Sec. 2.6 and 5.3).
 #ifndef GNOMON_MOMENTS_BOUNDS_H
 #define GNOMON_MOMENTS_BOUNDS_H
 #include "../numerics/select.h"
 GNOMON_NAMESPACE_BEGIN
 
 /// Bounds on the shadow intensity: lower <= Z(z < z_f) and Z(z <= z_f) <= upper = lower + weight, where weight is the
-/// largest that z_f itself can have. All in [0, 1]; all 0 where a moment or the receiver was NaN.
+/// largest probability of depth z_f itself. All are in [0, 1], and 0 if a moment or the receiver's depth was NaN.
 GNOMON_STRUCT(hamburger_bounds) { Real lower, upper, weight; };
 
-/// Shadow intensity lower + (1 - overestimation) weight (Peters et al. 2017, 5.3.1: overestimation beta multiplies
-/// visibility). 1 never darkens a lit surface, 1/2 halves the worst error, as for single scattering. Domain [0, 1],
-/// clamped; NaN counts as 0.
+/// Shadow intensity lower + (1 - overestimation) weight, in [0, 1]. An overestimation (of visibility, the paper's beta) of
+/// 1 never darkens a lit surface; 1/2 halves the worst error and suits single scattering.
+/// Domain: overestimation in [0, 1], clamped.
+/// NaN: an overestimation of NaN counts as 0; NaN bounds give 0, lit.
+/// Source: Peters 2017, Sec. 5.3.1
 GNOMON_KERNEL Real bounds_intensity(GNOMON_T(hamburger_bounds) bounds, GNOMON_SETTING overestimation)
 {
     return saturate_or_zero(bounds.lower + (Real(1) - saturate_or_zero(overestimation)) * bounds.weight);
 }
 
-/// Over-darkening: intensity / strength, at most 1, which removes leaks below 1 - strength (Annen et al. 2007;
-/// paper, 2.6: 0.98). Domain (0, 1]; elsewhere the intensity is still in [0, 1].
+/// Over-darkened intensity min(1, intensity / strength), which removes light leaking of up to 1 - strength. The paper uses
+/// a strength of 0.98.
+/// Domain: strength in (0, 1]; elsewhere the result is still in [0, 1].
+/// NaN: 0, lit.
+/// Source: Annen 2007; Peters 2017, Sec. 2.6
 GNOMON_KERNEL Real over_darken(Real intensity, GNOMON_SETTING strength)
 {
     return saturate_or_zero(intensity / strength);

@@ -48,7 +48,7 @@ GNOMON_KERNEL GNOMON_T(certificate4) certificate4_about(Real z_f, Real n0, Real 
 
 /// The certificate for a receiver z_f in [-1, 1], from a positive definite matrix. The two quotients wait for no root:
 /// right for biased moments of 16-bit storage, whose bias keeps nodes so far apart that b + r and b - r may cancel.
-GNOMON_KERNEL GNOMON_T(certificate4) certificate4_plain(GNOMON_T(hankel4) h, Real z_f)
+GNOMON_KERNEL GNOMON_T(certificate4) certificate4_make(GNOMON_T(hankel4) h, Real z_f)
 {
     Real u = z_f - h.mean;
     Real vu = h.variance * u;
@@ -105,14 +105,14 @@ GNOMON_KERNEL Real certificate4_theta_mean(GNOMON_T(certificate4) p, GNOMON_T(mo
 /// noise; h is the matrix of b with a bias. Plain arithmetic: for moments from 16-bit storage.
 GNOMON_KERNEL Real certified4_lower(GNOMON_T(hankel4) h, GNOMON_T(moments4) b, GNOMON_T(moments4) noise, Real z_f)
 {
-    certificate4 p = certificate4_plain(h, clamp_or_nan(z_f, Real(-1), Real(1)));
+    certificate4 p = certificate4_make(h, clamp_or_nan(z_f, Real(-1), Real(1)));
     return saturate_or_zero(certificate4_mean(p, b, noise));
 }
 
 /// The same from channels c of theta4, each off by at most noise; h is the matrix of their moments with a bias.
 GNOMON_KERNEL Real certified4_theta_lower(GNOMON_T(hankel4) h, GNOMON_T(moments4) c, GNOMON_SETTING noise, Real z_f)
 {
-    certificate4 p = certificate4_plain(h, clamp_or_nan(z_f, Real(-1), Real(1)));
+    certificate4 p = certificate4_make(h, clamp_or_nan(z_f, Real(-1), Real(1)));
     return saturate_or_zero(certificate4_theta_mean(p, c, noise));
 }
 
@@ -121,8 +121,8 @@ GNOMON_CONSTANT(certified4_scale, 137438953472.0); // 2^37
 /// The same for moments stored as floats, whose mean of p float arithmetic cannot give: from the mean of the biased
 /// moments, in h by hankel4_constant_bias with these settings, which is the weight of the node before z_f or 1 less that of
 /// z_f, less what the bias has added. 0 where rounding left h at its floor.
-GNOMON_KERNEL Real certified4_apart_lower(GNOMON_T(hankel4) h, GNOMON_T(moments4) noise, GNOMON_SETTING bias2,
-                                          GNOMON_SETTING bias4, GNOMON_SETTING alpha, Real z_f)
+GNOMON_KERNEL Real certified4_constant_bias_lower(GNOMON_T(hankel4) h, GNOMON_T(moments4) noise, GNOMON_SETTING bias2,
+                                                  GNOMON_SETTING bias4, GNOMON_SETTING alpha, Real z_f)
 {
     Real z = clamp_or_nan(z_f, Real(-1), Real(1));
     Real u = z - h.mean;
@@ -163,7 +163,7 @@ GNOMON_KERNEL Real certified4_apart_lower(GNOMON_T(hankel4) h, GNOMON_T(moments4
 }
 
 /// The most that rounding moves each moment of b: 2 delta of itself, at most delta, at least the share of a denormal.
-GNOMON_KERNEL GNOMON_T(moments4) rounding4(GNOMON_T(moments4) b, GNOMON_SETTING delta, GNOMON_SETTING least)
+GNOMON_KERNEL GNOMON_T(moments4) moments4_rounding(GNOMON_T(moments4) b, GNOMON_SETTING delta, GNOMON_SETTING least)
 {
     GNOMON_T(moments4) e;
     e.b1 = gnomon_max(least, gnomon_min(delta, (delta + delta) * gnomon_abs(b.b1)));
@@ -174,7 +174,8 @@ GNOMON_KERNEL GNOMON_T(moments4) rounding4(GNOMON_T(moments4) b, GNOMON_SETTING 
 }
 
 /// The same for roundings before the filter, which the moments of |z| bound: E |z|^3 <= (b2 + b4) / 2.
-GNOMON_KERNEL GNOMON_T(moments4) rounding4_filtered(GNOMON_T(moments4) b, GNOMON_SETTING delta, GNOMON_SETTING least)
+GNOMON_KERNEL GNOMON_T(moments4) moments4_rounding_filtered(GNOMON_T(moments4) b, GNOMON_SETTING delta,
+                                                            GNOMON_SETTING least)
 {
     GNOMON_T(moments4) e;
     e.b1 = delta;

@@ -19,32 +19,26 @@ GNOMON_NAMESPACE_BEGIN
 /// are positive for any moments within [-2^30, 2^30]; larger ones can overflow, and a NaN among them stays one.
 GNOMON_STRUCT(hankel4) { Real mean, variance, third, determinant; };
 
-/// From mean, V, L and V M - L^2.
+/// The factored matrix from the mean, V, L and V M - L^2. Pivots below the floor are raised to the floor, so that
+/// indefinite moments still name a distribution.
+/// NaN: stays NaN, as the second argument of gnomon_max (portable.h).
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_make(Real mean, Real variance, Real covariance, Real determinant)
 {
     GNOMON_T(hankel4) h;
     h.mean = mean;
-    h.variance = variance;
-    h.third = covariance - (mean + mean) * variance;
-    h.determinant = determinant;
+    h.variance = gnomon_max(GNOMON_PIVOT_FLOOR, variance);
+    h.third = covariance - (mean + mean) * h.variance;
+    h.determinant = gnomon_max(GNOMON_PIVOT_FLOOR * h.variance, determinant);
     return h;
 }
 
-/// The same with guarded pivots: none below the floor, so that indefinite moments still name a distribution. A NaN, the
-/// second argument of gnomon_max, stays one (portable.h).
-GNOMON_KERNEL GNOMON_T(hankel4) hankel4_floor_pivots(Real mean, Real variance, Real covariance, Real determinant)
-{
-    Real v = gnomon_max(GNOMON_PIVOT_FLOOR, variance);
-    return hankel4_make(mean, v, covariance, gnomon_max(GNOMON_PIVOT_FLOOR * v, determinant));
-}
-
 /// Plain arithmetic: right for moments from 16-bit storage, whose own errors are larger, and for double.
-GNOMON_KERNEL GNOMON_T(hankel4) hankel4_plain(GNOMON_T(moments4) b)
+GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_moments(GNOMON_T(moments4) b)
 {
     Real v = b.b2 - b.b1 * b.b1;
     Real l = b.b3 - b.b1 * b.b2;
     Real m = b.b4 - b.b2 * b.b2;
-    return hankel4_floor_pivots(b.b1, v, l, v * m - l * l);
+    return hankel4_make(b.b1, v, l, v * m - l * l);
 }
 
 /// V, L and M without cancellation. Jensen's inequality orders the terms of V and M, not those of L.
@@ -73,7 +67,7 @@ GNOMON_KERNEL GNOMON_T(hankel4) hankel4_constant_bias(GNOMON_T(moments4) b, GNOM
     double_word v = covariance_add_bias(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
     double_word l = covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
     double_word m = covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
-    return hankel4_floor_pivots(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
+    return hankel4_make(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
 }
 
 GNOMON_NAMESPACE_END

@@ -112,7 +112,7 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_constant_bias(GNOMON_T(moments6) b, GNOM
 }
 
 /// Plain arithmetic: right for moments from 10 and 16 bit storage, whose own errors are larger, and for double.
-GNOMON_KERNEL GNOMON_T(hankel6) hankel6_plain(GNOMON_T(moments6) b)
+GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_moments(GNOMON_T(moments6) b)
 {
     Real c11 = b.b2 - b.b1 * b.b1;
     Real c12 = b.b3 - b.b1 * b.b2;

@@ -1,7 +1,8 @@
 // Exponential function and natural logarithm with the same bits in every language.
-// Reduction by powers of two (Cody & Waite 1980; ln 2 in two parts, the first of 10 bits, so that its multiples are
-// exact), then a minimax polynomial: a short one for float, a long one for double. tests/derivations/minimax.cpp prints
-// both.
+//
+// The argument is reduced by a power of two (Cody & Waite 1980). ln 2 has two parts, the first of 10 bits, so that its
+// multiples are exact. A minimax polynomial approximates the function on the reduced range: a short one for float, a
+// long one for double. tests/derivations/minimax.cpp prints the coefficients of both.
 #ifndef GNOMON_NUMERICS_EXP_H
 #define GNOMON_NUMERICS_EXP_H
 #include "round.h"
@@ -42,9 +43,12 @@ GNOMON_CONSTANT(log_double_4, 0.1818356240364567);
 GNOMON_CONSTANT(log_double_5, 0.15314098871014789);
 GNOMON_CONSTANT(log_double_6, 0.14795474816803084);
 
-/// e^x. Valid range: [-87, 88] in float, [-708, 709] in double; beyond an end its value there, so the result is always
-/// finite and a normal number; a NaN stays a NaN. Max error: 1 ulp in float, 1.2 in double, where taking 1023 ln 2 off
-/// the argument costs up to 3 2^-56 of the result, nearly 0.4 ulp.
+/// e^x, always a finite, normal number.
+/// Domain: [-87, 88] in float, [-708, 709] in double; x is clamped.
+/// NaN: stays NaN.
+/// Error: 1 ulp in float, 1.2 ulp in double, where subtracting up to 1023 ln 2 from x costs 3 2^-56 of the result,
+/// nearly 0.4 ulp.
+/// Source: Cody & Waite 1980
 GNOMON_KERNEL Real polynomial_exp(Real x)
 {
     Real low = Real(-87);
@@ -56,31 +60,30 @@ GNOMON_KERNEL Real polynomial_exp(Real x)
     x = clamp_or_nan(x, low, high);
     Real n = nearest_integer(x * GNOMON_LITERAL(exp_log2_e));
     Real r = (x - n * Real(0.693359375)) - n * GNOMON_LITERAL(exp_ln2_low);
-    Real p = GNOMON_LITERAL(exp_float_4);
+    Real p =
+        GNOMON_LITERAL(exp_float_0) +
+        r * (GNOMON_LITERAL(exp_float_1) +
+             r * (GNOMON_LITERAL(exp_float_2) + r * (GNOMON_LITERAL(exp_float_3) + r * GNOMON_LITERAL(exp_float_4))));
     if (GNOMON_DIGITS > 24) {
-        p = GNOMON_LITERAL(exp_double_9);
-        p = p * r + GNOMON_LITERAL(exp_double_8);
-        p = p * r + GNOMON_LITERAL(exp_double_7);
-        p = p * r + GNOMON_LITERAL(exp_double_6);
-        p = p * r + GNOMON_LITERAL(exp_double_5);
-        p = p * r + GNOMON_LITERAL(exp_double_4);
-        p = p * r + GNOMON_LITERAL(exp_double_3);
-        p = p * r + GNOMON_LITERAL(exp_double_2);
-        p = p * r + GNOMON_LITERAL(exp_double_1);
-        p = p * r + GNOMON_LITERAL(exp_double_0);
-    } else {
-        p = p * r + GNOMON_LITERAL(exp_float_3);
-        p = p * r + GNOMON_LITERAL(exp_float_2);
-        p = p * r + GNOMON_LITERAL(exp_float_1);
-        p = p * r + GNOMON_LITERAL(exp_float_0);
+        p = GNOMON_LITERAL(exp_double_0) +
+            r * (GNOMON_LITERAL(exp_double_1) +
+                 r * (GNOMON_LITERAL(exp_double_2) +
+                      r * (GNOMON_LITERAL(exp_double_3) +
+                           r * (GNOMON_LITERAL(exp_double_4) +
+                                r * (GNOMON_LITERAL(exp_double_5) +
+                                     r * (GNOMON_LITERAL(exp_double_6) +
+                                          r * (GNOMON_LITERAL(exp_double_7) +
+                                               r * (GNOMON_LITERAL(exp_double_8) +
+                                                    r * GNOMON_LITERAL(exp_double_9)))))))));
     }
     return (Real(1) + (r + r * r * p)) * gnomon_power_of_two(n);
 }
 
-/// significand 2^exponent.
+/// The number significand 2^exponent.
 GNOMON_STRUCT(scaled_number) { Real significand, exponent; };
 
-/// Takes 2^k out of the significand where it holds it, or 2^-k.
+/// s with a factor of 2^k moved from the significand to the exponent if the significand is at least 2^k, with a factor
+/// of 2^-k if it is at most 2^-k.
 GNOMON_KERNEL GNOMON_T(scaled_number) scaled_number_step(GNOMON_T(scaled_number) s, Real k)
 {
     Real up = gnomon_power_of_two(k);
@@ -93,8 +96,12 @@ GNOMON_KERNEL GNOMON_T(scaled_number) scaled_number_step(GNOMON_T(scaled_number)
     return r;
 }
 
-/// The natural logarithm. Valid range: [2^-126, 2^127] in float, [2^-1022, 2^1023] in double; beyond an end, at 0 and
-/// below it, its value at that end; a NaN stays a NaN. Max error: 0.9 ulp in float and in double.
+/// The natural logarithm of x.
+/// Domain: [2^-126, 2^127] in float, [2^-1022, 2^1023] in double; x is clamped, so that 0 and negative numbers give the
+/// value at the lower end.
+/// NaN: stays NaN.
+/// Error: 0.9 ulp in float and in double.
+/// Source: Cody & Waite 1980
 GNOMON_KERNEL Real polynomial_log(Real x)
 {
     GNOMON_T(scaled_number) s;
@@ -120,23 +127,19 @@ GNOMON_KERNEL Real polynomial_log(Real x)
         gnomon_select(large, s.significand * Real(0.5), gnomon_select(tiny, s.significand * Real(2), s.significand));
     Real n = gnomon_select(large, s.exponent + Real(1), gnomon_select(tiny, s.exponent - Real(1), s.exponent));
 
-    // With y = f / (2 + f): log(1 + f) = 2 artanh y = f - (f^2 / 2 - y (f^2 / 2 + y^2 p(y^2))), as in fdlibm: f is
-    // exact.
+    // As in fdlibm, with exact f and y = f / (2 + f):
+    // log(1 + f) = 2 artanh y = f - (f^2 / 2 - y (f^2 / 2 + y^2 p(y^2))).
     Real f = m - Real(1);
     Real y = f / (Real(2) + f);
     Real z = y * y;
-    Real p = GNOMON_LITERAL(log_float_2);
+    Real p = GNOMON_LITERAL(log_float_0) + z * (GNOMON_LITERAL(log_float_1) + z * GNOMON_LITERAL(log_float_2));
     if (GNOMON_DIGITS > 24) {
-        p = GNOMON_LITERAL(log_double_6);
-        p = p * z + GNOMON_LITERAL(log_double_5);
-        p = p * z + GNOMON_LITERAL(log_double_4);
-        p = p * z + GNOMON_LITERAL(log_double_3);
-        p = p * z + GNOMON_LITERAL(log_double_2);
-        p = p * z + GNOMON_LITERAL(log_double_1);
-        p = p * z + GNOMON_LITERAL(log_double_0);
-    } else {
-        p = p * z + GNOMON_LITERAL(log_float_1);
-        p = p * z + GNOMON_LITERAL(log_float_0);
+        p = GNOMON_LITERAL(log_double_0) +
+            z * (GNOMON_LITERAL(log_double_1) +
+                 z * (GNOMON_LITERAL(log_double_2) +
+                      z * (GNOMON_LITERAL(log_double_3) +
+                           z * (GNOMON_LITERAL(log_double_4) +
+                                z * (GNOMON_LITERAL(log_double_5) + z * GNOMON_LITERAL(log_double_6))))));
     }
     Real square = Real(0.5) * f * f;
     Real rest = y * (square + z * p) + n * GNOMON_LITERAL(exp_ln2_low);

@@ -1,5 +1,5 @@
 // Half floats (IEEE 754 binary16: 1 sign, 5 exponent, 10 fraction bits) for storage, as bit patterns in std::uint16_t.
-// Rounds once, to nearest, ties to even, from float or from double, below the smallest normal half too.
+// Encoding from float or double rounds once, to nearest, ties to even, also to denormal halves.
 #ifndef GNOMON_NUMERICS_HALF_HPP
 #define GNOMON_NUMERICS_HALF_HPP
 
@@ -13,17 +13,18 @@
 
 namespace gnomon {
 
-/// The half nearest to x; from 65520 on infinity; NaN becomes the quiet NaN of the same sign.
+/// The half nearest to x; infinity for |x| >= 65520.
+/// NaN: the quiet NaN of the same sign.
 template <std::floating_point T> constexpr std::uint16_t half_encode(T x)
 {
     using limits = std::numeric_limits<T>;
     using bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
-    static_assert(limits::is_iec559 && sizeof(T) == sizeof(bits), "gnomon: half_encode takes float or double");
+    static_assert(limits::is_iec559 && sizeof(T) == sizeof(bits), "gnomon: half_encode needs float or double");
     constexpr int shift = limits::digits - 11;
     constexpr bits one = 1;
-    // Sums with this number round at the step of the denormal halves, 2^-24.
+    // A sum with this number rounds to a multiple of 2^-24, the step of denormal halves.
     constexpr T denormal_rounder = T(one << (limits::digits - 1)) * T(0x1p-24);
-    // Takes the difference between the two exponent biases, limits::max_exponent - 1 and 15, away.
+    // Subtracts the difference between the two exponent biases, limits::max_exponent - 1 and 15.
     constexpr bits rebias = bits(limits::max_exponent - 16) << (limits::digits - 1);
 
     const bits word = std::bit_cast<bits>(x);
@@ -38,7 +39,8 @@ template <std::floating_point T> constexpr std::uint16_t half_encode(T x)
     return static_cast<std::uint16_t>(sign | code);
 }
 
-/// The value of a half, exactly; every NaN stays one.
+/// The value of a half, exactly.
+/// NaN: stays NaN.
 constexpr float half_decode(std::uint16_t code)
 {
     const std::uint32_t sign = std::uint32_t(code & 0x8000) << 16;

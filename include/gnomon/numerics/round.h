@@ -1,10 +1,13 @@
-// Rounding to whole numbers by addition: 1.5 2^(p - 1) has a step of 1, so the sum rounds and the difference is exact.
+// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
+// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
 #ifndef GNOMON_NUMERICS_ROUND_H
 #define GNOMON_NUMERICS_ROUND_H
 #include "../portable.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// The whole number nearest to x, ties to even. Domain: |x| <= 2^22 in float, 2^51 in double; a NaN stays a NaN.
+/// The whole number nearest to x, ties to even.
+/// Domain: |x| <= 2^22 in float, 2^51 in double.
+/// NaN: stays NaN.
 GNOMON_KERNEL Real nearest_integer(Real x)
 {
     Real rounder = Real(-12582912);

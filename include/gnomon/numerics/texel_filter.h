@@ -1,14 +1,15 @@
-// Texels and the weights of a tent filter on them: which texel a position is in, and how much each of K + 1 texels in a
-// row counts in the mean of K adjacent bilinear look-ups.
+// Texels of a shadow map along one axis: the texel that holds a position, and the weights of the K + 1 texels that K
+// adjacent bilinear look-ups read, which are those of a filter K texels wide with linear ends.
 #ifndef GNOMON_NUMERICS_TEXEL_FILTER_H
 #define GNOMON_NUMERICS_TEXEL_FILTER_H
 #include "round.h"
 #include "select.h"
 GNOMON_NAMESPACE_BEGIN
 
-GNOMON_CONSTANT(texel_limit, 65536.0); // no map is larger: what is beyond is one texel
+GNOMON_CONSTANT(texel_limit, 65536.0); // no map is larger: all positions beyond share one texel
 
-/// The texel that a position is in, the largest whole number up to it, limited to +-65536; 65536 for NaN.
+/// The texel that holds position x: the largest whole number not above x, clamped to [-65536, 65536].
+/// NaN: 65536.
 GNOMON_KERNEL Real texel_below(Real x)
 {
     Real limit = GNOMON_LITERAL(texel_limit);
@@ -17,8 +18,11 @@ GNOMON_KERNEL Real texel_below(Real x)
     return whole - gnomon_select(inside < whole, Real(1), Real(0));
 }
 
-/// What texel i of K + 1 weighs, along one axis, in the mean of K bilinear look-ups side by side: u is the first one's
-/// distance from the centre of texel 0. In [0, 1]; over the K + 1 texels they sum to 1, within K + 2 roundings.
+/// The weight of texel i, 0 to K, in the mean of K = look_ups adjacent bilinear look-ups along one axis. u is the
+/// distance of the first look-up from the centre of texel 0. In [0, 1].
+/// Domain: u in [0, 1], clamped.
+/// NaN: u counts as 0.
+/// Error: the K + 1 weights sum to 1 within K + 2 roundings.
 GNOMON_KERNEL Real texel_weight(Real u, GNOMON_SETTING i, GNOMON_SETTING look_ups)
 {
     Real share = saturate_or_zero(u);

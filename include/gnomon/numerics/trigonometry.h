@@ -1,7 +1,8 @@
 // Cosine, sine and the angle of a vector with the same bits in every language.
-// Reduction to |r| <= pi / 4 with pi / 2 in three parts, each of so few bits that its multiples are exact (Cody & Waite
-// 1980), then a minimax polynomial: a short one for float, a long one for double. tests/derivations/minimax.cpp prints
-// both.
+//
+// Angles are reduced to |y| <= pi / 4 by multiples of pi / 2 in three parts, the first two of so few bits that their
+// multiples are exact (Cody & Waite 1980). A minimax polynomial approximates the function on the reduced range: a short
+// one for float, a long one for double. tests/derivations/minimax.cpp prints the coefficients of both.
 #ifndef GNOMON_NUMERICS_TRIGONOMETRY_H
 #define GNOMON_NUMERICS_TRIGONOMETRY_H
 #include "round.h"
@@ -54,12 +55,14 @@ GNOMON_CONSTANT(atan_double_8, -0.050391939209447408);
 GNOMON_CONSTANT(atan_double_9, 0.038062223780711196);
 GNOMON_CONSTANT(atan_double_10, -0.017905126733869233);
 
-/// cos x and sin x.
+/// A cosine and the sine of the same angle.
 GNOMON_STRUCT(cosine_sine) { Real cosine, sine; };
 
-/// cos x and sin x. Valid range: |x| <= 8192; beyond an end the values there, so both are always in [-1, 1] up to the
-/// error; a NaN gives two NaNs. Max error: 1.5 ulp for |x| <= pi / 4; elsewhere 1.75 2^-p, p the bits of the
-/// significand.
+/// cos x and sin x, in [-1, 1] up to the error.
+/// Domain: [-8192, 8192]; x is clamped.
+/// NaN: two NaNs.
+/// Error: 1.5 ulp for |x| <= pi / 4, else 1.75 2^-p, where p is the number of bits of the significand.
+/// Source: Cody & Waite 1980
 GNOMON_KERNEL GNOMON_T(cosine_sine) polynomial_cosine_sine(Real x)
 {
     x = clamp_or_nan(x, Real(-8192), Real(8192));
@@ -67,31 +70,24 @@ GNOMON_KERNEL GNOMON_T(cosine_sine) polynomial_cosine_sine(Real x)
     Real y =
         ((x - n * Real(1.5703125)) - n * Real(0.0004837512969970703125)) - n * GNOMON_LITERAL(trigonometry_half_pi_low);
     Real z = y * y;
-    Real s = GNOMON_LITERAL(sin_float_2);
-    Real c = GNOMON_LITERAL(cos_float_2);
+    Real s = GNOMON_LITERAL(sin_float_0) + z * (GNOMON_LITERAL(sin_float_1) + z * GNOMON_LITERAL(sin_float_2));
+    Real c = GNOMON_LITERAL(cos_float_0) + z * (GNOMON_LITERAL(cos_float_1) + z * GNOMON_LITERAL(cos_float_2));
     if (GNOMON_DIGITS > 24) {
-        s = GNOMON_LITERAL(sin_double_5);
-        s = s * z + GNOMON_LITERAL(sin_double_4);
-        s = s * z + GNOMON_LITERAL(sin_double_3);
-        s = s * z + GNOMON_LITERAL(sin_double_2);
-        s = s * z + GNOMON_LITERAL(sin_double_1);
-        s = s * z + GNOMON_LITERAL(sin_double_0);
-        c = GNOMON_LITERAL(cos_double_5);
-        c = c * z + GNOMON_LITERAL(cos_double_4);
-        c = c * z + GNOMON_LITERAL(cos_double_3);
-        c = c * z + GNOMON_LITERAL(cos_double_2);
-        c = c * z + GNOMON_LITERAL(cos_double_1);
-        c = c * z + GNOMON_LITERAL(cos_double_0);
-    } else {
-        s = s * z + GNOMON_LITERAL(sin_float_1);
-        s = s * z + GNOMON_LITERAL(sin_float_0);
-        c = c * z + GNOMON_LITERAL(cos_float_1);
-        c = c * z + GNOMON_LITERAL(cos_float_0);
+        s = GNOMON_LITERAL(sin_double_0) +
+            z * (GNOMON_LITERAL(sin_double_1) +
+                 z * (GNOMON_LITERAL(sin_double_2) +
+                      z * (GNOMON_LITERAL(sin_double_3) +
+                           z * (GNOMON_LITERAL(sin_double_4) + z * GNOMON_LITERAL(sin_double_5)))));
+        c = GNOMON_LITERAL(cos_double_0) +
+            z * (GNOMON_LITERAL(cos_double_1) +
+                 z * (GNOMON_LITERAL(cos_double_2) +
+                      z * (GNOMON_LITERAL(cos_double_3) +
+                           z * (GNOMON_LITERAL(cos_double_4) + z * GNOMON_LITERAL(cos_double_5)))));
     }
     s = y + y * z * s;
     c = (Real(1) - Real(0.5) * z) + z * z * c;
 
-    // x = y + m pi / 2 with m in {-2, ..., 2}, up to full turns.
+    // x = y + m pi / 2 plus full turns, with m in {-2, ..., 2}.
     Real m = n - Real(4) * nearest_integer(Real(0.25) * n);
     GNOMON_MASK odd = gnomon_abs(m) == Real(1);
     GNOMON_MASK opposite = gnomon_abs(m) == Real(2);
@@ -101,15 +97,22 @@ GNOMON_KERNEL GNOMON_T(cosine_sine) polynomial_cosine_sine(Real x)
     return r;
 }
 
-/// cos x: domain and error as for polynomial_cosine_sine.
+/// cos x.
+/// Domain: as for polynomial_cosine_sine.
+/// NaN: stays NaN.
+/// Error: as for polynomial_cosine_sine.
 GNOMON_KERNEL Real polynomial_cos(Real x) { return polynomial_cosine_sine(x).cosine; }
 
-/// sin x: domain and error as for polynomial_cosine_sine.
+/// sin x.
+/// Domain: as for polynomial_cosine_sine.
+/// NaN: stays NaN.
+/// Error: as for polynomial_cosine_sine.
 GNOMON_KERNEL Real polynomial_sin(Real x) { return polynomial_cosine_sine(x).sine; }
 
-/// The angle of the vector (x, y) in [-pi, pi]; 0 for the zero vector; the sign of a zero counts as positive.
-/// Domain: coordinates whose sum is finite, one of them may be infinite; a NaN, or two infinities, give a NaN.
-/// Max error: 2.6 ulp, down to results that are denormal.
+/// The angle of the vector (x, y), in [-pi, pi]; 0 for the zero vector. Zeros of either sign count as positive.
+/// Domain: |x| + |y| does not overflow, except that one of the two may be infinite.
+/// NaN: for a NaN, and if both are infinite.
+/// Error: 2.6 ulp, also where the result is denormal.
 GNOMON_KERNEL Real polynomial_atan2(Real y, Real x)
 {
     Real ax = gnomon_abs(x);
@@ -118,33 +121,31 @@ GNOMON_KERNEL Real polynomial_atan2(Real y, Real x)
     Real shorter = gnomon_select(steep, ax, ay);
     Real longer = gnomon_select(steep, ay, ax);
 
-    // arctan q = pi / 4 + arctan((q - 1) / (q + 1)) above tan(pi / 8).
+    // Above tan(pi / 8), arctan q = pi / 4 + arctan((q - 1) / (q + 1)).
     GNOMON_MASK wide = GNOMON_LITERAL(trigonometry_tan_pi_8) * longer < shorter;
     Real denominator = gnomon_select(wide, longer + shorter, gnomon_select(longer == Real(0), Real(1), longer));
     Real t = gnomon_select(wide, shorter - longer, shorter) / denominator;
     Real z = t * t;
-    Real p = GNOMON_LITERAL(atan_float_4);
+    Real p = GNOMON_LITERAL(atan_float_0) +
+             z * (GNOMON_LITERAL(atan_float_1) +
+                  z * (GNOMON_LITERAL(atan_float_2) +
+                       z * (GNOMON_LITERAL(atan_float_3) + z * GNOMON_LITERAL(atan_float_4))));
     if (GNOMON_DIGITS > 24) {
-        p = GNOMON_LITERAL(atan_double_10);
-        p = p * z + GNOMON_LITERAL(atan_double_9);
-        p = p * z + GNOMON_LITERAL(atan_double_8);
-        p = p * z + GNOMON_LITERAL(atan_double_7);
-        p = p * z + GNOMON_LITERAL(atan_double_6);
-        p = p * z + GNOMON_LITERAL(atan_double_5);
-        p = p * z + GNOMON_LITERAL(atan_double_4);
-        p = p * z + GNOMON_LITERAL(atan_double_3);
-        p = p * z + GNOMON_LITERAL(atan_double_2);
-        p = p * z + GNOMON_LITERAL(atan_double_1);
-        p = p * z + GNOMON_LITERAL(atan_double_0);
-    } else {
-        p = p * z + GNOMON_LITERAL(atan_float_3);
-        p = p * z + GNOMON_LITERAL(atan_float_2);
-        p = p * z + GNOMON_LITERAL(atan_float_1);
-        p = p * z + GNOMON_LITERAL(atan_float_0);
+        p = GNOMON_LITERAL(atan_double_0) +
+            z * (GNOMON_LITERAL(atan_double_1) +
+                 z * (GNOMON_LITERAL(atan_double_2) +
+                      z * (GNOMON_LITERAL(atan_double_3) +
+                           z * (GNOMON_LITERAL(atan_double_4) +
+                                z * (GNOMON_LITERAL(atan_double_5) +
+                                     z * (GNOMON_LITERAL(atan_double_6) +
+                                          z * (GNOMON_LITERAL(atan_double_7) +
+                                               z * (GNOMON_LITERAL(atan_double_8) +
+                                                    z * (GNOMON_LITERAL(atan_double_9) +
+                                                         z * GNOMON_LITERAL(atan_double_10))))))))));
     }
     Real angle = t + t * z * p;
 
-    // angle + eighths pi / 4, with pi / 4 in two parts: multiples of the first, of 21 bits, are exact.
+    // The result is angle + eighths pi / 4. pi / 4 has two parts, the first of 21 bits, whose multiples are exact.
     Real eighths = gnomon_select(wide, Real(1), Real(0));
     angle = gnomon_select(steep, Real(-1) * angle, angle);
     eighths = gnomon_select(steep, Real(2) - eighths, eighths);

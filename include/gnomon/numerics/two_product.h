@@ -1,6 +1,6 @@
-// Error-free transformations: a difference or product of two numbers as the rounded result and its exact error.
-// A double word (high + low, unevaluated) carries such a pair on: Dekker 1971; Knuth, TAOCP 2, 4.2.2; Ogita, Rump &
-// Oishi 2005.
+// Error-free transformations: the difference or product of two numbers as the rounded result and its exact error
+// (Dekker 1971; Knuth 1997; Ogita, Rump & Oishi 2005). A double word, the unevaluated sum of such a pair, carries both
+// through further operations, so that differences of products keep the digits that cancellation would lose.
 #ifndef GNOMON_NUMERICS_TWO_PRODUCT_H
 #define GNOMON_NUMERICS_TWO_PRODUCT_H
 #include "../portable.h"
@@ -9,11 +9,13 @@ GNOMON_NAMESPACE_BEGIN
 /// The unevaluated sum high + low.
 GNOMON_STRUCT(double_word) { Real high, low; };
 
-/// a b - p for p = a b rounded, without a fused multiply-add: both factors are split into halves whose products are
-/// exact. Summed in this order an error of zero is +0, as the fused one is.
+/// The error a b - p of the rounded product p, without a fused multiply-add: both factors are split into halves whose
+/// products are exact. In this order of summation an error of zero is +0, as by a fused multiply-add.
+/// Domain: as for two_product.
+/// Source: Dekker 1971
 GNOMON_KERNEL Real dekker_product_error(Real a, Real b, Real p)
 {
-    Real sa = gnomon_product(GNOMON_SPLITTER, a); // contracted with what follows, it would leave no halves
+    Real sa = gnomon_product(GNOMON_SPLITTER, a); // contraction would leave no halves
     Real sb = gnomon_product(GNOMON_SPLITTER, b);
     Real ah = sa - gnomon_difference(sa, a);
     Real bh = sb - gnomon_difference(sb, b);
@@ -22,9 +24,11 @@ GNOMON_KERNEL Real dekker_product_error(Real a, Real b, Real p)
     return (((ah * bh - p) + al * bh) + ah * bl) + al * bl;
 }
 
-/// a b exactly. Domain: |a|, |b| <= 2^100 and |a b| = 0 or >= 2^-100 in float (2^900, 2^-900 in double); there the
-/// fused and the split route give the same bits. Below, low is within two of the smallest denormals of the
-/// error: each of the split route's four products rounds by half of one.
+/// a b exactly, as the rounded product and its error. Fused multiply-add and splitting give the same bits.
+/// Domain: |a|, |b| <= 2^100 and |a b| = 0 or >= 2^-100 in float; 2^900 and 2^-900 in double.
+/// Error: none; for smaller products low is off by at most two of the smallest denormals, since each of the four products
+/// of the split route rounds by half of one.
+/// Source: Dekker 1971; Ogita, Rump & Oishi 2005
 GNOMON_KERNEL GNOMON_T(double_word) two_product(Real a, Real b)
 {
     GNOMON_T(double_word) r;
@@ -37,7 +41,8 @@ GNOMON_KERNEL GNOMON_T(double_word) two_product(Real a, Real b)
     return r;
 }
 
-/// a - b exactly, whatever their order (Knuth).
+/// a - b exactly, as the rounded difference and its error, for magnitudes in any order.
+/// Source: Knuth 1997, Sec. 4.2.2
 GNOMON_KERNEL GNOMON_T(double_word) two_difference(Real a, Real b)
 {
     GNOMON_T(double_word) r;
@@ -47,7 +52,9 @@ GNOMON_KERNEL GNOMON_T(double_word) two_difference(Real a, Real b)
     return r;
 }
 
-/// a - b exactly where |a| >= |b| or a = 0 (Dekker); elsewhere low is off by up to a rounding of b.
+/// a - b exactly, as the rounded difference and its error.
+/// Domain: |a| >= |b| or a = 0; elsewhere low is off by up to a rounding of b.
+/// Source: Dekker 1971
 GNOMON_KERNEL GNOMON_T(double_word) two_difference_ordered(Real a, Real b)
 {
     GNOMON_T(double_word) r;
@@ -56,7 +63,9 @@ GNOMON_KERNEL GNOMON_T(double_word) two_difference_ordered(Real a, Real b)
     return r;
 }
 
-/// c - a b as a double word, for any magnitudes; relative error 2 u^2 of |c| + |a b|.
+/// c - a b as a double word, for magnitudes in any order.
+/// Domain: as for two_product.
+/// Error: 2 u^2 (|c| + |a b|), u = 2^-p.
 GNOMON_KERNEL GNOMON_T(double_word) subtract_product(Real c, Real a, Real b)
 {
     double_word p = two_product(a, b);
@@ -65,7 +74,9 @@ GNOMON_KERNEL GNOMON_T(double_word) subtract_product(Real c, Real a, Real b)
     return r;
 }
 
-/// The same for |c| >= |a b|; elsewhere low is off by up to a rounding of a b.
+/// c - a b as a double word.
+/// Domain: |c| >= |a b|, elsewhere low is off by up to a rounding of a b; as for two_product.
+/// Error: 2 u^2 (|c| + |a b|), u = 2^-p.
 GNOMON_KERNEL GNOMON_T(double_word) subtract_product_ordered(Real c, Real a, Real b)
 {
     double_word p = two_product(a, b);
@@ -74,25 +85,18 @@ GNOMON_KERNEL GNOMON_T(double_word) subtract_product_ordered(Real c, Real a, Rea
     return r;
 }
 
-/// c - a b within 2 roundings of its value, whatever cancels: where c and a b do, their difference is exact.
+/// c - a b, rounded. Where c and a b cancel, their difference is exact.
+/// Domain: as for two_product.
+/// Error: 2 roundings of the result, also under cancellation.
 GNOMON_KERNEL Real subtract_product_rounded(Real c, Real a, Real b)
 {
     double_word p = two_product(a, b);
     return (c - p.high) - p.low;
 }
 
-/// a b - c d within 2 roundings of its value, whatever cancels.
-/// Source: Jeannerod, Louvet & Muller 2013, "Further analysis of Kahan's algorithm for the accurate computation of 2x2
-/// determinants".
-GNOMON_KERNEL Real difference_of_products(Real a, Real b, Real c, Real d)
-{
-    double_word p = two_product(a, b);
-    double_word q = two_product(c, d);
-    return (p.high - q.high) + (p.low - q.low);
-}
-
-/// a b - c d for double words, as a double word. Error: 2^-40 (|a b| + |c d|) in float, 2^-98 in double, for lows of at
-/// most 2^-20 (2^-49) of their highs.
+/// a b - c d for double words, as a double word.
+/// Domain: each low is at most 2^-20 of its high in float, 2^-49 in double.
+/// Error: 2^-40 (|a b| + |c d|) in float, 2^-98 (|a b| + |c d|) in double.
 GNOMON_KERNEL GNOMON_T(double_word) double_word_minor(GNOMON_T(double_word) a, GNOMON_T(double_word) b,
                                                       GNOMON_T(double_word) c, GNOMON_T(double_word) d)
 {
@@ -104,7 +108,9 @@ GNOMON_KERNEL GNOMON_T(double_word) double_word_minor(GNOMON_T(double_word) a, G
     return r;
 }
 
-/// a c - b^2 for double words. Error: two roundings of the result, and as for double_word_minor.
+/// a c - b^2 for double words, rounded.
+/// Domain: as for double_word_minor.
+/// Error: 2 roundings of the result beside that of double_word_minor.
 GNOMON_KERNEL Real double_word_determinant(GNOMON_T(double_word) a, GNOMON_T(double_word) b, GNOMON_T(double_word) c)
 {
     double_word p = two_product(a.high, c.high);

@@ -39,13 +39,14 @@ GNOMON_CONSTANT(stored4_arithmetic_weight, 1e-6);
 /// From the four channels of a 4 x 16 UNORM texel, each in [0, 1], with a constant bias of weight alpha.
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_stored_as_unorm16(GNOMON_T(moments4) channels, GNOMON_SETTING alpha)
 {
-    return hankel4_plain(theta4_inverse_add_bias(channels, GNOMON_LITERAL(bias4_theta_b2), alpha));
+    return hankel4_from_moments(theta4_inverse_add_bias(channels, GNOMON_LITERAL(bias4_theta_b2), alpha));
 }
 
 /// From moments stored as half floats, with a constant bias of weight alpha.
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_stored_as_half(GNOMON_T(moments4) b, GNOMON_SETTING alpha)
 {
-    return hankel4_plain(moments4_add_bias(b, GNOMON_LITERAL(bias4_raw_b2), GNOMON_LITERAL(bias4_raw_b4), alpha));
+    return hankel4_from_moments(
+        moments4_add_bias(b, GNOMON_LITERAL(bias4_raw_b2), GNOMON_LITERAL(bias4_raw_b4), alpha));
 }
 
 /// From moments stored as floats, with a constant bias of weight alpha, from 3e-7 on.
@@ -126,15 +127,15 @@ GNOMON_KERNEL Real certified4_half(GNOMON_T(moments4) b, Real z_f)
 {
     return certified4_lower(
         hankel4_stored_as_half(b, GNOMON_LITERAL(certified4_half_weight)), b,
-        rounding4(b, GNOMON_LITERAL(certified4_half_noise), GNOMON_LITERAL(certified4_half_least_noise)), z_f);
+        moments4_rounding(b, GNOMON_LITERAL(certified4_half_noise), GNOMON_LITERAL(certified4_half_least_noise)), z_f);
 }
 
 /// The same after a filter of two passes.
 GNOMON_KERNEL Real certified4_half_filtered(GNOMON_T(moments4) b, Real z_f)
 {
     return certified4_lower(hankel4_stored_as_half(b, GNOMON_LITERAL(certified4_half_filtered_weight)), b,
-                            rounding4_filtered(b, GNOMON_LITERAL(certified4_half_filtered_noise),
-                                               GNOMON_LITERAL(certified4_half_least_noise)),
+                            moments4_rounding_filtered(b, GNOMON_LITERAL(certified4_half_filtered_noise),
+                                                       GNOMON_LITERAL(certified4_half_least_noise)),
                             z_f);
 }
 
@@ -142,23 +143,23 @@ GNOMON_KERNEL Real certified4_half_filtered(GNOMON_T(moments4) b, Real z_f)
 GNOMON_KERNEL Real certified4_float_with_noise(GNOMON_T(moments4) b, GNOMON_T(moments4) noise, GNOMON_SETTING alpha,
                                                Real z_f)
 {
-    return certified4_apart_lower(hankel4_stored_as_float(b, alpha), noise, GNOMON_LITERAL(bias4_raw_b2),
-                                  GNOMON_LITERAL(bias4_raw_b4), alpha, z_f);
+    return certified4_constant_bias_lower(hankel4_stored_as_float(b, alpha), noise, GNOMON_LITERAL(bias4_raw_b2),
+                                          GNOMON_LITERAL(bias4_raw_b4), alpha, z_f);
 }
 
 /// Intensity at z_f from moments stored as floats.
 GNOMON_KERNEL Real certified4_float(GNOMON_T(moments4) b, Real z_f)
 {
-    return certified4_float_with_noise(b, rounding4(b, GNOMON_LITERAL(certified4_float_noise), Real(0)),
+    return certified4_float_with_noise(b, moments4_rounding(b, GNOMON_LITERAL(certified4_float_noise), Real(0)),
                                        GNOMON_LITERAL(certified4_float_weight), z_f);
 }
 
 /// The same after a filter of two passes.
 GNOMON_KERNEL Real certified4_float_filtered(GNOMON_T(moments4) b, Real z_f)
 {
-    return certified4_float_with_noise(b,
-                                       rounding4_filtered(b, GNOMON_LITERAL(certified4_float_filtered_noise), Real(0)),
-                                       GNOMON_LITERAL(certified4_float_filtered_weight), z_f);
+    return certified4_float_with_noise(
+        b, moments4_rounding_filtered(b, GNOMON_LITERAL(certified4_float_filtered_noise), Real(0)),
+        GNOMON_LITERAL(certified4_float_filtered_weight), z_f);
 }
 
 GNOMON_NAMESPACE_END

@@ -69,7 +69,7 @@ GNOMON_KERNEL Real certified4_theta_within(GNOMON_T(moments4) channels, GNOMON_S
 {
     Real z = clamp_or_nan(z_f, Real(-1), Real(1));
     moments4 b = theta4_inverse_add_bias(channels, GNOMON_LITERAL(bias4_theta_b2), alpha);
-    Real mean = certificate4_theta_mean(certificate4_plain(hankel4_plain(b), z), channels, noise);
+    Real mean = certificate4_theta_mean(certificate4_make(hankel4_from_moments(b), z), channels, noise);
     Real within = certificate4_theta_mean(certificate4_within(b, least, greatest, z), channels, noise);
     return certified4_from_means(mean, within, least, greatest, z);
 }
@@ -80,7 +80,7 @@ GNOMON_KERNEL Real certified4_raw_within(GNOMON_T(moments4) b, GNOMON_T(moments4
 {
     Real z = clamp_or_nan(z_f, Real(-1), Real(1));
     moments4 c = moments4_add_bias(b, GNOMON_LITERAL(bias4_raw_b2), GNOMON_LITERAL(bias4_raw_b4), alpha);
-    Real mean = certificate4_mean(certificate4_plain(hankel4_plain(c), z), b, noise);
+    Real mean = certificate4_mean(certificate4_make(hankel4_from_moments(c), z), b, noise);
     Real within = certificate4_mean(certificate4_within(c, least, greatest, z), b, noise);
     return certified4_from_means(mean, within, least, greatest, z);
 }
@@ -104,7 +104,7 @@ GNOMON_KERNEL Real certified4_unorm16_filtered_within(GNOMON_T(moments4) channel
 GNOMON_KERNEL Real certified4_half_within(GNOMON_T(moments4) b, Real least, Real greatest, Real z_f)
 {
     return certified4_raw_within(
-        b, rounding4(b, GNOMON_LITERAL(certified4_half_noise), GNOMON_LITERAL(certified4_half_least_noise)),
+        b, moments4_rounding(b, GNOMON_LITERAL(certified4_half_noise), GNOMON_LITERAL(certified4_half_least_noise)),
         GNOMON_LITERAL(certified4_half_weight), least, greatest, z_f);
 }
 
@@ -112,8 +112,8 @@ GNOMON_KERNEL Real certified4_half_within(GNOMON_T(moments4) b, Real least, Real
 GNOMON_KERNEL Real certified4_half_filtered_within(GNOMON_T(moments4) b, Real least, Real greatest, Real z_f)
 {
     return certified4_raw_within(b,
-                                 rounding4_filtered(b, GNOMON_LITERAL(certified4_half_filtered_noise),
-                                                    GNOMON_LITERAL(certified4_half_least_noise)),
+                                 moments4_rounding_filtered(b, GNOMON_LITERAL(certified4_half_filtered_noise),
+                                                            GNOMON_LITERAL(certified4_half_least_noise)),
                                  GNOMON_LITERAL(certified4_half_filtered_weight), least, greatest, z_f);
 }
 

@@ -36,33 +36,33 @@ GNOMON_CONSTANT(stored6_float_filtered_weight, 2e-5);
 /// From the six channels of two 10-10-10-2 UNORM words, each in [0, 1]: odd ones in the first, even ones in the second.
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm10(GNOMON_T(moments6) channels)
 {
-    return hankel6_plain(moments6_add_bias(theta6_inverse(channels), GNOMON_LITERAL(bias6_theta_b2),
-                                           GNOMON_LITERAL(bias6_theta_b4), GNOMON_LITERAL(bias6_theta_b6),
-                                           GNOMON_LITERAL(stored6_unorm10_weight)));
+    return hankel6_from_moments(moments6_add_bias(theta6_inverse(channels), GNOMON_LITERAL(bias6_theta_b2),
+                                                  GNOMON_LITERAL(bias6_theta_b4), GNOMON_LITERAL(bias6_theta_b6),
+                                                  GNOMON_LITERAL(stored6_unorm10_weight)));
 }
 
 /// The same after two filter passes that stored their results as UNORM10.
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm10_filtered(GNOMON_T(moments6) channels)
 {
-    return hankel6_plain(moments6_add_bias(theta6_inverse(channels), GNOMON_LITERAL(bias6_theta_b2),
-                                           GNOMON_LITERAL(bias6_theta_b4), GNOMON_LITERAL(bias6_theta_b6),
-                                           GNOMON_LITERAL(stored6_unorm10_filtered_weight)));
+    return hankel6_from_moments(moments6_add_bias(theta6_inverse(channels), GNOMON_LITERAL(bias6_theta_b2),
+                                                  GNOMON_LITERAL(bias6_theta_b4), GNOMON_LITERAL(bias6_theta_b6),
+                                                  GNOMON_LITERAL(stored6_unorm10_filtered_weight)));
 }
 
 /// From the six channels of a 6 x 16 UNORM texel, each in [0, 1].
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm16(GNOMON_T(moments6) channels)
 {
-    return hankel6_plain(moments6_add_bias(theta6_inverse(channels), GNOMON_LITERAL(bias6_theta_b2),
-                                           GNOMON_LITERAL(bias6_theta_b4), GNOMON_LITERAL(bias6_theta_b6),
-                                           GNOMON_LITERAL(stored6_unorm16_weight)));
+    return hankel6_from_moments(moments6_add_bias(theta6_inverse(channels), GNOMON_LITERAL(bias6_theta_b2),
+                                                  GNOMON_LITERAL(bias6_theta_b4), GNOMON_LITERAL(bias6_theta_b6),
+                                                  GNOMON_LITERAL(stored6_unorm16_weight)));
 }
 
 /// The same after two filter passes that stored their results as UNORM16.
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm16_filtered(GNOMON_T(moments6) channels)
 {
-    return hankel6_plain(moments6_add_bias(theta6_inverse(channels), GNOMON_LITERAL(bias6_theta_b2),
-                                           GNOMON_LITERAL(bias6_theta_b4), GNOMON_LITERAL(bias6_theta_b6),
-                                           GNOMON_LITERAL(stored6_unorm16_filtered_weight)));
+    return hankel6_from_moments(moments6_add_bias(theta6_inverse(channels), GNOMON_LITERAL(bias6_theta_b2),
+                                                  GNOMON_LITERAL(bias6_theta_b4), GNOMON_LITERAL(bias6_theta_b6),
+                                                  GNOMON_LITERAL(stored6_unorm16_filtered_weight)));
 }
 
 /// From moments stored as floats.
