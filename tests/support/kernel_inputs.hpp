@@ -46,7 +46,6 @@ template <class T> struct input_family {
     std::string_view name;
     std::size_t numbers;
     void (*draw)(row_writer<T> put, const situation& s, bit_source& bits);
-    bool may_be_hostile = true;
 };
 
 template <class T>
@@ -60,8 +59,6 @@ inline constexpr input_family<T> input_families[] = {
     {"exponent", 1, [](auto put, const situation&, bit_source& bits) { put(bits.uniform(0.5, 44)); }},
     {"warped", 1, [](auto put, const situation& s, bit_source& bits) { put(std::exp(s.texel * bits.uniform(1, 40))); }},
     {"term", 1, [](auto put, const situation&, bit_source& bits) { put(double(1 + bits.below(16))); }},
-    // Powers of two are asked for as whole numbers in range only: languages differ in what they make of others.
-    {"step", 1, [](auto put, const situation&, bit_source& bits) { put(std::ldexp(1, int(bits.below(7)))); }, false},
     // Depths and moments.
     {"depth", 1, [](auto put, const situation& s, bit_source&) { put(s.receiver); }},
     {"texel", 1, [](auto put, const situation& s, bit_source&) { put(s.texel); }},
@@ -71,11 +68,6 @@ inline constexpr input_family<T> input_families[] = {
     {"moments6", 6, [](auto put, const situation& s, bit_source&) { put(moments6_in<T>(s)); }},
     {"channels4", 4, [](auto put, const situation& s, bit_source&) { put(theta4(moments4_in<T>(s))); }},
     {"channels6", 6, [](auto put, const situation& s, bit_source&) { put(theta6(moments6_in<T>(s))); }},
-    {"covariances6", 12, [](auto put, const situation& s, bit_source&) { put(covariances6_from_moments(moments6_in<T>(s))); }},
-    {"certificate4", 6,
-     [](auto put, const situation& s, bit_source& bits) {
-         put(certificate4_make(any_hankel4<T>(s, bits), T(s.receiver)));
-     }},
     {"interval", 2,
      [](auto put, const situation& s, bit_source& bits) {
          const double reach = std::exp2(bits.uniform(-20, 0));
@@ -97,11 +89,6 @@ inline constexpr input_family<T> input_families[] = {
          put(mean(c)), put(mean(2 * c)), put(-mean(-d)), put(mean(-2 * d));
      }},
     // Arithmetic.
-    {"double_word", 2,
-     [](auto put, const situation&, bit_source& bits) {
-         const T high = T(any_number<T>(bits));
-         put(double(high)), put(double(high) * bits.uniform(-0.5, 0.5) * double(std::numeric_limits<T>::epsilon()));
-     }},
     {"monic_cubic", 3,
      [](auto put, const situation&, bit_source& bits) {
          for (const double c : monic_cubic(bits)) put(c);
@@ -199,10 +186,6 @@ inline constexpr input_family<T> input_families[] = {
      [](auto put, const situation&, bit_source& bits) {
          put(prism_make(any_seen_triangle<T>(bits).triangle, T(bits.chance(0.5))));
      }},
-    {"prism_vertex", 5,
-     [](auto put, const situation&, bit_source& bits) {
-         put(any_seen_prism_triangle(any_seen_triangle<T>(bits).triangle, bits).triangle.a);
-     }},
     {"prism_triangle_and_sample", 17,
      [](auto put, const situation&, bit_source& bits) {
          put(any_seen_prism_triangle(any_seen_triangle<T>(bits).triangle, bits));
@@ -241,16 +224,16 @@ template <class T> class kernel_inputs {
         : bits_(std::hash<std::string_view>{}(kernel)), special_(bits_()), numbers_(numbers)
     {
         std::istringstream words{std::string(families)};
+        std::size_t given = 0;
         for (std::string word; words >> word;) {
             const auto* found = std::find_if(std::begin(input_families<T>), std::end(input_families<T>),
                                              [&](const auto& family) { return family.name == word; });
             if (found == std::end(input_families<T>)) wrong(kernel, "there is no family " + word);
             families_.push_back(found);
-            keep_.insert(keep_.end(), found->numbers, !found->may_be_hostile);
+            given += found->numbers;
         }
-        if (keep_.size() != numbers)
-            wrong(kernel,
-                  "takes " + std::to_string(numbers) + " numbers, its families give " + std::to_string(keep_.size()));
+        if (given != numbers)
+            wrong(kernel, "needs " + std::to_string(numbers) + " numbers, its families give " + std::to_string(given));
     }
 
     /// The next blocks, in the layout of kernel_call.hpp.
@@ -282,11 +265,10 @@ template <class T> class kernel_inputs {
         }
         if (turn == 2) {
             const std::size_t j = bits_.below(numbers_);
-            if (!keep_[j]) row[j] = another(row[j]);
+            row[j] = another(row[j]);
         } else if (turn == 3) {
             const bool special = bits_.chance(0.5);
-            for (std::size_t j = 0; j < numbers_; ++j)
-                if (!keep_[j]) row[j] = special ? special_.special() : special_.pattern();
+            for (T& x : row) x = special ? special_.special() : special_.pattern();
         }
     }
 
@@ -306,7 +288,6 @@ template <class T> class kernel_inputs {
     hostile_source<T> special_;
     std::size_t numbers_, block_ = 0;
     std::vector<const input_family<T>*> families_;
-    std::vector<bool> keep_;
 };
 
 } // namespace gnomon::test

@@ -52,7 +52,7 @@ GNOMON_STRUCT(cubic_roots) { Real z1, z2, z3; };
 
 /// The roots of z^3 + c2 z^2 + c1 z + c0, three real ones; NaN where two are complex. One of the two branches of Blinn
 /// 2007, "How to solve a cubic equation, part 5", as the paper advises.
-GNOMON_KERNEL GNOMON_T(cubic_roots) cubic_roots_blinn(Real c2, Real c1, Real c0)
+GNOMON_DETAIL_KERNEL GNOMON_T(cubic_roots) cubic_roots_blinn(Real c2, Real c1, Real c0)
 {
     Real b = c2 * GNOMON_LITERAL(hamburger_cholesky_third);
     Real c = c1 * GNOMON_LITERAL(hamburger_cholesky_third);

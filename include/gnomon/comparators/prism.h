@@ -73,7 +73,8 @@ GNOMON_CONSTANT(prism_no_depth, 2.0); // behind every fragment
 
 /// A point of clip space at time t, on the screen. Divided as for moving_depth_at. Where w <= 0 or NaN no fragment
 /// comes of it.
-GNOMON_KERNEL GNOMON_T(prism_vertex) prism_vertex_make(Real x, Real y, Real z, Real w, Real t, GNOMON_SETTING divided)
+GNOMON_DETAIL_KERNEL GNOMON_T(prism_vertex) prism_vertex_make(Real x, Real y, Real z, Real w, Real t,
+                                                              GNOMON_SETTING divided)
 {
     Real divisor = gnomon_max(w, Real(0));
     GNOMON_T(prism_vertex) r;
@@ -86,26 +87,26 @@ GNOMON_KERNEL GNOMON_T(prism_vertex) prism_vertex_make(Real x, Real y, Real z, R
 }
 
 /// Where a vertex is at shutter open.
-GNOMON_KERNEL GNOMON_T(prism_vertex) prism_vertex_open(GNOMON_T(moving_vertex) v, GNOMON_SETTING divided)
+GNOMON_DETAIL_KERNEL GNOMON_T(prism_vertex) prism_vertex_open(GNOMON_T(moving_vertex) v, GNOMON_SETTING divided)
 {
     return prism_vertex_make(v.x0, v.y0, v.z0, v.w0, Real(0), divided);
 }
 
 /// Where a vertex is at shutter close.
-GNOMON_KERNEL GNOMON_T(prism_vertex) prism_vertex_close(GNOMON_T(moving_vertex) v, GNOMON_SETTING divided)
+GNOMON_DETAIL_KERNEL GNOMON_T(prism_vertex) prism_vertex_close(GNOMON_T(moving_vertex) v, GNOMON_SETTING divided)
 {
     return prism_vertex_make(v.x1, v.y1, v.z1, v.w1, Real(1), divided);
 }
 
 /// What a vertex weighs in depth, beside the screen's weight: as much as in time, or 1 where depth is divided.
-GNOMON_KERNEL Real prism_depth_weight(GNOMON_T(prism_vertex) v, GNOMON_SETTING divided)
+GNOMON_DETAIL_KERNEL Real prism_depth_weight(GNOMON_T(prism_vertex) v, GNOMON_SETTING divided)
 {
     return gnomon_select(Real(0) < divided, Real(1), v.inverse_w);
 }
 
 /// So far along the screen from a to b, at the time of a.
-GNOMON_KERNEL GNOMON_T(prism_vertex) prism_vertex_between(GNOMON_T(prism_vertex) a, GNOMON_T(prism_vertex) b,
-                                                          Real passed, GNOMON_SETTING divided)
+GNOMON_DETAIL_KERNEL GNOMON_T(prism_vertex) prism_vertex_between(GNOMON_T(prism_vertex) a, GNOMON_T(prism_vertex) b,
+                                                                 Real passed, GNOMON_SETTING divided)
 {
     Real left = Real(1) - passed;
     Real weight_a = left * prism_depth_weight(a, divided);
@@ -120,8 +121,8 @@ GNOMON_KERNEL GNOMON_T(prism_vertex) prism_vertex_between(GNOMON_T(prism_vertex)
 }
 
 /// What the edge from a to b sweeps; exchanging a and b leaves a centre without a crossing the same bit for bit.
-GNOMON_KERNEL GNOMON_T(prism_side) prism_side_make(GNOMON_T(moving_vertex) a, GNOMON_T(moving_vertex) b,
-                                                   GNOMON_SETTING divided)
+GNOMON_DETAIL_KERNEL GNOMON_T(prism_side) prism_side_make(GNOMON_T(moving_vertex) a, GNOMON_T(moving_vertex) b,
+                                                          GNOMON_SETTING divided)
 {
     prism_vertex a0 = prism_vertex_open(a, divided);
     prism_vertex b0 = prism_vertex_open(b, divided);
@@ -173,8 +174,8 @@ GNOMON_KERNEL GNOMON_T(prism) prism_make(GNOMON_T(moving_triangle) m, GNOMON_SET
 }
 
 /// The first where k is 0, or less, the second where it is 1, else the third.
-GNOMON_KERNEL GNOMON_T(prism_vertex) prism_choice(Real k, GNOMON_T(prism_vertex) first, GNOMON_T(prism_vertex) second,
-                                                  GNOMON_T(prism_vertex) third)
+GNOMON_DETAIL_KERNEL GNOMON_T(prism_vertex) prism_choice(Real k, GNOMON_T(prism_vertex) first,
+                                                         GNOMON_T(prism_vertex) second, GNOMON_T(prism_vertex) third)
 {
     GNOMON_MASK is_first = k < Real(0.5);
     GNOMON_MASK is_second = k < Real(1.5);
@@ -218,14 +219,14 @@ GNOMON_KERNEL GNOMON_T(prism_triangle) prism_triangle_make(GNOMON_T(prism) p, Re
 }
 
 /// The edge function of p and q around the sample.
-GNOMON_KERNEL Real prism_edge(GNOMON_T(prism_vertex) p, GNOMON_T(prism_vertex) q, Real s_x, Real s_y)
+GNOMON_DETAIL_KERNEL Real prism_edge(GNOMON_T(prism_vertex) p, GNOMON_T(prism_vertex) q, Real s_x, Real s_y)
 {
     return sheared_cross(p.x - s_x, p.y - s_y, q.x - s_x, q.y - s_y);
 }
 
 /// On which side of the edge the sample is, 1 or -1: where the edge function is 0, on which side it would be a little
 /// further on along x and, far less, along y. 0 for an edge without length.
-GNOMON_KERNEL Real prism_edge_side(GNOMON_T(prism_vertex) p, GNOMON_T(prism_vertex) q, Real e)
+GNOMON_DETAIL_KERNEL Real prism_edge_side(GNOMON_T(prism_vertex) p, GNOMON_T(prism_vertex) q, Real e)
 {
     Real level = gnomon_select(q.x < p.x, Real(-1), gnomon_select(p.x < q.x, Real(1), Real(0)));
     Real tie = gnomon_select(q.y < p.y, Real(1), gnomon_select(p.y < q.y, Real(-1), level));
@@ -268,8 +269,8 @@ GNOMON_KERNEL GNOMON_T(prism_fragment) prism_fragment_at(GNOMON_T(prism_triangle
 }
 
 /// The second where chosen is 0, else the first.
-GNOMON_KERNEL GNOMON_T(prism_fragment) prism_fragment_choice(Real chosen, GNOMON_T(prism_fragment) a,
-                                                             GNOMON_T(prism_fragment) b)
+GNOMON_DETAIL_KERNEL GNOMON_T(prism_fragment) prism_fragment_choice(Real chosen, GNOMON_T(prism_fragment) a,
+                                                                    GNOMON_T(prism_fragment) b)
 {
     GNOMON_MASK second = chosen == Real(0);
     GNOMON_T(prism_fragment) r;
@@ -280,7 +281,7 @@ GNOMON_KERNEL GNOMON_T(prism_fragment) prism_fragment_choice(Real chosen, GNOMON
 }
 
 /// 1 where a is in front of b, or as deep and earlier; else 0.
-GNOMON_KERNEL Real prism_fragment_before(GNOMON_T(prism_fragment) a, GNOMON_T(prism_fragment) b)
+GNOMON_DETAIL_KERNEL Real prism_fragment_before(GNOMON_T(prism_fragment) a, GNOMON_T(prism_fragment) b)
 {
     return gnomon_select(a.depth < b.depth || (a.depth == b.depth && a.time < b.time), Real(1), Real(0));
 }
@@ -337,8 +338,8 @@ GNOMON_KERNEL GNOMON_T(prism_pair) prism_pair_add(GNOMON_T(prism_pair) state, GN
 }
 
 /// The range between two fragments, in any order.
-GNOMON_KERNEL GNOMON_T(depth_time_range) prism_range_between(GNOMON_T(prism_fragment) a, GNOMON_T(prism_fragment) b,
-                                                             Real id)
+GNOMON_DETAIL_KERNEL GNOMON_T(depth_time_range) prism_range_between(GNOMON_T(prism_fragment) a,
+                                                                    GNOMON_T(prism_fragment) b, Real id)
 {
     return range_between(a.time, a.depth, b.time, b.depth, id);
 }

@@ -26,7 +26,7 @@ GNOMON_STRUCT(certificate4) { Real top, s0, s1, s2, s3, s4; };
 GNOMON_CONSTANT(certificate4_nothing, -1267650600228229401496703205376.0); // -2^100
 
 /// p = n0 - (t0 + t1 y)^2 (n0 + 2 n1 y + n2 y^2), y = z - z_f, as a polynomial in z.
-GNOMON_KERNEL GNOMON_T(certificate4) certificate4_about(Real z_f, Real n0, Real t0, Real t1, Real n1, Real n2)
+GNOMON_DETAIL_KERNEL GNOMON_T(certificate4) certificate4_about(Real z_f, Real n0, Real t0, Real t1, Real n1, Real n2)
 {
     Real nz = n2 * z_f;
     Real ns = (n1 + n1) - nz;
@@ -48,7 +48,7 @@ GNOMON_KERNEL GNOMON_T(certificate4) certificate4_about(Real z_f, Real n0, Real 
 
 /// The certificate for a receiver z_f in [-1, 1], from a positive definite matrix. The two quotients wait for no root:
 /// right for biased moments of 16-bit storage, whose bias keeps nodes so far apart that b + r and b - r may cancel.
-GNOMON_KERNEL GNOMON_T(certificate4) certificate4_make(GNOMON_T(hankel4) h, Real z_f)
+GNOMON_DETAIL_KERNEL GNOMON_T(certificate4) certificate4_make(GNOMON_T(hankel4) h, Real z_f)
 {
     Real u = z_f - h.mean;
     Real vu = h.variance * u;
@@ -79,7 +79,7 @@ GNOMON_KERNEL GNOMON_T(certificate4) certificate4_make(GNOMON_T(hankel4) h, Real
 }
 
 /// The least that E[p] can be of the distribution whose moments b are off by at most noise each.
-GNOMON_KERNEL Real certificate4_mean(GNOMON_T(certificate4) p, GNOMON_T(moments4) b, GNOMON_T(moments4) noise)
+GNOMON_DETAIL_KERNEL Real certificate4_mean(GNOMON_T(certificate4) p, GNOMON_T(moments4) b, GNOMON_T(moments4) noise)
 {
     Real mean = (p.s0 + p.s1 * b.b1) + ((p.s2 * b.b2 + p.s3 * b.b3) + p.s4 * b.b4);
     Real doubt = (noise.b1 * gnomon_abs(p.s1) + noise.b2 * gnomon_abs(p.s2)) +
@@ -89,7 +89,7 @@ GNOMON_KERNEL Real certificate4_mean(GNOMON_T(certificate4) p, GNOMON_T(moments4
 
 /// The same from channels c of theta4, off by at most noise each: p's coefficients at the channels are the transpose of
 /// theta4_inverse times those at the moments.
-GNOMON_KERNEL Real certificate4_theta_mean(GNOMON_T(certificate4) p, GNOMON_T(moments4) c, GNOMON_SETTING noise)
+GNOMON_DETAIL_KERNEL Real certificate4_theta_mean(GNOMON_T(certificate4) p, GNOMON_T(moments4) c, GNOMON_SETTING noise)
 {
     Real third = Real(0.75) * p.s3;
     Real p1 = GNOMON_LITERAL(theta4_inverse11) * p.s1 - third;

@@ -7,8 +7,8 @@ GNOMON_NAMESPACE_BEGIN
 
 /// The covariance (b_ij + e_ij) - (b_i + e_i) (b_j + e_j) after a small change e of the moments, such as a bias, from
 /// c = b_ij - b_i b_j. The change goes into the low word: added to the moments it would be rounded away.
-GNOMON_KERNEL GNOMON_T(double_word) covariance_add_bias(GNOMON_T(double_word) c, Real b_i, Real b_j, Real e_ij,
-                                                        Real e_i, Real e_j)
+GNOMON_DETAIL_KERNEL GNOMON_T(double_word) covariance_add_bias(GNOMON_T(double_word) c, Real b_i, Real b_j, Real e_ij,
+                                                               Real e_i, Real e_j)
 {
     c.low = c.low + (e_ij - (b_i * e_j + e_i * (b_j + e_j)));
     return c;

@@ -27,13 +27,13 @@ GNOMON_CONSTANT(hamburger4_scale, 72057594037927936.0);     // 2^56
 GNOMON_CONSTANT(hamburger4_lower_scale, 281474976710656.0); // 2^48
 
 /// Q(x) = V P_2(mean + x).
-GNOMON_KERNEL Real hamburger4_q(GNOMON_T(hankel4) h, Real x)
+GNOMON_DETAIL_KERNEL Real hamburger4_q(GNOMON_T(hankel4) h, Real x)
 {
     return (h.variance * x - h.third) * x - h.variance * h.variance;
 }
 
 /// The weight of the node at mean + x, where q = Q(x).
-GNOMON_KERNEL Real hamburger4_weight(GNOMON_T(hankel4) h, Real x, Real q)
+GNOMON_DETAIL_KERNEL Real hamburger4_weight(GNOMON_T(hankel4) h, Real x, Real q)
 {
     Real w = h.variance * h.determinant;
     return w / (w + (x * x * h.determinant + q * q));
@@ -42,7 +42,7 @@ GNOMON_KERNEL Real hamburger4_weight(GNOMON_T(hankel4) h, Real x, Real q)
 /// The coefficients of a x^2 + 2 b x + c with the two other nodes, less the mean, as roots; q = Q(u).
 GNOMON_STRUCT(hamburger4_quadratic) { Real a, b, c; };
 
-GNOMON_KERNEL GNOMON_T(hamburger4_quadratic) hamburger4_other_nodes(GNOMON_T(hankel4) h, Real u, Real q)
+GNOMON_DETAIL_KERNEL GNOMON_T(hamburger4_quadratic) hamburger4_other_nodes(GNOMON_T(hankel4) h, Real u, Real q)
 {
     // The power of two keeps the discriminant of a single depth, down to 2^-139, from underflowing.
     Real n = h.determinant * GNOMON_LITERAL(hamburger4_scale);
@@ -57,7 +57,7 @@ GNOMON_KERNEL GNOMON_T(hamburger4_quadratic) hamburger4_other_nodes(GNOMON_T(han
 /// Lower bound and w_f as numerators over one denominator each: lower = share / total, w_f = receiver / whole.
 GNOMON_STRUCT(hamburger4_fractions) { Real share, total, receiver, whole; };
 
-GNOMON_KERNEL GNOMON_T(hamburger4_fractions) hamburger4_fractions_at(GNOMON_T(hankel4) h, Real z_f)
+GNOMON_DETAIL_KERNEL GNOMON_T(hamburger4_fractions) hamburger4_fractions_at(GNOMON_T(hankel4) h, Real z_f)
 {
     Real u = clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean;
     Real q = hamburger4_q(h, u);

@@ -25,7 +25,7 @@ GNOMON_STRUCT(distribution4) { Real depth0, depth1, depth2, depth3, weight0, wei
 /// P_1, P_2, P_3 at one depth, by its distance u from the mean.
 GNOMON_STRUCT(polynomials6) { Real p1, p2, p3; };
 
-GNOMON_KERNEL GNOMON_T(polynomials6) hamburger6_polynomials(GNOMON_T(hankel6) h, Real u)
+GNOMON_DETAIL_KERNEL GNOMON_T(polynomials6) hamburger6_polynomials(GNOMON_T(hankel6) h, Real u)
 {
     GNOMON_T(polynomials6) p;
     p.p1 = u;
@@ -35,7 +35,7 @@ GNOMON_KERNEL GNOMON_T(polynomials6) hamburger6_polynomials(GNOMON_T(hankel6) h,
 }
 
 /// D_3 K(z, z), at least D_3; D_3, which is h.whole, over it is the weight of a node at z.
-GNOMON_KERNEL Real hamburger6_kernel(GNOMON_T(hankel6) h, GNOMON_T(polynomials6) p)
+GNOMON_DETAIL_KERNEL Real hamburger6_kernel(GNOMON_T(hankel6) h, GNOMON_T(polynomials6) p)
 {
     return (h.whole + h.first * (p.p1 * p.p1)) + (h.second * (p.p2 * p.p2) + p.p3 * p.p3);
 }
@@ -44,7 +44,7 @@ GNOMON_KERNEL Real hamburger6_kernel(GNOMON_T(hankel6) h, GNOMON_T(polynomials6)
 GNOMON_STRUCT(derivatives6) { Real slope2, slope3, bend3; };
 
 /// By the recurrence: P_2' = 2 u - shift2, P_3' = P_2 + v P_2' - ratio, P_3'' / 2 = P_2' + v with v = u - shift3.
-GNOMON_KERNEL GNOMON_T(derivatives6) hamburger6_derivatives(GNOMON_T(hankel6) h, GNOMON_T(polynomials6) p)
+GNOMON_DETAIL_KERNEL GNOMON_T(derivatives6) hamburger6_derivatives(GNOMON_T(hankel6) h, GNOMON_T(polynomials6) p)
 {
     Real v = p.p1 - h.shift3;
     GNOMON_T(derivatives6) d;
@@ -56,8 +56,8 @@ GNOMON_KERNEL GNOMON_T(derivatives6) hamburger6_derivatives(GNOMON_T(hankel6) h,
 
 /// P_1, P_2, P_3 farther by a distance: by Taylor, exact for polynomials. A node close to z_f keeps its distance, which
 /// its depth would have rounded away: in float that decides whether a lit surface is darkened.
-GNOMON_KERNEL GNOMON_T(polynomials6) hamburger6_polynomials_shift(GNOMON_T(polynomials6) p, GNOMON_T(derivatives6) d,
-                                                                  Real distance_)
+GNOMON_DETAIL_KERNEL GNOMON_T(polynomials6) hamburger6_polynomials_shift(GNOMON_T(polynomials6) p,
+                                                                         GNOMON_T(derivatives6) d, Real distance_)
 {
     p.p1 = p.p1 + distance_;
     p.p2 = p.p2 + distance_ * (d.slope2 + distance_);
@@ -70,8 +70,9 @@ GNOMON_KERNEL GNOMON_T(polynomials6) hamburger6_polynomials_shift(GNOMON_T(polyn
 GNOMON_STRUCT(hamburger6_cubic) { Real b, c, d; };
 
 /// p and d at z_f, inverse = 1 / (D_3 K(z_f, z_f)).
-GNOMON_KERNEL GNOMON_T(hamburger6_cubic) hamburger6_other_nodes(GNOMON_T(hankel6) h, GNOMON_T(polynomials6) p,
-                                                                GNOMON_T(derivatives6) d, Real inverse, Real side)
+GNOMON_DETAIL_KERNEL GNOMON_T(hamburger6_cubic) hamburger6_other_nodes(GNOMON_T(hankel6) h, GNOMON_T(polynomials6) p,
+                                                                       GNOMON_T(derivatives6) d, Real inverse,
+                                                                       Real side)
 {
     Real q2 = h.second * p.p2;
     GNOMON_T(hamburger6_cubic) r;
@@ -82,7 +83,7 @@ GNOMON_KERNEL GNOMON_T(hamburger6_cubic) hamburger6_other_nodes(GNOMON_T(hankel6
 }
 
 /// 1 / t, where a node that runs to infinity stops 1024 from z_f: it has no weight there.
-GNOMON_KERNEL Real hamburger6_distance(Real t)
+GNOMON_DETAIL_KERNEL Real hamburger6_distance(Real t)
 {
     Real least = Real(0.0009765625);
     Real away = gnomon_select(t < Real(0), gnomon_min(t, -least), gnomon_max(t, least));

@@ -22,7 +22,7 @@ GNOMON_STRUCT(hankel4) { Real mean, variance, third, determinant; };
 /// The factored matrix from the mean, V, L and V M - L^2. Pivots below the floor are raised to the floor, so that
 /// indefinite moments still name a distribution.
 /// NaN: stays NaN, as the second argument of gnomon_max (portable.h).
-GNOMON_KERNEL GNOMON_T(hankel4) hankel4_make(Real mean, Real variance, Real covariance, Real determinant)
+GNOMON_DETAIL_KERNEL GNOMON_T(hankel4) hankel4_make(Real mean, Real variance, Real covariance, Real determinant)
 {
     GNOMON_T(hankel4) h;
     h.mean = mean;
@@ -44,7 +44,7 @@ GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_moments(GNOMON_T(moments4) b)
 /// V, L and M without cancellation. Jensen's inequality orders the terms of V and M, not those of L.
 GNOMON_STRUCT(covariances4) { GNOMON_T(double_word) v, l, m; };
 
-GNOMON_KERNEL GNOMON_T(covariances4) covariances4_from_moments(GNOMON_T(moments4) b)
+GNOMON_DETAIL_KERNEL GNOMON_T(covariances4) covariances4_from_moments(GNOMON_T(moments4) b)
 {
     GNOMON_T(covariances4) c;
     c.v = subtract_product_ordered(b.b2, b.b1, b.b1);

@@ -25,7 +25,7 @@ GNOMON_STRUCT(hankel6) { Real mean, variance, shift2, shift3, ratio, whole, firs
 
 /// From mean, c_11, c_12, s_22, s_23 and t; no pivot below the floor. A NaN, the second argument of gnomon_max, stays
 /// one (portable.h).
-GNOMON_KERNEL GNOMON_T(hankel6) hankel6_make(Real mean, Real c11, Real c12, Real s22, Real s23, Real t)
+GNOMON_DETAIL_KERNEL GNOMON_T(hankel6) hankel6_make(Real mean, Real c11, Real c12, Real s22, Real s23, Real t)
 {
     GNOMON_T(hankel6) h;
     h.mean = mean;
@@ -47,7 +47,7 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_make(Real mean, Real c11, Real c12, Real
 GNOMON_STRUCT(covariances6) { GNOMON_T(double_word) c11, c12, c13, c22, c23, c33; };
 
 /// By Hoelder's inequality the terms are ordered where i + j is even.
-GNOMON_KERNEL GNOMON_T(covariances6) covariances6_from_moments(GNOMON_T(moments6) b)
+GNOMON_DETAIL_KERNEL GNOMON_T(covariances6) covariances6_from_moments(GNOMON_T(moments6) b)
 {
     GNOMON_T(covariances6) c;
     c.c11 = subtract_product_ordered(b.b2, b.b1, b.b1);
@@ -62,8 +62,8 @@ GNOMON_KERNEL GNOMON_T(covariances6) covariances6_from_moments(GNOMON_T(moments6
 /// a b - c d as a double word, for factors whose low words may be as large as the high ones.
 /// Domain: a b >= |c d| for the high words.
 /// Error: in float 2^-45 of both products of the high words, 2^-21 of what the low words add to each.
-GNOMON_KERNEL GNOMON_T(double_word) hankel6_minor(GNOMON_T(double_word) a, GNOMON_T(double_word) b,
-                                                  GNOMON_T(double_word) c, GNOMON_T(double_word) d)
+GNOMON_DETAIL_KERNEL GNOMON_T(double_word) hankel6_minor(GNOMON_T(double_word) a, GNOMON_T(double_word) b,
+                                                         GNOMON_T(double_word) c, GNOMON_T(double_word) d)
 {
     double_word p = two_product(a.high, b.high);
     double_word q = two_product(c.high, d.high);
@@ -75,7 +75,7 @@ GNOMON_KERNEL GNOMON_T(double_word) hankel6_minor(GNOMON_T(double_word) a, GNOMO
 }
 
 /// Elimination.
-GNOMON_KERNEL GNOMON_T(hankel6) hankel6_factor(Real mean, GNOMON_T(covariances6) c)
+GNOMON_DETAIL_KERNEL GNOMON_T(hankel6) hankel6_factor(Real mean, GNOMON_T(covariances6) c)
 {
     double_word s22 = hankel6_minor(c.c11, c.c22, c.c12, c.c12);
     double_word s23 = double_word_minor(c.c11, c.c23, c.c12, c.c13);

@@ -21,7 +21,7 @@ GNOMON_CONSTANT(cubic_minus_third, -0.33333333333333331);
 GNOMON_STRUCT(cubic_step) { Real numerator, denominator; };
 
 /// A step of Halley's iteration from t on t^3 + b t^2 + c t + d, without the division. Stays at t at a multiple root.
-GNOMON_KERNEL GNOMON_T(cubic_step) cubic_halley_step(Real b, Real c, Real d, Real t)
+GNOMON_DETAIL_KERNEL GNOMON_T(cubic_step) cubic_halley_step(Real b, Real c, Real d, Real t)
 {
     Real tb = t + b;
     Real f = tb * (t * t) + (c * t + d);
@@ -36,7 +36,7 @@ GNOMON_KERNEL GNOMON_T(cubic_step) cubic_halley_step(Real b, Real c, Real d, Rea
 }
 
 /// t after a step of Halley's iteration on t^3 + b t^2 + c t + d.
-GNOMON_KERNEL Real cubic_halley(Real b, Real c, Real d, Real t)
+GNOMON_DETAIL_KERNEL Real cubic_halley(Real b, Real c, Real d, Real t)
 {
     cubic_step x = cubic_halley_step(b, c, d, t);
     return x.numerator / x.denominator;
@@ -44,7 +44,7 @@ GNOMON_KERNEL Real cubic_halley(Real b, Real c, Real d, Real t)
 
 /// The largest root of t^3 + b t^2 + c t + d, in closed form.
 /// Error: 1e-5 of the distance to the other two roots.
-GNOMON_KERNEL Real cubic_start(Real b, Real c, Real d)
+GNOMON_DETAIL_KERNEL Real cubic_start(Real b, Real c, Real d)
 {
     Real mean = GNOMON_LITERAL(cubic_minus_third) * b;
     Real mean2 = mean * mean;
@@ -64,7 +64,7 @@ GNOMON_KERNEL Real cubic_start(Real b, Real c, Real d)
 /// The positive root of t^3 + b t^2 + c t + d as a fraction.
 /// Domain: as for cubic_largest_root.
 /// Error: as for cubic_largest_root.
-GNOMON_KERNEL GNOMON_T(cubic_step) cubic_positive_root(Real b, Real c, Real d)
+GNOMON_DETAIL_KERNEL GNOMON_T(cubic_step) cubic_positive_root(Real b, Real c, Real d)
 {
     Real t = cubic_start(b, c, d);
     if (GNOMON_DIGITS > 24) {

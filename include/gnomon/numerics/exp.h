@@ -84,7 +84,7 @@ GNOMON_STRUCT(scaled_number) { Real significand, exponent; };
 
 /// s with a factor of 2^k moved from the significand to the exponent if the significand is at least 2^k, with a factor
 /// of 2^-k if it is at most 2^-k.
-GNOMON_KERNEL GNOMON_T(scaled_number) scaled_number_step(GNOMON_T(scaled_number) s, Real k)
+GNOMON_DETAIL_KERNEL GNOMON_T(scaled_number) scaled_number_step(GNOMON_T(scaled_number) s, Real k)
 {
     Real up = gnomon_power_of_two(k);
     Real down = gnomon_power_of_two(-k);

@@ -13,7 +13,7 @@ GNOMON_STRUCT(double_word) { Real high, low; };
 /// products are exact. In this order of summation an error of zero is +0, as by a fused multiply-add.
 /// Domain: as for two_product.
 /// Source: Dekker 1971
-GNOMON_KERNEL Real dekker_product_error(Real a, Real b, Real p)
+GNOMON_DETAIL_KERNEL Real dekker_product_error(Real a, Real b, Real p)
 {
     Real sa = gnomon_product(GNOMON_SPLITTER, a); // contraction would leave no halves
     Real sb = gnomon_product(GNOMON_SPLITTER, b);
@@ -97,8 +97,8 @@ GNOMON_KERNEL Real subtract_product_rounded(Real c, Real a, Real b)
 /// a b - c d for double words, as a double word.
 /// Domain: each low is at most 2^-20 of its high in float, 2^-49 in double.
 /// Error: 2^-40 (|a b| + |c d|) in float, 2^-98 (|a b| + |c d|) in double.
-GNOMON_KERNEL GNOMON_T(double_word) double_word_minor(GNOMON_T(double_word) a, GNOMON_T(double_word) b,
-                                                      GNOMON_T(double_word) c, GNOMON_T(double_word) d)
+GNOMON_DETAIL_KERNEL GNOMON_T(double_word) double_word_minor(GNOMON_T(double_word) a, GNOMON_T(double_word) b,
+                                                             GNOMON_T(double_word) c, GNOMON_T(double_word) d)
 {
     double_word p = two_product(a.high, b.high);
     double_word q = two_product(c.high, d.high);
@@ -111,7 +111,8 @@ GNOMON_KERNEL GNOMON_T(double_word) double_word_minor(GNOMON_T(double_word) a, G
 /// a c - b^2 for double words, rounded.
 /// Domain: as for double_word_minor.
 /// Error: 2 roundings of the result beside that of double_word_minor.
-GNOMON_KERNEL Real double_word_determinant(GNOMON_T(double_word) a, GNOMON_T(double_word) b, GNOMON_T(double_word) c)
+GNOMON_DETAIL_KERNEL Real double_word_determinant(GNOMON_T(double_word) a, GNOMON_T(double_word) b,
+                                                  GNOMON_T(double_word) c)
 {
     double_word p = two_product(a.high, c.high);
     double_word q = two_product(b.high, b.high);
