@@ -1,27 +1,30 @@
-// The prism of Hong & Oh ("Motion blurred shadows utilizing a depth-time ranges shadow map", 4.1 and 4.3): what a
-// moving triangle sweeps, enclosed by triangles that any rasterizer draws. Each carries the time at its vertices, so
-// that the fragments of a texel say when the triangle comes and goes, and at which depth.
+// The prism of Hong & Oh ("Motion blurred shadows utilizing a depth-time ranges shadow map", Sec. 4.1 and 4.3): the
+// volume that a moving triangle sweeps, enclosed by triangles that any rasterizer draws. Each triangle carries the
+// time at its vertices, so the fragments of a texel tell when the moving triangle enters and leaves the texel, and
+// at which depth.
 //
-// Caps are the triangle at shutter open and close. An edge sweeps a side: four triangles around its midpoint halfway in
-// time. Where on the screen the edge's two places cross, the side is a bow tie: the centre is put at the crossing and
-// two of the four, which have no area then, are left out. With A B the edge at open, C D at close, and x the cross
-// product, A + s (B - A) = C + u (D - C) gives, times D - C and times B - A,
-//     s = (C - A) x (D - C) / (B - A) x (D - C),   u = (C - A) x (B - A) / (B - A) x (D - C)
-// (equation 1, whose printed terms have the factors in the other order and hence lack a sign). The paper does not say
-// what the crossing has of what is interpolated. The edge is there twice, at time 0 and depth z_AB(s), at time 1 and
-// depth z_CD(u), and one vertex can be no more right than the mean of both: time 1/2, mean depth, at most half a
-// shutter and half their distance wrong, and with any other number more so on one of the two. So 1 / w is a mean, too;
-// a centre without crossing has that of the midpoint.
+// The caps of the prism are the moving triangle at shutter open and close. Each edge sweeps a side: four triangles
+// around the midpoint of the edge halfway in time. If the edge at open crosses the edge at close on the screen, the
+// side is a bow tie. Its centre is then at the crossing, and two of the four triangles, which have no area, are
+// omitted. With A B the edge at open, C D the edge at close, and x the cross product, A + s (B - A) = C + u (D - C).
+// Multiplication by D - C and by B - A gives (Eq. 1, with the signs that the printed order of factors loses)
+//     s = (C - A) x (D - C) / (B - A) x (D - C),   u = (C - A) x (B - A) / (B - A) x (D - C).
+// The paper does not say which attributes the crossing vertex gets. The edge passes there twice, at time 0 with depth
+// z_AB(s) and at time 1 with depth z_CD(u). This text uses the mean of both: time 1/2 and the mean depth and 1 / w. The
+// errors, half a shutter and half the distance of the depths, are then the least possible in the worst case. Without a
+// crossing the centre has the attributes of the midpoint.
 //
-// Between vertices time and depth go as rasterizers take them by default, linearly in space (the paper names no other
-// way): the screen's weight of corner k, its edge function e_k, times 1 / w_k,
+// Between vertices, time and depth are interpolated as rasterizers do by default, linearly in space, since the
+// paper names no other way. The weight of corner k on the screen is its edge function e_k. Divided by w_k it is the
+// weight in space:
 //     time = sum_k e_k t_k / w_k / sum_k e_k / w_k
-// and depth linear in view distance likewise. Depth z / w goes linearly along the screen: e_k alone. All of this is
-// exact where sides are plane and time is linear on them, hence for translations, in perspective, too: these have no
-// bow ties, unless a side is seen edge on and has no area. Elsewhere it is an approximation: of triangles that turn or
-// deform, 10 to 13 in 100 are there at wrong times for more than 5% of the shutter
-// (tests/comparators/prism_ranges.cpp). So this is what to compare moving_triangle.h with, which is exact and the
-// default. One triangle and texel at a time:
+// Depth that is linear in view distance has the same weights. Depth z / w is linear on the screen and has the weights
+// e_k. All of this is exact if the sides are plane and time is linear on them, hence for translations, also in
+// perspective. A translation makes bow ties only of sides that are seen edge-on and have no area. For other motions
+// prisms approximate: 10% to 13% of the triangles that rotate or deform are present at wrong times for more than 5% of
+// the shutter (tests/comparators/prism_ranges.cpp). Prisms are therefore the comparator for moving_triangle.h, which is
+// exact and the default. The ranges of one triangle in one texel:
+//
 //     prism p = prism_make(m, divided);
 //     prism_pair pair = prism_pair_begin(id);
 //     for (k = 0; k < 14; ++k)
@@ -33,36 +36,38 @@
 #include "../motion/triangle/moving_triangle.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// On the screen, with depth and time, and 1 / w, which is 1 in orthographic views.
+/// A vertex on the screen, with depth z, time t and inverse_w = 1 / w, which is 1 in orthographic views.
 GNOMON_STRUCT(prism_vertex) { Real x, y, z, t, inverse_w; };
 
+/// A triangle of a prism.
 GNOMON_STRUCT(prism_triangle) { GNOMON_T(prism_vertex) a, b, c; };
 
-/// The vertex in the middle of what an edge sweeps, and whether the edge's two places cross there, 1, or not, 0.
+/// The side that an edge sweeps: the vertex at its centre. crosses is 1 if the edge at open crosses the edge at close
+/// there, else 0.
 GNOMON_STRUCT(prism_side)
 {
     GNOMON_T(prism_vertex) centre;
     Real crosses;
 };
 
-/// Corners at shutter open, 0, and close, 1, and the sides of the three edges.
+/// The corners at shutter open (0) and at shutter close (1), and the sides of the three edges.
 GNOMON_STRUCT(prism)
 {
     GNOMON_T(prism_vertex) a0, b0, c0, a1, b1, c1;
     GNOMON_T(prism_side) ab, bc, ca;
 };
 
-/// Covered is 1 or 0; time in [0, 1], depth in [-1, 1].
+/// A fragment: covered is 1 or 0, time is in [0, 1] and depth in [-1, 1].
 GNOMON_STRUCT(prism_fragment) { Real covered, time, depth; };
 
-/// The fragments of one triangle id in one texel: how many, the earliest and the latest, and the four nearest in order.
+/// The fragments of one triangle id in one texel: their number, the earliest, the latest, and the nearest four in order.
 GNOMON_STRUCT(prism_pair)
 {
     Real id, count;
     GNOMON_T(prism_fragment) earliest, latest, first, second, third, fourth;
 };
 
-/// As many ranges as count says, 0 to 2; the others are empty.
+/// The ranges of a triangle in a texel, count of them, 0 to 2; the remaining ones are empty.
 GNOMON_STRUCT(prism_ranges)
 {
     GNOMON_T(depth_time_range) first, second;
@@ -71,8 +76,8 @@ GNOMON_STRUCT(prism_ranges)
 
 GNOMON_CONSTANT(prism_no_depth, 2.0); // behind every fragment
 
-/// A point of clip space at time t, on the screen. Divided as for moving_depth_at. Where w <= 0 or NaN no fragment
-/// comes of it.
+/// The vertex on the screen of a point in clip space at time t. divided is as for moving_depth_at. A vertex with w <= 0
+/// or a NaN w produces no fragment.
 GNOMON_DETAIL_KERNEL GNOMON_T(prism_vertex) prism_vertex_make(Real x, Real y, Real z, Real w, Real t,
                                                               GNOMON_SETTING divided)
 {
@@ -86,25 +91,25 @@ GNOMON_DETAIL_KERNEL GNOMON_T(prism_vertex) prism_vertex_make(Real x, Real y, Re
     return r;
 }
 
-/// Where a vertex is at shutter open.
+/// The vertex at shutter open.
 GNOMON_DETAIL_KERNEL GNOMON_T(prism_vertex) prism_vertex_open(GNOMON_T(moving_vertex) v, GNOMON_SETTING divided)
 {
     return prism_vertex_make(v.x0, v.y0, v.z0, v.w0, Real(0), divided);
 }
 
-/// Where a vertex is at shutter close.
+/// The vertex at shutter close.
 GNOMON_DETAIL_KERNEL GNOMON_T(prism_vertex) prism_vertex_close(GNOMON_T(moving_vertex) v, GNOMON_SETTING divided)
 {
     return prism_vertex_make(v.x1, v.y1, v.z1, v.w1, Real(1), divided);
 }
 
-/// What a vertex weighs in depth, beside the screen's weight: as much as in time, or 1 where depth is divided.
+/// The factor of the screen weight in the interpolation of depth: 1 if depth is divided, else 1 / w, as for time.
 GNOMON_DETAIL_KERNEL Real prism_depth_weight(GNOMON_T(prism_vertex) v, GNOMON_SETTING divided)
 {
     return gnomon_select(Real(0) < divided, Real(1), v.inverse_w);
 }
 
-/// So far along the screen from a to b, at the time of a.
+/// The vertex at the fraction `passed` of the way from a to b on the screen, at the time of a.
 GNOMON_DETAIL_KERNEL GNOMON_T(prism_vertex) prism_vertex_between(GNOMON_T(prism_vertex) a, GNOMON_T(prism_vertex) b,
                                                                  Real passed, GNOMON_SETTING divided)
 {
@@ -120,7 +125,7 @@ GNOMON_DETAIL_KERNEL GNOMON_T(prism_vertex) prism_vertex_between(GNOMON_T(prism_
     return r;
 }
 
-/// What the edge from a to b sweeps; exchanging a and b leaves a centre without a crossing the same bit for bit.
+/// The side that the edge from a to b sweeps. A centre without a crossing is the same, bit for bit, for b to a.
 GNOMON_DETAIL_KERNEL GNOMON_T(prism_side) prism_side_make(GNOMON_T(moving_vertex) a, GNOMON_T(moving_vertex) b,
                                                           GNOMON_SETTING divided)
 {
@@ -137,9 +142,9 @@ GNOMON_DETAIL_KERNEL GNOMON_T(prism_side) prism_side_make(GNOMON_T(moving_vertex
     Real area = sheared_cross(open_x, open_y, close_x, close_y);
     Real s = sheared_cross(between_x, between_y, close_x, close_y) / area;
     Real u = sheared_cross(between_x, between_y, open_x, open_y) / area;
-    GNOMON_MASK crosses = Real(0) <= s && s <= Real(1) && Real(0) <= u && u <= Real(1); // not where area is 0
+    GNOMON_MASK crosses = Real(0) <= s && s <= Real(1) && Real(0) <= u && u <= Real(1); // false if area is 0
 
-    // The mean in clip space, where the moving edge really has its midpoint.
+    // The mean in clip space, where the midpoint of the moving edge is.
     Real x = Real(0.25) * ((a.x0 + b.x0) + (a.x1 + b.x1));
     Real y = Real(0.25) * ((a.y0 + b.y0) + (a.y1 + b.y1));
     Real z = Real(0.25) * ((a.z0 + b.z0) + (a.z1 + b.z1));
@@ -157,7 +162,9 @@ GNOMON_DETAIL_KERNEL GNOMON_T(prism_side) prism_side_make(GNOMON_T(moving_vertex
     return r;
 }
 
-/// The whole of a moving triangle. Domain: all w > 0 at both ends, else parts of it are missing.
+/// The prism of a moving triangle.
+/// Domain: all w > 0 at shutter open and close, else parts of the prism are missing.
+/// Source: Hong & Oh 2018, Sec. 4.1; Hong & Oh 2018, Eq. 1
 GNOMON_KERNEL GNOMON_T(prism) prism_make(GNOMON_T(moving_triangle) m, GNOMON_SETTING divided)
 {
     GNOMON_T(prism) p;
@@ -173,7 +180,7 @@ GNOMON_KERNEL GNOMON_T(prism) prism_make(GNOMON_T(moving_triangle) m, GNOMON_SET
     return p;
 }
 
-/// The first where k is 0, or less, the second where it is 1, else the third.
+/// The vertex `first` for k <= 0, `second` for k = 1, else `third`.
 GNOMON_DETAIL_KERNEL GNOMON_T(prism_vertex) prism_choice(Real k, GNOMON_T(prism_vertex) first,
                                                          GNOMON_T(prism_vertex) second, GNOMON_T(prism_vertex) third)
 {
@@ -188,8 +195,10 @@ GNOMON_DETAIL_KERNEL GNOMON_T(prism_vertex) prism_choice(Real k, GNOMON_T(prism_
     return r;
 }
 
-/// Triangle k of the 14: 0 to 3, 4 to 7, 8 to 11 around the centres of the sides, 12 and 13 the caps. Triangles 0 and 2
-/// of a side that crosses are points, as is any other k. Winding is not kept.
+/// Triangle k of the 14 of a prism: 0 to 3, 4 to 7 and 8 to 11 around the centres of the sides, 12 and 13 the caps.
+/// Winding is not kept. The first and the third triangle of a side with a crossing are points.
+/// Domain: k in 0, ..., 13; any other k gives a point.
+/// Source: Hong & Oh 2018, Sec. 4.1
 GNOMON_KERNEL GNOMON_T(prism_triangle) prism_triangle_make(GNOMON_T(prism) p, Real k)
 {
     Real side = gnomon_select(k < Real(3.5), Real(0), gnomon_select(k < Real(7.5), Real(1), Real(2)));
@@ -218,14 +227,14 @@ GNOMON_KERNEL GNOMON_T(prism_triangle) prism_triangle_make(GNOMON_T(prism) p, Re
     return r;
 }
 
-/// The edge function of p and q around the sample.
+/// The edge function of p and q at the sample (s_x, s_y).
 GNOMON_DETAIL_KERNEL Real prism_edge(GNOMON_T(prism_vertex) p, GNOMON_T(prism_vertex) q, Real s_x, Real s_y)
 {
     return sheared_cross(p.x - s_x, p.y - s_y, q.x - s_x, q.y - s_y);
 }
 
-/// On which side of the edge the sample is, 1 or -1: where the edge function is 0, on which side it would be a little
-/// further on along x and, far less, along y. 0 for an edge without length.
+/// The side of the edge from p to q that the sample is on, 1 or -1, for edge function e. If e is 0, the side of a point
+/// slightly further along x and, far less, along y. 0 for an edge without length.
 GNOMON_DETAIL_KERNEL Real prism_edge_side(GNOMON_T(prism_vertex) p, GNOMON_T(prism_vertex) q, Real e)
 {
     Real level = gnomon_select(q.x < p.x, Real(-1), gnomon_select(p.x < q.x, Real(1), Real(0)));
@@ -233,16 +242,18 @@ GNOMON_DETAIL_KERNEL Real prism_edge_side(GNOMON_T(prism_vertex) p, GNOMON_T(pri
     return gnomon_select(Real(0) < e, Real(1), gnomon_select(e < Real(0), Real(-1), tie));
 }
 
-/// The fragment of a triangle at a sample, in the units of x / w: covered where the sample is on the same side of all
-/// three edges. Exchanging the ends of an edge negates its side bit for bit, so triangles that share an edge agree on
-/// where the sample is, and where it is on edges or vertices all take it for the same sample nearby: the fill rule of
-/// rasterizers, for either winding. A surface that encloses a volume has an even number of fragments then. An odd
-/// number is left where an edge function has the wrong sign by rounding, and beside crossings, which sides and caps
-/// share only up to rounding. Coordinates that are NaN, edge functions e_k or weights e_k / w_k beyond 2^60 are not
-/// covered, nor is a triangle without area. A cap's time is exactly 0 or 1. Divided as for moving_depth_at. Error of
-/// time, and of depth in units of the largest |z|: (48 X Y max_k v_k / |sum_k e_k v_k| + 10) 2^-p, X and Y the
-/// distances along each axis from the sample to the vertex that is farthest, v_k = 1 / w_k, but 1 for depth that is
-/// divided.
+/// The fragment of a triangle at the sample (s_x, s_y), in the units of x / w. A sample is covered if it is on the same
+/// side of all three edges. Exchanging the ends of an edge negates the side bit for bit, so triangles that share an
+/// edge agree on the side of a sample. Triangles that meet at a sample all displace it to the same point nearby, which
+/// is the fill rule of rasterizers, for either winding. A surface that encloses a volume therefore has an even number
+/// of fragments. An odd number remains if rounding gives an edge function the wrong sign, and beside crossings, which
+/// sides and caps share only up to rounding. A cap's time is exactly 0 or 1. divided is as for moving_depth_at.
+/// Domain: |e_k| and |e_k / w_k| up to 2^60, triangles with an area; elsewhere the sample is not covered.
+/// NaN: a triangle with a NaN coordinate covers no sample.
+/// Error: of time, and of depth in units of the largest |z|, (48 X Y max_k v_k / |sum_k e_k v_k| + 10) 2^-p. X
+/// and Y are the distances along each axis from the sample to the farthest vertex, and v_k = 1 / w_k, but 1
+/// for divided depth.
+/// Source: Hong & Oh 2018, Sec. 4.1
 GNOMON_KERNEL GNOMON_T(prism_fragment) prism_fragment_at(GNOMON_T(prism_triangle) v, Real s_x, Real s_y,
                                                          GNOMON_SETTING divided)
 {
@@ -254,7 +265,7 @@ GNOMON_KERNEL GNOMON_T(prism_fragment) prism_fragment_at(GNOMON_T(prism_triangle
     Real depth_b = b * prism_depth_weight(v.b, divided);
     Real depth_c = c * prism_depth_weight(v.c, divided);
     Real depth = ((depth_a * v.a.z + depth_b * v.b.z) + depth_c * v.c.z) / ((depth_a + depth_b) + depth_c);
-    Real time_a = gnomon_product(a, v.a.inverse_w); // not contracted: a cap's time is 0 or the sum over itself
+    Real time_a = gnomon_product(a, v.a.inverse_w); // not contracted: a cap's time is exactly 0 or 1
     Real time_b = gnomon_product(b, v.b.inverse_w);
     Real time_c = gnomon_product(c, v.c.inverse_w);
     Real weight = (time_a + time_b) + time_c;
@@ -268,7 +279,7 @@ GNOMON_KERNEL GNOMON_T(prism_fragment) prism_fragment_at(GNOMON_T(prism_triangle
     return f;
 }
 
-/// The second where chosen is 0, else the first.
+/// The fragment b if chosen is 0, else a.
 GNOMON_DETAIL_KERNEL GNOMON_T(prism_fragment) prism_fragment_choice(Real chosen, GNOMON_T(prism_fragment) a,
                                                                     GNOMON_T(prism_fragment) b)
 {
@@ -280,13 +291,13 @@ GNOMON_DETAIL_KERNEL GNOMON_T(prism_fragment) prism_fragment_choice(Real chosen,
     return r;
 }
 
-/// 1 where a is in front of b, or as deep and earlier; else 0.
+/// 1 if a is in front of b, or at the same depth and earlier; else 0.
 GNOMON_DETAIL_KERNEL Real prism_fragment_before(GNOMON_T(prism_fragment) a, GNOMON_T(prism_fragment) b)
 {
     return gnomon_select(a.depth < b.depth || (a.depth == b.depth && a.time < b.time), Real(1), Real(0));
 }
 
-/// No fragment yet of the triangle with this id.
+/// The state before the first fragment of the triangle with this id.
 GNOMON_KERNEL GNOMON_T(prism_pair) prism_pair_begin(Real id)
 {
     GNOMON_T(prism_fragment) none;
@@ -305,7 +316,9 @@ GNOMON_KERNEL GNOMON_T(prism_pair) prism_pair_begin(Real id)
     return state;
 }
 
-/// One fragment, in any order; one that is not covered or not within its limits is none.
+/// The state after one more fragment, in any order.
+/// Domain: fragments that are covered, with time in [0, 1] and depth in [-1, 1]; others are ignored.
+/// NaN: the fragment is ignored.
 GNOMON_KERNEL GNOMON_T(prism_pair) prism_pair_add(GNOMON_T(prism_pair) state, GNOMON_T(prism_fragment) f)
 {
     GNOMON_MASK known = Real(0) <= f.time && f.time <= Real(1) && Real(-1) <= f.depth && f.depth <= Real(1);
@@ -320,7 +333,7 @@ GNOMON_KERNEL GNOMON_T(prism_pair) prism_pair_add(GNOMON_T(prism_pair) state, GN
     state.latest = prism_fragment_choice(is_latest, f, state.latest);
     state.count = state.count + gnomon_select(some, Real(1), Real(0));
 
-    // Down the sorted four; what is not nearer goes on, what is no fragment goes all the way.
+    // Insertion into the sorted four: the farther of two goes on. An ignored fragment goes past all four.
     f.depth = gnomon_select(some, f.depth, GNOMON_LITERAL(prism_no_depth));
     f.time = gnomon_select(some, f.time, Real(1));
     Real before = prism_fragment_before(f, state.first);
@@ -344,10 +357,11 @@ GNOMON_DETAIL_KERNEL GNOMON_T(depth_time_range) prism_range_between(GNOMON_T(pri
     return range_between(a.time, a.depth, b.time, b.depth, id);
 }
 
-/// The ranges of these fragments (4.3): between two; of four the two in front and the two behind. The paper is silent
-/// on other numbers: six and more where sides fold, odd ones by rounding. One says nothing of how long the triangle
-/// stays: no range. Three, or more than four: one range from the earliest to the latest, so that no shadow is lost,
-/// though it may last too long.
+/// The ranges of the fragments: between two fragments; of four, between the front two and between the rear two. The
+/// paper does not treat other numbers, which occur if sides fold (six and more) and by rounding (odd numbers). A single
+/// fragment does not tell how long the triangle stays and gives no range. Three, or more than four, give one range from
+/// the earliest to the latest, so that no shadow is lost, though the range may last too long.
+/// Source: Hong & Oh 2018, Sec. 4.3
 GNOMON_KERNEL GNOMON_T(prism_ranges) prism_pair_end(GNOMON_T(prism_pair) state)
 {
     GNOMON_MASK some = Real(1) < state.count;
@@ -362,9 +376,10 @@ GNOMON_KERNEL GNOMON_T(prism_ranges) prism_pair_end(GNOMON_T(prism_pair) state)
     return r;
 }
 
-/// What a shadow map of prisms takes (equation 2), in bytes: 16 for a fragment (depth, time, id, link), 24 for a range
-/// (two times, two depths, id, link), and for a texel the heads, 4 bytes each, of its two lists. Exact in float up to
-/// 2^27.
+/// The size in bytes of a shadow map of prisms: 16 for a fragment (depth, time, id, link), 24 for a range (two times,
+/// two depths, id, link), and 8 for a texel (the heads of its two lists).
+/// Error: exact in float up to 2^27 bytes.
+/// Source: Hong & Oh 2018, Eq. 2
 GNOMON_KERNEL Real prism_map_bytes(Real fragments, Real ranges, Real texels)
 {
     return (Real(16) * fragments + Real(24) * ranges) + Real(8) * texels;

@@ -1,14 +1,14 @@
 // The coverage map of Hong & Oh ("Efficient motion blurred shadows using a temporal shadow map", 2017): texels that one
-// surface covers for the whole of the shutter, found from fragments of prisms (prism.h) in passes over the geometry.
+// surface covers throughout the shutter, found from fragments of prisms (prism.h) in passes over the geometry.
 // motion/range/range_cover.h finds the same covers in one pass from ranges.
 //
-// The nearest map keeps time and id of the nearest fragment. A fragment of the same id at a time that differs by 1
-// shows the triangle there at shutter open and at close: a cover. A fragment with another id in front of the cover
-// revokes the cover. The paper compares with whichever end of the cover its second pass wrote last, since the depth
-// test is off; this text compares with the farther end, which is independent of order and conservative. A third
+// The nearest map holds time and id of the nearest fragment. A fragment with the same id and a time that differs by 1
+// shows that the triangle is there at shutter open and at close: a cover. A fragment with another id in front of the
+// cover revokes the cover. The paper compares with whichever end of the cover its second pass wrote last, since the
+// depth test is off; this text compares with the farther end, which is independent of order and conservative. A third
 // fragment with the cover's own id revokes the cover as well, since the triangle left and returned; the paper lets such
-// a fragment pass. So a cover is in front at all times if depth is linear between the fragments. Without an order, the
-// paper's second and third pass are one:
+// a fragment pass. A cover that remains is in front at all times if depth is linear between the fragments. The paper's
+// second and third pass are one pass here, since no order matters:
 //
 //     nearest = nearest_fragment_begin(1);       nearest = nearest_fragment_add(nearest, f);   for all f
 //     state = fragment_cover_begin(nearest);     state = fragment_cover_add(state, f);         for all f
@@ -18,18 +18,18 @@
 #include "../motion/range/range.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// Time in [0, 1], depth in [-1, 1] and a triangle's id, a whole number from 0.
+/// A fragment: time t in [0, 1], depth z in [-1, 1], and the id of a triangle, a whole number from 0.
 GNOMON_STRUCT(timed_fragment) { Real t, z, id; };
 
-/// The nearest fragment; how many there are of its id, their farthest depth, and whether one is at the other end of the
-/// shutter (1 or 0); nearest depth of all others.
+/// The nearest fragment; the number of fragments with its id, the farthest depth of these, and ends, 1 if one of these
+/// is at the other end of the shutter, else 0; front, the nearest depth of all other fragments.
 GNOMON_STRUCT(fragment_cover)
 {
     GNOMON_T(timed_fragment) nearest;
     Real count, far_depth, ends, front;
 };
 
-/// The depth that the map is cleared to, 1; only what is nearer than that is there.
+/// The state before the first fragment. Only fragments nearer than `cleared`, the depth of the cleared map, are kept.
 GNOMON_KERNEL GNOMON_T(timed_fragment) nearest_fragment_begin(Real cleared)
 {
     GNOMON_T(timed_fragment) r;
@@ -39,8 +39,10 @@ GNOMON_KERNEL GNOMON_T(timed_fragment) nearest_fragment_begin(Real cleared)
     return r;
 }
 
-/// The nearer of the two, of the same depth that with the lesser id, then the earlier. NaN, or an id below 0: no
-/// change.
+/// The nearer of two fragments; at the same depth the one with the lesser id, then the earlier one.
+/// Domain: f with id >= 0 and time in [0, 1]; others are ignored.
+/// NaN: f is ignored.
+/// Source: Hong & Oh 2017
 GNOMON_KERNEL GNOMON_T(timed_fragment) nearest_fragment_add(GNOMON_T(timed_fragment) nearest,
                                                             GNOMON_T(timed_fragment) f)
 {
@@ -53,7 +55,7 @@ GNOMON_KERNEL GNOMON_T(timed_fragment) nearest_fragment_add(GNOMON_T(timed_fragm
     return nearest;
 }
 
-/// After all fragments have been through nearest_fragment_add.
+/// The state before the first fragment of the second pass, from the result of the first pass.
 GNOMON_KERNEL GNOMON_T(fragment_cover) fragment_cover_begin(GNOMON_T(timed_fragment) nearest)
 {
     GNOMON_T(fragment_cover) state;
@@ -65,7 +67,10 @@ GNOMON_KERNEL GNOMON_T(fragment_cover) fragment_cover_begin(GNOMON_T(timed_fragm
     return state;
 }
 
-/// One fragment, the nearest itself included. Nothing is made of NaN or of an id below 0.
+/// The state after one more fragment, in any order. The nearest fragment must be among them.
+/// Domain: f with id >= 0 and time in [0, 1]; others are ignored.
+/// NaN: f is ignored.
+/// Source: Hong & Oh 2017
 GNOMON_KERNEL GNOMON_T(fragment_cover) fragment_cover_add(GNOMON_T(fragment_cover) state, GNOMON_T(timed_fragment) f)
 {
     GNOMON_MASK known = Real(0) <= f.id && Real(0) <= f.t && f.t <= Real(1) && f.z == f.z;
@@ -79,7 +84,7 @@ GNOMON_KERNEL GNOMON_T(fragment_cover) fragment_cover_add(GNOMON_T(fragment_cove
     return state;
 }
 
-/// The cover, or none.
+/// The cover as a range over the whole shutter, or an empty range if there is none.
 GNOMON_KERNEL GNOMON_T(depth_time_range) fragment_cover_end(GNOMON_T(fragment_cover) state)
 {
     GNOMON_MASK alone = state.count == Real(2) && state.far_depth <= state.front;

@@ -4,12 +4,12 @@
 // Let storage move the stored vector b by e, at most delta in each channel, and let r be the distance in the maximum
 // norm from b* to the boundary of the valid vectors. Interpolation by alpha gives
 //     (1 - alpha) (b + e) + alpha b* = (1 - alpha) b + alpha (b* + e (1 - alpha) / alpha),
-// whose last term is valid from alpha = delta / (delta + r) on. The result has the moments of the mixture
-// (1 - alpha) Z + alpha Z', so intensities exceed Z(z < z_f) by at most alpha. The weight alpha is therefore a property
-// of the format and of the number of roundings, of which n need n delta; it is no setting.
+// whose last term is valid from alpha = delta / (delta + r) on. The result has the moments of the mixture (1 - alpha) Z
+// + alpha Z', so intensities exceed Z(z < z_f) by at most alpha. n roundings need n delta. The weight alpha is
+// therefore a property of the format and of the number of roundings, not a setting.
 //
-// The vectors b* below have the largest r. tests/derivations computes them. Beside them stand the paper's vectors, which
-// have the largest Euclidean distance. Odd entries are 0 by symmetry.
+// The vectors b* below have the largest r and are computed by tests/derivations. Beside them stand the paper's vectors,
+// which have the largest Euclidean distance. Odd entries are 0 by symmetry.
 //
 // A bias is applied in one of two ways:
 //   interpolated    moments4_add_bias, then hankel4_from_moments, as in the paper: for UNORM and half floats

@@ -8,8 +8,8 @@ GNOMON_NAMESPACE_BEGIN
 /// largest probability of depth z_f itself. All are in [0, 1], and 0 if a moment or the receiver's depth was NaN.
 GNOMON_STRUCT(hamburger_bounds) { Real lower, upper, weight; };
 
-/// Shadow intensity lower + (1 - overestimation) weight, in [0, 1]. An overestimation (of visibility, the paper's beta) of
-/// 1 never darkens a lit surface; 1/2 halves the worst error and suits single scattering.
+/// Shadow intensity lower + (1 - overestimation) weight, in [0, 1]. overestimation is the paper's beta, which
+/// multiplies visibility: 1 never darkens a lit surface; 1/2 halves the worst error and suits single scattering.
 /// Domain: overestimation in [0, 1], clamped.
 /// NaN: an overestimation of NaN counts as 0; NaN bounds give 0, lit.
 /// Source: Peters 2017, Sec. 5.3.1
@@ -18,8 +18,8 @@ GNOMON_KERNEL Real bounds_intensity(GNOMON_T(hamburger_bounds) bounds, GNOMON_SE
     return saturate_or_zero(bounds.lower + (Real(1) - saturate_or_zero(overestimation)) * bounds.weight);
 }
 
-/// Over-darkened intensity min(1, intensity / strength), which removes light leaking of up to 1 - strength. The paper uses
-/// a strength of 0.98.
+/// Over-darkened intensity min(1, intensity / strength), which removes light leaking of up to 1 - strength. The paper
+/// uses a strength of 0.98.
 /// Domain: strength in (0, 1]; elsewhere the result is still in [0, 1].
 /// NaN: 0, lit.
 /// Source: Annen 2007; Peters 2017, Sec. 2.6

@@ -1,18 +1,19 @@
-// Shadow intensity from four stored moments, certified: never above the truth, whatever storage has rounded.
+// Shadow intensity from four stored moments, certified: never above Z(z < z_f), whatever errors storage has made.
 //
 // A quartic p with p <= 1 before z_f and p <= 0 from z_f on has E[p] <= Z(z < z_f) for every distribution Z. Storage
-// moves channel k by at most noise_k, so E[p] is at least the mean that the stored channels give less
-// sum_k noise_k |p_k|, where p_k is the coefficient at channel k. That is an honest bound whatever p is, and p with the
-// nodes of the biased moments (hamburger4.h) is nearly the best (docs/decisions/2-bias.md).
+// moves channel k by at most noise_k, so E[p] is at least its value from the stored channels minus
+// sum_k noise_k |p_k|, where p_k is the coefficient at channel k. That bound holds for every such p. A p with its nodes
+// at those of the biased moments (hamburger4.h) is nearly the best (docs/decisions/2-bias.md).
 //
-// In y = z - z_f the two nodes beside z_f are the roots of a y^2 + b y + w, in the notation of hamburger4.h
-//     a = Q V,    b = u N + Q (2 V u - G),    w = V N + u^2 N + Q^2,    r^2 = b^2 - 4 a w,
-// and the nearer of those before z_f is at y = -1 / c, c = (b + r) / (2 w).
-//     Q < 0, a node on either side:    p = -(1 + d + k y)^2 (2 (c - k) y + c (c - 2 k) y^2)
-//     Q >= 0, b > 0, both before:      p = 1 - (1 + c y)^2 (1 + g y)^2
-//     else none before:                the bound is 0
+// In y = z - z_f, and in the notation of hamburger4.h, the two nodes beside z_f are the roots of a y^2 + b y + w with
+//     a = Q V,    b = u N + Q (2 V u - G),    w = V N + u^2 N + Q^2,    r^2 = b^2 - 4 a w.
+// Of the nodes before z_f the nearer one is at y = -1 / c with c = (b + r) / (2 w). The certificate is
+//     Q < 0, one node on either side:    p = -(1 + d + k y)^2 (2 (c - k) y + c (c - 2 k) y^2)
+//     Q >= 0 and b > 0, both before:     p = 1 - (1 + c y)^2 (1 + g y)^2
+//     otherwise, none before:            no p, and the bound is 0
 // with d = b / (2 r) - 1/2, k = c d and g = (b - r) / (2 w). Both p are 1 at the nodes before z_f, and 0 at z_f and at
-// those behind. Other c >= 0, d in [-1, 0] and g >= 0 give other such p: the nodes need not be right, only p.
+// the nodes behind. Any other c >= 0, d in [-1, 0] and g >= 0 give a valid p as well, so rounding in the nodes costs
+// only some leaking.
 #ifndef GNOMON_MOMENTS_CERTIFIED4_H
 #define GNOMON_MOMENTS_CERTIFIED4_H
 #include "../numerics/select.h"
@@ -20,12 +21,13 @@
 #include "quantization.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// p(z) = top - (s0 + s1 z + s2 z^2 + s3 z^3 + s4 z^4), top = 0 or 1, or far below where nothing is certified.
+/// The polynomial p(z) = top - (s0 + s1 z + s2 z^2 + s3 z^3 + s4 z^4). top is 0 or 1, or -2^100 if
+/// nothing is certified.
 GNOMON_STRUCT(certificate4) { Real top, s0, s1, s2, s3, s4; };
 
 GNOMON_CONSTANT(certificate4_nothing, -1267650600228229401496703205376.0); // -2^100
 
-/// p = n0 - (t0 + t1 y)^2 (n0 + 2 n1 y + n2 y^2), y = z - z_f, as a polynomial in z.
+/// The certificate p = n0 - (t0 + t1 y)^2 (n0 + 2 n1 y + n2 y^2), y = z - z_f, as a polynomial in z.
 GNOMON_DETAIL_KERNEL GNOMON_T(certificate4) certificate4_about(Real z_f, Real n0, Real t0, Real t1, Real n1, Real n2)
 {
     Real nz = n2 * z_f;
@@ -46,8 +48,9 @@ GNOMON_DETAIL_KERNEL GNOMON_T(certificate4) certificate4_about(Real z_f, Real n0
     return p;
 }
 
-/// The certificate for a receiver z_f in [-1, 1], from a positive definite matrix. The two quotients wait for no root:
-/// right for biased moments of 16-bit storage, whose bias keeps nodes so far apart that b + r and b - r may cancel.
+/// The certificate for a receiver at z_f, from the matrix of biased moments of 16-bit storage. Neither quotient waits
+/// for the square root. b + r and b - r may cancel, which is harmless since the bias keeps the nodes far apart.
+/// Domain: z_f in [-1, 1]; h positive definite.
 GNOMON_DETAIL_KERNEL GNOMON_T(certificate4) certificate4_make(GNOMON_T(hankel4) h, Real z_f)
 {
     Real u = z_f - h.mean;
@@ -78,7 +81,7 @@ GNOMON_DETAIL_KERNEL GNOMON_T(certificate4) certificate4_make(GNOMON_T(hankel4) 
     return p;
 }
 
-/// The least that E[p] can be of the distribution whose moments b are off by at most noise each.
+/// The least possible value of E[p], given moments b that are each off by at most the entry in noise.
 GNOMON_DETAIL_KERNEL Real certificate4_mean(GNOMON_T(certificate4) p, GNOMON_T(moments4) b, GNOMON_T(moments4) noise)
 {
     Real mean = (p.s0 + p.s1 * b.b1) + ((p.s2 * b.b2 + p.s3 * b.b3) + p.s4 * b.b4);
@@ -87,8 +90,8 @@ GNOMON_DETAIL_KERNEL Real certificate4_mean(GNOMON_T(certificate4) p, GNOMON_T(m
     return p.top - (mean + doubt);
 }
 
-/// The same from channels c of theta4, off by at most noise each: p's coefficients at the channels are the transpose of
-/// theta4_inverse times those at the moments.
+/// The least possible value of E[p], given channels c of theta4 that are each off by at most noise. The coefficients of
+/// p at the channels are the transpose of theta4_inverse times those at the moments.
 GNOMON_DETAIL_KERNEL Real certificate4_theta_mean(GNOMON_T(certificate4) p, GNOMON_T(moments4) c, GNOMON_SETTING noise)
 {
     Real third = Real(0.75) * p.s3;
@@ -101,15 +104,20 @@ GNOMON_DETAIL_KERNEL Real certificate4_theta_mean(GNOMON_T(certificate4) p, GNOM
     return p.top - (mean + doubt);
 }
 
-/// Lower bound on the shadow intensity at z_f, clamped to [-1, 1], from moments b, each off by at most its entry in
-/// noise; h is the matrix of b with a bias. Plain arithmetic: for moments from 16-bit storage.
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments b that are each off by at most the
+/// entry in noise. h is the matrix of b with a bias. The arithmetic suits moments from 16-bit storage.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
 GNOMON_KERNEL Real certified4_lower(GNOMON_T(hankel4) h, GNOMON_T(moments4) b, GNOMON_T(moments4) noise, Real z_f)
 {
     certificate4 p = certificate4_make(h, clamp_or_nan(z_f, Real(-1), Real(1)));
     return saturate_or_zero(certificate4_mean(p, b, noise));
 }
 
-/// The same from channels c of theta4, each off by at most noise; h is the matrix of their moments with a bias.
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels c of theta4 that are each off by at
+/// most noise. h is the matrix of their moments with a bias.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
 GNOMON_KERNEL Real certified4_theta_lower(GNOMON_T(hankel4) h, GNOMON_T(moments4) c, GNOMON_SETTING noise, Real z_f)
 {
     certificate4 p = certificate4_make(h, clamp_or_nan(z_f, Real(-1), Real(1)));
@@ -118,9 +126,13 @@ GNOMON_KERNEL Real certified4_theta_lower(GNOMON_T(hankel4) h, GNOMON_T(moments4
 
 GNOMON_CONSTANT(certified4_scale, 137438953472.0); // 2^37
 
-/// The same for moments stored as floats, whose mean of p float arithmetic cannot give: from the mean of the biased
-/// moments, in h by hankel4_constant_bias with these settings, which is the weight of the node before z_f or 1 less that of
-/// z_f, less what the bias has added. 0 where rounding left h at its floor.
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
+/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. Float
+/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
+/// the node before z_f, or 1 minus the weight of z_f. The contribution of the bias is then subtracted. 0 if rounding
+/// left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
 GNOMON_KERNEL Real certified4_constant_bias_lower(GNOMON_T(hankel4) h, GNOMON_T(moments4) noise, GNOMON_SETTING bias2,
                                                   GNOMON_SETTING bias4, GNOMON_SETTING alpha, Real z_f)
 {
@@ -129,7 +141,7 @@ GNOMON_KERNEL Real certified4_constant_bias_lower(GNOMON_T(hankel4) h, GNOMON_T(
     Real vu = h.variance * u;
     Real slope = vu - h.third;
     Real q = slope * u - h.variance * h.variance;
-    // The power of two, a factor of a, b and w, keeps those of a single depth from underflowing.
+    // The power of two is a factor of a, b and w, which otherwise underflow for a single depth.
     Real s = GNOMON_LITERAL(certified4_scale) * q;
     Real n = GNOMON_LITERAL(certified4_scale) * h.determinant;
     Real un = u * n;
@@ -142,11 +154,11 @@ GNOMON_KERNEL Real certified4_constant_bias_lower(GNOMON_T(hankel4) h, GNOMON_T(
     Real r = gnomon_sqrt(gnomon_max(Real(0), b * b - a2 * w2));
     GNOMON_MASK between = q < Real(0);
     GNOMON_MASK positive = Real(0) < b;
-    // Of two forms of each quotient the one that does not cancel.
+    // Each quotient in the form that does not cancel.
     Real outer = r + gnomon_abs(b);
     Real c = gnomon_select(positive, outer, Real(-2) * a) / gnomon_select(positive, w2, outer);
     Real inverse = Real(1) / gnomon_select(between, r + r, outer);
-    Real g = a2 * inverse; // k, where a node is on either side
+    Real g = a2 * inverse; // k if one node is on either side
     Real n0 = gnomon_select(between, Real(0), Real(1));
     Real n1 = gnomon_select(between, c - g, g);
     Real n2 = gnomon_select(between, c, g) * gnomon_select(between, (c - g) - g, g);
@@ -162,7 +174,8 @@ GNOMON_KERNEL Real certified4_constant_bias_lower(GNOMON_T(hankel4) h, GNOMON_T(
     return gnomon_select(known, saturate_or_zero(mean - (added + doubt)), Real(0));
 }
 
-/// The most that rounding moves each moment of b: 2 delta of itself, at most delta, at least the share of a denormal.
+/// The largest error of each moment of b after one rounding in storage: 2 delta |b_j|, but at most delta, and at least
+/// `least`, the error of denormal numbers.
 GNOMON_KERNEL GNOMON_T(moments4) moments4_rounding(GNOMON_T(moments4) b, GNOMON_SETTING delta, GNOMON_SETTING least)
 {
     GNOMON_T(moments4) e;
@@ -173,7 +186,8 @@ GNOMON_KERNEL GNOMON_T(moments4) moments4_rounding(GNOMON_T(moments4) b, GNOMON_
     return e;
 }
 
-/// The same for roundings before the filter, which the moments of |z| bound: E |z|^3 <= (b2 + b4) / 2.
+/// The largest error of each filtered moment of b after roundings before the filter, which the moments of |z| bound.
+/// For the third, E |z|^3 <= (b2 + b4) / 2.
 GNOMON_KERNEL GNOMON_T(moments4) moments4_rounding_filtered(GNOMON_T(moments4) b, GNOMON_SETTING delta,
                                                             GNOMON_SETTING least)
 {

@@ -1,5 +1,5 @@
-// Covariances of powers of depth, b_(i+j) - b_i b_j, as double words. Over a single surface nearly all digits cancel, and
-// the remaining ones decide the shadow. The factored Hankel matrices of four and of six moments both start from them.
+// Covariances of powers of depth, b_(i+j) - b_i b_j, as double words. Over a single surface nearly all digits cancel,
+// and the remaining ones decide the shadow. The factored Hankel matrices of four and of six moments start from them.
 #ifndef GNOMON_MOMENTS_COVARIANCE_H
 #define GNOMON_MOMENTS_COVARIANCE_H
 #include "../numerics/two_product.h"

@@ -1,17 +1,22 @@
 // Shadow intensity from four moments: sharp bounds on Z(z < z_f) over all depth distributions Z with these moments
-// (the Hamburger moment problem; Peters et al. 2017, Equation 1 and Algorithm 1), by counting, then weighing.
+// (the Hamburger moment problem; Peters et al. 2017, Eq. 1 and Alg. 1), without solving for all nodes and weights.
 //
-// The Christoffel-Darboux kernel K(x, y) = sum_k P_k(x) P_k(y) / D_k of the factored Hankel matrix (hankel4.h) holds
-// the canonical distribution with a node at z_f: its other two nodes are the roots of K(z_f, .), and a node z weighs
-// w(z) = 1 / K(z, z). The number of nodes above z_f is the number of sign changes in P_0(z_f), P_1(z_f), P_2(z_f):
-//     none: lower = 1 - w_f     both: lower = 0     one: lower = w(smaller root)     upper = lower + w_f
-// With x = z - mean, u = z_f - mean, V = D_1, N = D_1 D_2, W = V N and Q(x) = V P_2 = (V x - G) x - V^2:
-//     w(z) = W / (W + x^2 N + Q(x)^2)     K(z_f, .) = 0: a x^2 + 2 b x + c = 0, a = Q V, 2 b = u N - Q G, c = W - Q V^2
-// for Q = Q(u). Where one root lies on each side, Q < 0, so r^2 = b^2 - a c is a sum of positive terms. The two nodes
-// beside z_f weigh E / (W + E) together, E = u^2 N + Q^2, and balance it about the mean, so that the weight of the
-// smaller one needs no root of its own:
+// The Christoffel-Darboux kernel K(x, y) = sum_k P_k(x) P_k(y) / D_k of the factored Hankel matrix (hankel4.h)
+// gives the canonical distribution with a node at z_f: the other two nodes are the roots of K(z_f, .), and a node
+// at z has the weight w(z) = 1 / K(z, z). The number of nodes above z_f is the number of sign changes in
+// P_0(z_f), P_1(z_f), P_2(z_f):
+//     no node above:      lower = 1 - w_f
+//     both nodes above:   lower = 0
+//     one node above:     lower = w(smaller root)
+// and upper = lower + w_f. Let x = z - mean, u = z_f - mean, V = D_1, N = D_1 D_2, W = V N and
+// Q(x) = V P_2 = (V x - G) x - V^2. Then
+//     w(z) = W / (W + x^2 N + Q(x)^2)
+//     K(z_f, .) = 0:    a x^2 + 2 b x + c = 0,    a = Q V,    2 b = u N - Q G,    c = W - Q V^2,    Q = Q(u)
+// If one root lies on each side, Q < 0, so r^2 = b^2 - a c is a sum of positive terms. The two nodes beside z_f have
+// the weight E / (W + E) together, E = u^2 N + Q^2, and their mean balances z_f about the mean of all, which gives the
+// weight of the smaller one without its root:
 //     w(smaller root) = (E (r + b) - W u a) / (2 r (W + E))
-// One division and one square root in all.
+// The whole takes one division and one square root.
 #ifndef GNOMON_MOMENTS_HAMBURGER4_H
 #define GNOMON_MOMENTS_HAMBURGER4_H
 #include "../numerics/quadratic.h"
@@ -20,13 +25,13 @@
 #include "hankel4.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// The canonical distribution: a node at the receiver and two more, depth1 <= depth2; weights in [0, 1] sum to 1.
+/// The canonical distribution: depth0 at the receiver and depth1 <= depth2. The weights are in [0, 1] and sum to 1.
 GNOMON_STRUCT(distribution3) { Real depth0, depth1, depth2, weight0, weight1, weight2; };
 
 GNOMON_CONSTANT(hamburger4_scale, 72057594037927936.0);     // 2^56
 GNOMON_CONSTANT(hamburger4_lower_scale, 281474976710656.0); // 2^48
 
-/// Q(x) = V P_2(mean + x).
+/// The polynomial Q(x) = V P_2(mean + x).
 GNOMON_DETAIL_KERNEL Real hamburger4_q(GNOMON_T(hankel4) h, Real x)
 {
     return (h.variance * x - h.third) * x - h.variance * h.variance;
@@ -39,12 +44,13 @@ GNOMON_DETAIL_KERNEL Real hamburger4_weight(GNOMON_T(hankel4) h, Real x, Real q)
     return w / (w + (x * x * h.determinant + q * q));
 }
 
-/// The coefficients of a x^2 + 2 b x + c with the two other nodes, less the mean, as roots; q = Q(u).
+/// The quadratic a x^2 + 2 b x + c.
 GNOMON_STRUCT(hamburger4_quadratic) { Real a, b, c; };
 
+/// The quadratic whose roots x are the other two nodes minus the mean, for u = z_f - mean and q = Q(u).
 GNOMON_DETAIL_KERNEL GNOMON_T(hamburger4_quadratic) hamburger4_other_nodes(GNOMON_T(hankel4) h, Real u, Real q)
 {
-    // The power of two keeps the discriminant of a single depth, down to 2^-139, from underflowing.
+    // The power of two keeps the discriminant of a single depth, as small as 2^-139, from underflowing.
     Real n = h.determinant * GNOMON_LITERAL(hamburger4_scale);
     Real s = q * GNOMON_LITERAL(hamburger4_scale);
     GNOMON_T(hamburger4_quadratic) r;
@@ -54,14 +60,15 @@ GNOMON_DETAIL_KERNEL GNOMON_T(hamburger4_quadratic) hamburger4_other_nodes(GNOMO
     return r;
 }
 
-/// Lower bound and w_f as numerators over one denominator each: lower = share / total, w_f = receiver / whole.
+/// Lower bound and weight of the receiver as fractions: lower = share / total, w_f = receiver / whole.
 GNOMON_STRUCT(hamburger4_fractions) { Real share, total, receiver, whole; };
 
+/// Lower bound and weight of the receiver at z_f, clamped to [-1, 1], before division and clamping.
 GNOMON_DETAIL_KERNEL GNOMON_T(hamburger4_fractions) hamburger4_fractions_at(GNOMON_T(hankel4) h, Real z_f)
 {
     Real u = clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean;
     Real q = hamburger4_q(h, u);
-    // The power of two, a factor of every term, keeps those of a single depth from underflowing.
+    // The power of two is a factor of every term. The terms of a single depth would underflow otherwise.
     Real s = GNOMON_LITERAL(hamburger4_lower_scale) * q;
     Real n = GNOMON_LITERAL(hamburger4_lower_scale) * h.determinant;
     Real un = u * n;
@@ -73,31 +80,39 @@ GNOMON_DETAIL_KERNEL GNOMON_T(hamburger4_fractions) hamburger4_fractions_at(GNOM
     f.receiver = h.variance * n;
     f.whole = f.receiver + e;
     GNOMON_MASK between = q < Real(0);
-    // Outside, where u is never 0, the quotient is plus or minus e / whole: a lower bound of 0 is asked for as less.
+    // Elsewhere u is never 0 and the quotient is e / whole with the sign of u: a negative lower bound is clamped to 0.
     f.share = gnomon_select(between, e * (r + b) - f.receiver * (u * a), e * u);
     f.total = gnomon_select(between, r + r, gnomon_abs(u)) * f.whole;
     return f;
 }
 
-/// Lower bound on the shadow intensity at z_f: what a surface should show, since it never darkens a lit one
-/// (paper, 2.2.1). z_f in [-1, 1], clamped. A NaN anywhere gives 0, lit. Against the moment problem solved in 120
-/// digits (tests/moments/hamburger_oracle.cpp),
+/// Lower bound on the shadow intensity at z_f, in [0, 1]. Surfaces should show this bound, since it never darkens
+/// a lit surface.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit, for a NaN in h or z_f.
+/// Error: against the moment problem solved in 120 digits (tests/moments/hamburger_oracle.cpp),
 ///     error, double, no bias, three depths and more: p99 1e-13, p99.9 2e-12
 ///     error, float, hankel4_constant_bias at 3e-7: p99 3e-5, p99.9 1e-4, max 5e-4
-/// and against the same in double, maxima by climbing (tests/moments/honest_four.cpp),
+/// and against the kernel in double, with maxima found by climbing (tests/moments/honest_four.cpp),
 ///     error, float, hankel4_from_float: p99 3e-5, p99.9 1e-4, max 5e-4
 ///     error, float, hankel4_from_float_filtered: p99 2e-5, p99.9 5e-5, max 1e-4
 ///     error, float, hankel4_from_half: p99 4e-6, p99.9 2e-5, max 3e-4
 ///     error, float, hankel4_from_half_filtered: p99 2e-6, p99.9 7e-6, max 3e-5
 ///     error, float, hankel4_from_unorm16: p99 4e-4, p99.9 2e-3, max 5e-2
 ///     error, float, hankel4_from_unorm16_filtered: p99 2e-4, p99.9 6e-4, max 4e-3
+/// Source: Peters 2017, Eq. 1; Peters 2017, Alg. 1
 GNOMON_KERNEL Real hamburger4_lower(GNOMON_T(hankel4) h, Real z_f)
 {
     hamburger4_fractions f = hamburger4_fractions_at(h, z_f);
     return saturate_or_zero(f.share / f.total);
 }
 
-/// Both bounds and the weight of the receiver; one division more than the lower bound.
+/// Both bounds on the shadow intensity at z_f and the weight of the receiver, for one division more than
+/// the lower bound.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit, for a NaN in h or z_f.
+/// Error: as for hamburger4_lower.
+/// Source: Peters 2017, Alg. 1; Peters 2017, Sec. 5.3
 GNOMON_KERNEL GNOMON_T(hamburger_bounds) hamburger4_bounds(GNOMON_T(hankel4) h, Real z_f)
 {
     hamburger4_fractions f = hamburger4_fractions_at(h, z_f);
@@ -108,8 +123,11 @@ GNOMON_KERNEL GNOMON_T(hamburger_bounds) hamburger4_bounds(GNOMON_T(hankel4) h, 
     return r;
 }
 
-/// The canonical distribution with a node at z_f, clamped. The other depths are finite and within 1024 of the mean: a
-/// node that runs to infinity has no weight. A NaN anywhere gives a single depth at the far plane.
+/// The canonical distribution with a node at z_f. The other two depths are finite, at most 1024 from the mean, where a
+/// node that would be at infinity has no weight.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: a single depth at the far plane.
+/// Source: Peters 2017, Alg. 1
 GNOMON_KERNEL GNOMON_T(distribution3) hamburger4_distribution(GNOMON_T(hankel4) h, Real z_f)
 {
     Real z = clamp_or_nan(z_f, Real(-1), Real(1));

@@ -1,14 +1,14 @@
-// Shadow intensity from six moments, by counting, then weighing: see hamburger4.h for the idea. With three moments more
-// than a surface shadow needs, it serves where many surfaces lie behind one another (Peters et al. 2017, 5.4).
+// Shadow intensity from six moments, by the method of hamburger4.h (Peters et al. 2017, Sec. 5.4 and Alg. 1). Surface
+// shadows need four moments only. Six serve where many surfaces lie behind one another, as in single scattering.
 //
-// With K(x, y) = sum_k P_k(x) P_k(y) / D_k, w(z) = 1 / K(z, z) and a = sign changes in P_0(z_f), ..., P_3(z_f):
-//     a = 0: lower = 1 - w_f                        a = 2: lower = w(smallest root)
-//     a = 1: lower = 1 - w_f - w(largest root)      a = 3: lower = 0
-// so one root at most is needed, and it is alone on its side of z_f. With t = 1 / (z - z_f) it is the only one of its
+// With K(x, y) = sum_k P_k(x) P_k(y) / D_k and w(z) = 1 / K(z, z), the number a of nodes above z_f is the number of
+// sign changes in P_0(z_f), ..., P_3(z_f):
+//     a = 0:  lower = 1 - w_f                        a = 2:  lower = w(smallest root)
+//     a = 1:  lower = 1 - w_f - w(largest root)      a = 3:  lower = 0
+// At most one root is needed, and that root is alone on its side of z_f. In t = 1 / (z - z_f) it is the only one of its
 // sign among the roots of
-//     k0 t^3 + k1 t^2 + k2 t + k3,      k0 = K(z_f, z_f) >= 1,      k_j = (d/dz)^j K(z_f, z) / j! at z_f,
-// and after a change of sign the largest of three real ones: start from the closed form, whose cosine of a third of an
-// angle is a short polynomial in the cosine of half the angle, then polish by Halley's iteration on the cubic itself.
+//     k0 t^3 + k1 t^2 + k2 t + k3,      k0 = K(z_f, z_f) >= 1,      k_j = (d/dz)^j K(z_f, z) / j! at z_f.
+// After a change of sign it is the largest of three real roots, which cubic.h finds.
 #ifndef GNOMON_MOMENTS_HAMBURGER6_H
 #define GNOMON_MOMENTS_HAMBURGER6_H
 #include "../numerics/cubic.h"
@@ -18,13 +18,14 @@
 #include "hankel6.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// The canonical distribution: a node at the receiver and three more, depth1 <= depth2 <= depth3; weights in [0, 1] sum
-/// to 1.
+/// The canonical distribution: depth0 at the receiver and depth1 <= depth2 <= depth3. The weights are in [0, 1] and
+/// sum to 1.
 GNOMON_STRUCT(distribution4) { Real depth0, depth1, depth2, depth3, weight0, weight1, weight2, weight3; };
 
-/// P_1, P_2, P_3 at one depth, by its distance u from the mean.
+/// The orthogonal polynomials P_1, P_2 and P_3 at one depth.
 GNOMON_STRUCT(polynomials6) { Real p1, p2, p3; };
 
+/// P_1, P_2 and P_3 at the depth mean + u.
 GNOMON_DETAIL_KERNEL GNOMON_T(polynomials6) hamburger6_polynomials(GNOMON_T(hankel6) h, Real u)
 {
     GNOMON_T(polynomials6) p;
@@ -34,16 +35,17 @@ GNOMON_DETAIL_KERNEL GNOMON_T(polynomials6) hamburger6_polynomials(GNOMON_T(hank
     return p;
 }
 
-/// D_3 K(z, z), at least D_3; D_3, which is h.whole, over it is the weight of a node at z.
+/// D_3 K(z, z), at least D_3, from the polynomials at z. A node at z has the weight h.whole divided by the result.
 GNOMON_DETAIL_KERNEL Real hamburger6_kernel(GNOMON_T(hankel6) h, GNOMON_T(polynomials6) p)
 {
     return (h.whole + h.first * (p.p1 * p.p1)) + (h.second * (p.p2 * p.p2) + p.p3 * p.p3);
 }
 
-/// P_2', P_3' and P_3'' / 2 at the same depth.
+/// The derivatives P_2', P_3' and P_3'' / 2 at one depth.
 GNOMON_STRUCT(derivatives6) { Real slope2, slope3, bend3; };
 
-/// By the recurrence: P_2' = 2 u - shift2, P_3' = P_2 + v P_2' - ratio, P_3'' / 2 = P_2' + v with v = u - shift3.
+/// The derivatives at the depth of p, from the recurrence: P_2' = 2 u - shift2, P_3' = P_2 + v P_2' - ratio and
+/// P_3'' / 2 = P_2' + v with v = u - shift3.
 GNOMON_DETAIL_KERNEL GNOMON_T(derivatives6) hamburger6_derivatives(GNOMON_T(hankel6) h, GNOMON_T(polynomials6) p)
 {
     Real v = p.p1 - h.shift3;
@@ -54,8 +56,9 @@ GNOMON_DETAIL_KERNEL GNOMON_T(derivatives6) hamburger6_derivatives(GNOMON_T(hank
     return d;
 }
 
-/// P_1, P_2, P_3 farther by a distance: by Taylor, exact for polynomials. A node close to z_f keeps its distance, which
-/// its depth would have rounded away: in float that decides whether a lit surface is darkened.
+/// P_1, P_2 and P_3 at a depth that is farther by distance_, from p and its derivatives d by Taylor's formula, which is
+/// exact for polynomials. The distance of a node close to z_f would be rounded away in its depth. In float that decides
+/// whether a lit surface is darkened.
 GNOMON_DETAIL_KERNEL GNOMON_T(polynomials6) hamburger6_polynomials_shift(GNOMON_T(polynomials6) p,
                                                                          GNOMON_T(derivatives6) d, Real distance_)
 {
@@ -65,11 +68,11 @@ GNOMON_DETAIL_KERNEL GNOMON_T(polynomials6) hamburger6_polynomials_shift(GNOMON_
     return p;
 }
 
-/// t^3 + b t^2 + c t + d, whose roots are 1 / (z - z_f) for the other nodes z, or with their signs flipped where side
-/// = -1.
+/// The cubic t^3 + b t^2 + c t + d.
 GNOMON_STRUCT(hamburger6_cubic) { Real b, c, d; };
 
-/// p and d at z_f, inverse = 1 / (D_3 K(z_f, z_f)).
+/// The cubic whose roots are side / (z - z_f) for the other nodes z, from polynomials p and derivatives d at z_f, with
+/// inverse = 1 / (D_3 K(z_f, z_f)) and side = 1 or -1.
 GNOMON_DETAIL_KERNEL GNOMON_T(hamburger6_cubic) hamburger6_other_nodes(GNOMON_T(hankel6) h, GNOMON_T(polynomials6) p,
                                                                        GNOMON_T(derivatives6) d, Real inverse,
                                                                        Real side)
@@ -82,7 +85,7 @@ GNOMON_DETAIL_KERNEL GNOMON_T(hamburger6_cubic) hamburger6_other_nodes(GNOMON_T(
     return r;
 }
 
-/// 1 / t, where a node that runs to infinity stops 1024 from z_f: it has no weight there.
+/// The distance 1 / t of a node from z_f, clamped to 1024, where a node that would be at infinity has no weight.
 GNOMON_DETAIL_KERNEL Real hamburger6_distance(Real t)
 {
     Real least = Real(0.0009765625);
@@ -90,19 +93,22 @@ GNOMON_DETAIL_KERNEL Real hamburger6_distance(Real t)
     return Real(1) / away;
 }
 
-/// Both bounds and the weight of the receiver. z_f in [-1, 1], clamped. A NaN anywhere gives 0, lit. Against the moment
-/// problem solved in 120 digits (tests/moments/hamburger_oracle.cpp),
+/// Both bounds on the shadow intensity at z_f and the weight of the receiver.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit, for a NaN in h or z_f.
+/// Error: against the moment problem solved in 120 digits (tests/moments/hamburger_oracle.cpp),
 ///     error, double, no bias, four depths and more: p99 1e-14, p99.9 4e-14
 ///     error, float, hankel6_constant_bias at 5e-6: p99 2e-5, p99.9 5e-5, max 2e-4
-/// and against the same in double,
+/// and against the kernel in double,
 ///     error, float, hankel6_from_float: p99 2e-5, p99.9 5e-5, max 2e-4
 ///     error, float, hankel6_from_float_filtered: p99 1e-5, p99.9 3e-5, max 1e-4
 ///     error, float, hankel6_from_unorm16: p99 8e-4, p99.9 3e-3, max 4e-2
 ///     error, float, hankel6_from_unorm16_filtered: p99 5e-4, p99.9 2e-3, max 2e-2
 ///     error, float, hankel6_from_unorm10: p99 3e-5, p99.9 9e-5, max 8e-4
 ///     error, float, hankel6_from_unorm10_filtered: p99 2e-5, p99.9 5e-5, max 3e-4
-/// Maxima are climbed, with a margin. Without a bias there is none: where D_3 meets the floor, moments rounded in
-/// double do not tell what lies within 2^-32 of a depth.
+/// Maxima are found by climbing and stated with a margin. Without a bias there is no maximum: if D_3 is at the floor,
+/// moments rounded in double cannot resolve distances below 2^-32.
+/// Source: Peters 2017, Alg. 1; Peters 2017, Sec. 5.4
 GNOMON_KERNEL GNOMON_T(hamburger_bounds) hamburger6_bounds(GNOMON_T(hankel6) h, Real z_f)
 {
     polynomials6 p = hamburger6_polynomials(h, clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean);
@@ -116,12 +122,12 @@ GNOMON_KERNEL GNOMON_T(hamburger_bounds) hamburger6_bounds(GNOMON_T(hankel6) h, 
     GNOMON_MASK outside = all_below || all_above;
     Real lower = gnomon_select(all_below, Real(1) - w_f, Real(0));
     if (gnomon_any(!outside)) {
-        // P_3 > 0: an even number of nodes above z_f, so two, and the lone one is below; else it is above.
+        // P_3 > 0: two nodes above z_f and the lone one below. Else the lone one is above.
         Real side = gnomon_select(positive3, Real(-1), Real(1));
         derivatives6 d = hamburger6_derivatives(h, p);
         hamburger6_cubic n = hamburger6_other_nodes(h, p, d, inverse, side);
         cubic_step t = cubic_positive_root(n.b, n.c, n.d);
-        // A node that runs to infinity stops 1024 from z_f: it has no weight there.
+        // Clamped to 1024, where a node that would be at infinity has no weight.
         Real distance_ = (side * t.denominator) / gnomon_max(t.numerator, Real(0.0009765625) * t.denominator);
         Real w = h.whole / hamburger6_kernel(h, hamburger6_polynomials_shift(p, d, distance_));
         lower = gnomon_select(outside, lower, gnomon_select(positive3, w, (Real(1) - w_f) - w));
@@ -133,20 +139,29 @@ GNOMON_KERNEL GNOMON_T(hamburger_bounds) hamburger6_bounds(GNOMON_T(hankel6) h, 
     return r;
 }
 
-/// Lower bound on the shadow intensity at z_f: what a surface should show, since it never darkens a lit one.
+/// Lower bound on the shadow intensity at z_f, in [0, 1]. Surfaces should show this bound, since it never darkens
+/// a lit surface.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit, for a NaN in h or z_f.
+/// Error: as for hamburger6_bounds.
+/// Source: Peters 2017, Eq. 1; Peters 2017, Alg. 1
 GNOMON_KERNEL Real hamburger6_lower(GNOMON_T(hankel6) h, Real z_f) { return hamburger6_bounds(h, z_f).lower; }
 
-/// The canonical distribution with a node at z_f. Depths are finite and within 1026 of it: a node that runs to infinity
-/// has no weight. A NaN anywhere gives a single depth at the far plane.
+/// The canonical distribution with a node at z_f. The other three depths are finite, at most 1026 from z_f, where a
+/// node that would be at infinity has no weight.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: a single depth at the far plane.
+/// Source: Peters 2017, Alg. 1; Peters 2017, Sec. 5.4
 GNOMON_KERNEL GNOMON_T(distribution4) hamburger6_distribution(GNOMON_T(hankel6) h, Real z_f)
 {
     polynomials6 p = hamburger6_polynomials(h, clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean);
     Real inverse = Real(1) / hamburger6_kernel(h, p);
     Real side = gnomon_select(p.p3 > Real(0), Real(-1), Real(1));
     hamburger6_cubic n = hamburger6_other_nodes(h, p, hamburger6_derivatives(h, p), inverse, side);
-    // The largest root, then the other two from the quadratic that division by it leaves, polished on the cubic.
+    // The largest root. Dividing the cubic by it leaves a quadratic for the other two, which
+    // Halley's iteration refines.
     Real t1 = cubic_largest_root(n.b, n.c, n.d);
-    // Divide from the end that does not cancel: a small root from the highest power, a large one from the lowest.
+    // The division starts at the end that does not cancel: at the highest power for a small root, else at the lowest.
     GNOMON_MASK large = (t1 * t1) * t1 > -n.d;
     Real backward = -n.d / t1;
     Real forward = n.b + t1;

@@ -1,16 +1,18 @@
-// The Hankel matrix of six moments, factored: everything that all receivers under one filter region share.
+// The Hankel matrix of six moments, factored: the part of the work that all receivers of one filter region share
+// (Peters et al. 2017, Alg. 1, steps 1 and 2 without the right-hand side, for m = 6; Sec. 5.4).
 //
-// After one step of elimination the covariances c_ij = b_(i+j) - b_i b_j of (z, z^2, z^3) remain, after the next
-// (without divisions, Bareiss) s_22 = c_11 c_22 - c_12^2, s_23, s_33, and then t = s_22 s_33 - s_23^2. With L D L^T of
-// pivots D_1 = c_11, D_2 = s_22 / c_11, D_3 = t / (c_11 s_22) and l21 = c_12 / c_11, l32 = s_23 / s_22 below the
-// diagonal, and with u = z - b1, the monic orthogonal polynomials of the distribution, for which D_k = E[P_k^2], are
+// One step of elimination leaves the covariances c_ij = b_(i+j) - b_i b_j of (z, z^2, z^3). The next, without divisions
+// (Bareiss 1968), leaves s_22 = c_11 c_22 - c_12^2, s_23 and s_33, and the last t = s_22 s_33 - s_23^2. The
+// factorization L D L^T has the pivots D_1 = c_11, D_2 = s_22 / c_11 and D_3 = t / (c_11 s_22), and l21 = c_12 / c_11
+// and l32 = s_23 / s_22 below the diagonal. With u = z - b1, the monic orthogonal polynomials of the distribution, for
+// which D_k = E[P_k^2], follow a three-term recurrence (Gautschi 2004, Sec. 1.3):
 //     P_1 = u,    P_2 = (u - (l21 - 2 b1)) P_1 - D_1,    P_3 = (u - (l32 - l21 - b1)) P_2 - (D_2 / D_1) P_1
-// (Peters et al. 2017, 5.4, Algorithm 1, step 2; the three-term recurrence: Gautschi 2004, 1.3). Every difference of
-// moments cancels, so all are taken from exact products; a bias (bias.h) is added to the covariances, as double words
-// that are kept until a pivot is had: in the moments it would be rounded away.
+// Every difference of moments cancels, so all are computed from exact products. A bias (bias.h) is added to the
+// covariances, as double words that are kept until a pivot is complete, because added to the moments it would
+// be rounded away.
 //
-// hamburger6.h wants D_3 K(z, z) = D_3 + (D_3 / D_1) P_1^2 + (D_3 / D_2) P_2^2 + P_3^2, whose weights are stored: one
-// over D_1 and one over s_22 are the only quotients, and both are at hand before t is.
+// hamburger6.h needs D_3 K(z, z) = D_3 + (D_3 / D_1) P_1^2 + (D_3 / D_2) P_2^2 + P_3^2, whose weights are stored. The
+// only quotients are 1 / D_1 and 1 / s_22, and neither waits for t.
 #ifndef GNOMON_MOMENTS_HANKEL6_H
 #define GNOMON_MOMENTS_HANKEL6_H
 #include "../numerics/two_product.h"
@@ -18,13 +20,15 @@
 #include "moments.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// The recurrence: mean b1, variance D_1, the shifts of u in P_2 and P_3, ratio D_2 / D_1; and the weights of 1, P_1^2
-/// and P_2^2 in D_3 K(z, z): whole D_3, first D_3 / D_1, second D_3 / D_2. Pivots are positive, whatever the moments
-/// were, or NaN where one of these was.
+/// The factored matrix. The recurrence has mean b1, variance D_1, the shifts of u in P_2 and P_3, and ratio D_2 / D_1.
+/// The weights of 1, P_1^2 and P_2^2 in D_3 K(z, z) are whole = D_3, first = D_3 / D_1 and second = D_3 / D_2. Pivots
+/// are positive for any moments.
+/// NaN: a NaN among the moments stays NaN.
 GNOMON_STRUCT(hankel6) { Real mean, variance, shift2, shift3, ratio, whole, first, second; };
 
-/// From mean, c_11, c_12, s_22, s_23 and t; no pivot below the floor. A NaN, the second argument of gnomon_max, stays
-/// one (portable.h).
+/// The factored matrix from the mean, c_11, c_12, s_22, s_23 and t. Pivots below the floor are raised to the floor, so
+/// that indefinite moments still name a distribution.
+/// NaN: stays NaN, as the second argument of gnomon_max (portable.h).
 GNOMON_DETAIL_KERNEL GNOMON_T(hankel6) hankel6_make(Real mean, Real c11, Real c12, Real s22, Real s23, Real t)
 {
     GNOMON_T(hankel6) h;
@@ -46,7 +50,7 @@ GNOMON_DETAIL_KERNEL GNOMON_T(hankel6) hankel6_make(Real mean, Real c11, Real c1
 /// The covariances of (z, z^2, z^3).
 GNOMON_STRUCT(covariances6) { GNOMON_T(double_word) c11, c12, c13, c22, c23, c33; };
 
-/// By Hoelder's inequality the terms are ordered where i + j is even.
+/// The covariances without loss by cancellation. Hoelder's inequality orders the terms of those with an even i + j.
 GNOMON_DETAIL_KERNEL GNOMON_T(covariances6) covariances6_from_moments(GNOMON_T(moments6) b)
 {
     GNOMON_T(covariances6) c;
@@ -61,7 +65,7 @@ GNOMON_DETAIL_KERNEL GNOMON_T(covariances6) covariances6_from_moments(GNOMON_T(m
 
 /// a b - c d as a double word, for factors whose low words may be as large as the high ones.
 /// Domain: a b >= |c d| for the high words.
-/// Error: in float 2^-45 of both products of the high words, 2^-21 of what the low words add to each.
+/// Error: in float 2^-45 of both products of the high words, and 2^-21 of the contributions of the low words.
 GNOMON_DETAIL_KERNEL GNOMON_T(double_word) hankel6_minor(GNOMON_T(double_word) a, GNOMON_T(double_word) b,
                                                          GNOMON_T(double_word) c, GNOMON_T(double_word) d)
 {
@@ -74,7 +78,7 @@ GNOMON_DETAIL_KERNEL GNOMON_T(double_word) hankel6_minor(GNOMON_T(double_word) a
     return r;
 }
 
-/// Elimination.
+/// The factored matrix from the mean and the covariances, by elimination.
 GNOMON_DETAIL_KERNEL GNOMON_T(hankel6) hankel6_factor(Real mean, GNOMON_T(covariances6) c)
 {
     double_word s22 = hankel6_minor(c.c11, c.c22, c.c12, c.c12);
@@ -84,11 +88,13 @@ GNOMON_DETAIL_KERNEL GNOMON_T(hankel6) hankel6_factor(Real mean, GNOMON_T(covari
                         double_word_determinant(s22, s23, s33));
 }
 
-/// The moments of the mixture (1 - alpha) Z + alpha Z*, where Z* is symmetric with even moments bias2, bias4, bias6
-/// (paper, 2.5, 5.4.3). Its covariances are, over 1 - alpha, those of Z, alpha / (1 - alpha) times those of Z*, and
-/// alpha times the products of the differences of the means.
-/// Domain: alpha in [0, 1), and from n delta / (n delta + r) on for moments that are off by n roundings (storage/moments6.h);
-/// below, pivots may meet their floor, and bounds say nothing.
+/// The factored matrix of the mixture (1 - alpha) Z + alpha Z*, where Z has the moments b and Z* is symmetric with even
+/// moments bias2, bias4 and bias6. The covariances of the mixture, divided by 1 - alpha, are the sum of those of Z,
+/// alpha / (1 - alpha) times those of Z*, and alpha times the products of the differences of the means.
+/// Domain: alpha in [0, 1), and at least n delta / (n delta + r) for moments that are off by n roundings (bias.h). With
+/// a smaller alpha pivots may be at the floor, and bounds are not reliable.
+/// NaN: stays NaN.
+/// Source: Peters 2017, Sec. 2.5; Peters 2017, Sec. 5.4.3
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_constant_bias(GNOMON_T(moments6) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4,
                                                       GNOMON_SETTING bias6, GNOMON_SETTING alpha)
 {
@@ -111,7 +117,10 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_constant_bias(GNOMON_T(moments6) b, GNOM
     return h;
 }
 
-/// Plain arithmetic: right for moments from 10 and 16 bit storage, whose own errors are larger, and for double.
+/// The factored matrix of moments b, in plain arithmetic: for double, and for biased moments from 10-bit and 16-bit
+/// storage, whose own errors are larger than those of the arithmetic.
+/// NaN: stays NaN.
+/// Source: Peters 2017, Alg. 1
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_moments(GNOMON_T(moments6) b)
 {
     Real c11 = b.b2 - b.b1 * b.b1;

@@ -1,11 +1,11 @@
-// The sparse quantization transforms: affine maps of the moments into [0, 1], odd and even ones apart, that spread what
-// a UNORM format can tell apart as evenly as possible over what depth distributions need (Peters et al.
-// 2017, 2.4, 5.4.3).
+// The sparse quantization transforms (Peters et al. 2017, Sec. 2.4 and 5.4.3): affine maps of the moments to channels
+// in [0, 1], for storage as UNORM. Odd and even moments are transformed separately. The transforms spread the codes of
+// the format as evenly as possible over the moments of depth distributions.
 //
-// Each output is a polynomial in z that touches 0 and 1 on [-1, 1], and their determinant is the largest: an entropy
-// gain of 4.21 bits over storing four moments as they are, 12.51 bits for six. Entries to full precision by
-// tests/derivations; the paper's digits for six moments are a little off the optimum (range exceeded by 6e-9, entries
-// up to 5e-3 away).
+// Each channel is a polynomial in z that touches 0 and 1 on [-1, 1], and the determinant of the transform is the
+// largest possible. The gain in entropy over storing the moments themselves is 4.21 bits for four moments and 12.51
+// bits for six. tests/derivations computes the entries to full precision. The paper's entries for six moments are
+// slightly off the optimum: up to 5e-3 away, and the channels exceed [0, 1] by 6e-9.
 #ifndef GNOMON_MOMENTS_QUANTIZATION_H
 #define GNOMON_MOMENTS_QUANTIZATION_H
 #include "moments.h"
@@ -17,7 +17,8 @@ GNOMON_CONSTANT(theta4_inverse11, -0.33333333333333331);
 GNOMON_CONSTANT(theta4_inverse13, 1.7320508075688772);
 GNOMON_CONSTANT(theta4_inverse33, 1.299038105676658);
 
-/// Theta_4* (paper, Equation 3): four moments of signed depth to four channels in [0, 1].
+/// Theta_4*: the four channels, in [0, 1], of four moments of signed depth.
+/// Source: Peters 2017, Eq. 3
 GNOMON_KERNEL GNOMON_T(moments4) theta4(GNOMON_T(moments4) b)
 {
     GNOMON_T(moments4) c;
@@ -28,7 +29,8 @@ GNOMON_KERNEL GNOMON_T(moments4) theta4(GNOMON_T(moments4) b)
     return c;
 }
 
-/// The inverse of theta4: channels to moments.
+/// The four moments of channels c: the inverse of theta4.
+/// Source: Peters 2017, Eq. 3
 GNOMON_KERNEL GNOMON_T(moments4) theta4_inverse(GNOMON_T(moments4) c)
 {
     Real c1 = c.b1 - Real(0.5);
@@ -41,8 +43,10 @@ GNOMON_KERNEL GNOMON_T(moments4) theta4_inverse(GNOMON_T(moments4) c)
     return b;
 }
 
-/// (1 - alpha) b + alpha (0, bias, 0, bias) for the moments b of channels c: theta4_inverse, then moments4_add_bias, in
-/// four products less.
+/// The biased moments (1 - alpha) b + alpha (0, bias, 0, bias), where b are the moments of channels c: theta4_inverse
+/// and moments4_add_bias in one, with four products less.
+/// Domain: alpha in [0, 1].
+/// Source: Peters 2017, Eq. 3; Peters 2017, Sec. 2.5
 GNOMON_KERNEL GNOMON_T(moments4) theta4_inverse_add_bias(GNOMON_T(moments4) c, GNOMON_SETTING bias,
                                                          GNOMON_SETTING alpha)
 {
@@ -59,15 +63,15 @@ GNOMON_KERNEL GNOMON_T(moments4) theta4_inverse_add_bias(GNOMON_T(moments4) c, G
     return b;
 }
 
-// Odd rows 2 and 3; row 1 is T_5(z) / 2.
+// Rows 2 and 3 for the odd moments. Row 1 is T_5(z) / 2, with Chebyshev polynomials T_n.
 GNOMON_CONSTANT(theta6_21, -1.8745771666290014);
 GNOMON_CONSTANT(theta6_23, 4.204664766466248);
 GNOMON_CONSTANT(theta6_25, -1.8300875998372463);
 GNOMON_CONSTANT(theta6_31, 1.2643431422063351);
 GNOMON_CONSTANT(theta6_33, -1.4716161665593888);
 GNOMON_CONSTANT(theta6_35, 0.70727302435305361);
-// Even row 3: -sqrt(3)/3, 8 sqrt(3)/3, -16 sqrt(3)/9 and 1/2 - 5 sqrt(3)/18; rows 1 and 2 are 4 z^2 (1 - z^2) and
-// T_3(z)^2.
+// Row 3 for the even moments: -sqrt(3)/3, 8 sqrt(3)/3, -16 sqrt(3)/9 and the offset 1/2 - 5 sqrt(3)/18. Rows 1 and 2
+// are 4 z^2 (1 - z^2) and T_3(z)^2.
 GNOMON_CONSTANT(theta6_62, -0.57735026918962573);
 GNOMON_CONSTANT(theta6_64, 4.6188021535170058);
 GNOMON_CONSTANT(theta6_66, -3.0792014356780042);
@@ -85,8 +89,9 @@ GNOMON_CONSTANT(theta6_inverse_sixth, 0.16666666666666666);
 GNOMON_CONSTANT(theta6_inverse23, 0.8660254037844386);
 GNOMON_CONSTANT(theta6_inverse63, 0.81189881604791125);
 
-/// Theta_6* (paper, 5.4.3): six moments of signed depth to six channels in [0, 1]: three from the odd, three from the
-/// even moments.
+/// Theta_6*: the six channels, in [0, 1], of six moments of signed depth, three from the odd and three from
+/// the even moments.
+/// Source: Peters 2017, Sec. 5.4.3
 GNOMON_KERNEL GNOMON_T(moments6) theta6(GNOMON_T(moments6) b)
 {
     GNOMON_T(moments6) c;
@@ -102,7 +107,8 @@ GNOMON_KERNEL GNOMON_T(moments6) theta6(GNOMON_T(moments6) b)
     return c;
 }
 
-/// The inverse of theta6: channels to moments.
+/// The six moments of channels c: the inverse of theta6.
+/// Source: Peters 2017, Sec. 5.4.3
 GNOMON_KERNEL GNOMON_T(moments6) theta6_inverse(GNOMON_T(moments6) c)
 {
     Real c1 = c.b1 - Real(0.5);

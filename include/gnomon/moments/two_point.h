@@ -1,23 +1,27 @@
-// A depth distribution of two depths from three moments: Algorithm 2 of Peters et al. 2017 (5.2, appendix B), which is
-// Algorithm 1 with the prescribed depth at infinity. In the scan the algorithm lost its minus signs; derived anew
-// around the mean m = b1: with V = b2 - b1^2 and G = E[(z - m)^3] / V the depths are m plus the roots of x^2 - G x - V,
-// on either side of the mean, and w1 x1 + w2 x2 = 0 gives the weights. The roots have opposite signs, so nothing
-// cancels once V and G are had.
+// A depth distribution of two depths from three moments (Peters et al. 2017, Alg. 2, Sec. 5.2 and App. B), which is the
+// limit of Alg. 1 for a prescribed depth at infinity.
+//
+// Around the mean m = b1, with V = b2 - b1^2 and G = E[(z - m)^3] / V, the two depths are m + x1 and m + x2, where x1
+// and x2 are the roots of x^2 - G x - V. The weights follow from w1 x1 + w2 x2 = 0. The roots have opposite signs, so
+// that nothing cancels after V and G.
 #ifndef GNOMON_MOMENTS_TWO_POINT_H
 #define GNOMON_MOMENTS_TWO_POINT_H
 #include "../numerics/select.h"
 #include "covariance.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// Two depths, depth1 <= depth2, and their weights, in [0, 1] with sum 1.
+/// Two depths, depth1 <= depth2, and their weights, which are in [0, 1] and sum to 1.
 GNOMON_STRUCT(distribution2) { Real depth1, depth2, weight1, weight2; };
 
 GNOMON_CONSTANT(two_point_least_variance, 1.1920928955078125e-7); // 2^-23
 
-/// The distribution with moments b1, b2, b3 of depths in [-1, 1]. Where the variance is not above least_variance, the
-/// most that rounding makes of none (two_point_least_variance for moments stored as floats), a single depth b1: the
-/// algorithm's domain ends there. For moments of no distribution on [-1, 1] depths may lie outside, in [-8193, 8193]:
-/// where they would be more than 2^13 apart, b1 in [-1, 1] is the single depth. A NaN gives one at the far plane.
+/// The distribution of two depths with the moments b1, b2 and b3. It is a single depth b1 if the variance is at most
+/// least_variance, which should be the largest error of a variance of 0 by rounding: two_point_least_variance for
+/// moments stored as floats.
+/// Domain: moments of depths in [-1, 1]. For moments of no such distribution depths may lie outside, but in [-8193,
+/// 8193]: depths more than 2^13 apart are replaced by the single depth b1, clamped to [-1, 1].
+/// NaN: a single depth at the far plane.
+/// Source: Peters 2017, Alg. 2
 GNOMON_KERNEL GNOMON_T(distribution2) two_point_distribution(Real b1, Real b2, Real b3, GNOMON_SETTING least_variance)
 {
     double_word v = subtract_product_ordered(b2, b1, b1);

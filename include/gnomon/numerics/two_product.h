@@ -26,8 +26,8 @@ GNOMON_DETAIL_KERNEL Real dekker_product_error(Real a, Real b, Real p)
 
 /// a b exactly, as the rounded product and its error. Fused multiply-add and splitting give the same bits.
 /// Domain: |a|, |b| <= 2^100 and |a b| = 0 or >= 2^-100 in float; 2^900 and 2^-900 in double.
-/// Error: none; for smaller products low is off by at most two of the smallest denormals, since each of the four products
-/// of the split route rounds by half of one.
+/// Error: none; for smaller products low is off by at most two of the smallest denormals, since each of the four
+/// products of the split route rounds by half of one.
 /// Source: Dekker 1971; Ogita, Rump & Oishi 2005
 GNOMON_KERNEL GNOMON_T(double_word) two_product(Real a, Real b)
 {
