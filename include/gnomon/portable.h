@@ -1,35 +1,41 @@
-// The one place that knows which language this is: picks the prelude that gives the kernel dialect its words.
+// The kernel dialect: this file detects the language and includes the prelude that spells the words of the dialect.
 //
-// A kernel (every .h beside this file) is one text for C++, CUDA, GLSL, HLSL, Metal and OpenCL. What differs
-// between them is spelled by the prelude, and only by it:
+// A kernel (every .h beside this file) is one text for C++, CUDA, GLSL, HLSL, Metal and OpenCL. Only the preludes
+// differ between these languages. The words:
 //
 //   GNOMON_KERNEL                    head of a function: a template over Real in C++
-//   GNOMON_DETAIL_KERNEL             the same for a part of other kernels: no user calls it, no table of kernels has a line
-//                                    for it, and packages of languages without namespaces give its name a prefix
-//   GNOMON_STRUCT(name)              head of a struct, a template over Real in C++
-//   GNOMON_T(name)                   that struct for this Real; not needed where a variable is initialised, whose
-//                                    type C++ deduces: double_word p = two_product(a, b);
+//   GNOMON_DETAIL_KERNEL             head of a function that is a part of other kernels and that no user calls; it has no
+//                                    line in the table of kernels, and packages of languages without namespaces give
+//                                    its name a prefix
+//   GNOMON_STRUCT(name)              head of a struct: a template over Real in C++
+//   GNOMON_T(name)                   that struct for this Real; not needed for a variable that is initialised, since C++
+//                                    deduces its type: double_word p = two_product(a, b);
 //   GNOMON_LIST_KERNEL, GNOMON_DETAIL_LIST_KERNEL, GNOMON_LIST_STRUCT(name), GNOMON_LIST_T(name)
-//                                    the same for a list of at most GNOMON_CAPACITY, of which it holds an array; the
+//                                    the same words for structs that hold an array of GNOMON_CAPACITY elements; the
 //                                    capacity is a template parameter after Real in C++, a macro elsewhere
-//   GNOMON_MASK                      what a comparison of two Reals gives: bool, or one bool per lane
-//   GNOMON_SETTING                   a Real parameter that takes no part in deduction, so that packs accept scalars
-//   GNOMON_CONSTANT(name, value)     a named number; GNOMON_LITERAL(name) is that number as a Real, rounded once
-//   gnomon_select, gnomon_any        choice by mask, and whether any lane of a mask is set
-//   gnomon_min, gnomon_max           a < b ? a : b and a > b ? a : b, in this order: the second where one is NaN
+//   GNOMON_MASK                      type of a comparison of two Reals: bool, or one bool per lane
+//   GNOMON_SETTING                   a Real parameter that does not take part in deduction, so that a call with packs
+//                                    accepts scalars for it
+//   GNOMON_CONSTANT(name, value)     definition of a named number
+//   GNOMON_LITERAL(name)             that number as a Real, rounded once
+//   gnomon_select                    choice by a mask
+//   gnomon_any                       true if any lane of a mask is set
+//   gnomon_min, gnomon_max           a < b ? a : b and a > b ? a : b in this order: the second operand if one is NaN
 //   gnomon_abs, gnomon_sqrt          exact and correctly rounded
 //   gnomon_product                   the rounded product, never contracted into a later sum
-//   gnomon_difference                a - b rounded, never cancelled against a later sum, as (a - b) - a = -b
-//   GNOMON_FUSED, gnomon_fma         whether gnomon_fma(a, b, c) rounds a b + c once; only two_product asks
-//   gnomon_power_of_two              2^n for a whole number n within the normal range; any value where n is NaN
-//   GNOMON_DIGITS                    p, the bits of the significand: 24 or 53; only numerics/ asks
-//   GNOMON_SPLITTER                  2^ceil(p / 2) + 1 for a significand of p bits (Dekker 1971)
-//   GNOMON_PIVOT_FLOOR               the least pivot, far above the square of what rounding makes of P_k at a node,
-//                                    its 7th power normal once scaled by 2^112: 2^-30, in double 2^-66
+//   gnomon_difference                the rounded difference, never cancelled against a later sum, as (a - b) - a = -b
+//   GNOMON_FUSED                     true if gnomon_fma is one instruction that rounds once; used only by two_product
+//   gnomon_fma                       a b + c; used only by two_product
+//   gnomon_power_of_two              2^n for a whole number n in the range of normal exponents; any value for NaN
+//   GNOMON_DIGITS                    the number p of bits of the significand, 24 or 53; used only in numerics/
+//   GNOMON_SPLITTER                  2^ceil(p / 2) + 1 (Dekker 1971)
+//   GNOMON_PIVOT_FLOOR               the least pivot of a factored matrix: 2^-30, or 2^-66 in double; far above the
+//                                    square of the rounding error of P_k at a node, and so large that its 7th power
+//                                    times 2^112 is a normal number
 //
-// Zeros have signs, and not everybody keeps them: for +0, -x is +0 by xsimd's AVX-512, and 0 - x is -0 by Mesa's
-// llvmpipe. Where such a zero could reach a result, a kernel has Real(-1) * x, which is -0 everywhere. Mesa also makes
-// -0 of the 0 in gnomon_select(mask, Real(-1), Real(0)), and 0 of Real(0) * x, whatever x is.
+// Not every implementation keeps the sign of a zero. For +0, -x is +0 in AVX-512 code of xsimd, and 0 - x is -0 in
+// Mesa's llvmpipe. Where such a zero could reach a result, kernels use Real(-1) * x, which is -0 everywhere. Mesa also
+// returns -0 for the 0 in gnomon_select(mask, Real(-1), Real(0)), and 0 for Real(0) * x with any x.
 #ifndef GNOMON_PORTABLE_H
 #define GNOMON_PORTABLE_H
 

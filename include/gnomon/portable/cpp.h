@@ -18,7 +18,7 @@
 #error "gnomon: -ffast-math voids the treatment of NaN and the exact products; compile this without it"
 #endif
 
-// Plain inline left calls in pack kernels.
+// With plain inline, compilers leave calls in pack kernels.
 #if defined(__CUDACC__)
 #define GNOMON_INLINE __host__ __device__ __forceinline__
 #elif defined(_MSC_VER)
@@ -59,15 +59,15 @@ struct lane<T> {
 };
 template <class T> using lane_t = typename lane<T>::type;
 
-/// bool for a scalar, the pack's own mask for a pack.
+/// The type of a comparison: bool for a scalar, the pack's own mask for a pack.
 template <class T> using mask_t = std::remove_cvref_t<decltype(std::declval<T>() < std::declval<T>())>;
 
 template <class T>
 using arithmetic_result =
     decltype((-std::declval<T>() + std::declval<T>()) * std::declval<T>() / (std::declval<T>() - std::declval<T>()));
 
-/// What a Real must be: a value closed under its own arithmetic, so that one type can hold every intermediate,
-/// over lanes that are not integers. An expression template is not: evaluate it into a value first.
+/// A type that can be Real: closed under its own arithmetic, so that one type holds every intermediate value, with
+/// lanes that are not integers. Expression templates are excluded: evaluate them into a value first.
 template <class T>
 concept real = std::same_as<arithmetic_result<T>, T> && !std::is_integral_v<lane_t<T>> &&
                std::constructible_from<T, lane_t<T>> && requires
@@ -83,10 +83,10 @@ template <class T> struct require_real_of {
 };
 template <class T> using require_real = typename require_real_of<T>::type;
 
-/// Where a pack does better than the generic code below, it specialises this (see simd/xsimd.hpp).
+/// Operations of a pack that are faster than the generic code below: a specialization provides them (simd/xsimd.hpp).
 template <class T> struct pack_operations {};
 
-/// Rounds once, from double to the lane.
+/// The value as a Real, rounded once from double to the type of a lane.
 template <class T> GNOMON_INLINE constexpr T literal(double value) { return T(static_cast<lane_t<T>>(value)); }
 
 template <class T>
@@ -94,7 +94,7 @@ inline constexpr double splitter = double(std::uint64_t{1} << (std::numeric_limi
 template <class T>
 inline constexpr double pivot_floor = std::numeric_limits<T>::min_exponent < -1000 ? 0x1p-66 : 0x1p-30;
 
-// A scalar fma is a library call, correct but slow, where the target has no instruction: not worth asking for.
+// Without an instruction for it, a scalar fma is a library call, which is correct but slower than splitting.
 template <class T> constexpr bool fma_is_fused()
 {
     if constexpr (requires { pack_operations<T>::fused; }) return pack_operations<T>::fused;
@@ -112,8 +112,9 @@ template <class T, class Bits> GNOMON_INLINE constexpr T select_by_bits(bool mas
     return std::bit_cast<T>(Bits((std::bit_cast<Bits>(a) & ones) | (std::bit_cast<Bits>(b) & ~ones)));
 }
 
-// GCC makes a branch of a conditional operator, so that it can skip what only one side needs: where receivers are
-// unlike their neighbours, half the time of a kernel went on mispredictions. Bits it leaves alone, and vectorises.
+// GCC compiles a conditional operator to a branch, to skip work that only one side needs. For receivers that differ
+// from their neighbours, half the time of a kernel is then lost to mispredictions. Bit operations stay free of
+// branches, and GCC vectorises them.
 template <class M, class T> GNOMON_INLINE constexpr T gnomon_select(M mask, T a, T b)
 {
     if constexpr (!std::is_same_v<M, bool>) return select(mask, a, b);
@@ -153,7 +154,7 @@ template <class T> GNOMON_INLINE constexpr T gnomon_abs(T a)
 template <class T> GNOMON_INLINE constexpr T gnomon_sqrt(T a)
 {
 #if defined(__GNUC__)
-    // std::sqrt keeps a call for the sake of errno.
+    // std::sqrt compiles to a call as well, which sets errno.
     if constexpr (std::is_same_v<T, float>) return __builtin_sqrtf(a);
     else if constexpr (std::is_same_v<T, double>) return __builtin_sqrt(a);
     else
@@ -176,7 +177,7 @@ template <class T> GNOMON_INLINE constexpr T gnomon_difference(T a, T b) { retur
 template <class T> GNOMON_INLINE constexpr T gnomon_power_of_two(T n)
 {
     if constexpr (std::is_same_v<T, float>) {
-        // The sum leaves n in the low bits, where the shift takes it into the exponent.
+        // The sum has n in its low bits, and the shift moves n into the exponent.
         return __builtin_bit_cast(
             float, (__builtin_bit_cast(std::uint32_t, n + 0x1.8p23f) << 23) + (std::uint32_t{127} << 23));
     } else if constexpr (std::is_same_v<T, double>) {
@@ -197,8 +198,9 @@ template <class T> GNOMON_INLINE constexpr T gnomon_power_of_two(T n)
     }
 }
 
-// Contraction, GCC's default, would fold a plain product into a later sum, and the error term that two_product finds
-// would be subtracted twice. A fused product is never folded: adding -0 changes no value.
+// Contraction, GCC's default, would fold a plain product into a later sum, and the error of the product, which
+// two_product returns, would be subtracted twice. A fused product cannot be folded, and adding -0 to the product
+// changes no value.
 template <class T> GNOMON_INLINE constexpr T gnomon_product(T a, T b)
 {
     if constexpr (is_fused<T>) return gnomon_fma(a, b, T(lane_t<T>(-0.0)));

@@ -1,4 +1,5 @@
-// First in every .hpp, directly or by another one: these files are C++ only, and say so to a shader compiler.
+// The first include of every .hpp, directly or through another .hpp: stops a shader compiler with a clear message,
+// since these files are C++ only.
 #ifndef GNOMON_PORTABLE_CPP_ONLY_H
 #define GNOMON_PORTABLE_CPP_ONLY_H
 

@@ -1,5 +1,5 @@
 // GLSL from version 400, ESSL from version 310.
-// For the same bits as on the CPU compile without contraction (docs/shaders.md); exact products stay whole in any case.
+// Compile without contraction for the same bits as on the CPU (docs/shaders.md). Exact products are exact in any case.
 #ifndef GNOMON_PORTABLE_GLSL_H
 #define GNOMON_PORTABLE_GLSL_H
 
@@ -29,7 +29,7 @@
 #define GNOMON_PIVOT_FLOOR gnomon_pivot_floor
 
 #if defined(GL_ES)
-// What the kernels need. For less behind them, say so behind this line.
+// Kernels need high precision. Declare a lower one after this line if your own code uses it.
 precision highp float;
 precision highp int;
 #endif
@@ -42,9 +42,9 @@ bool gnomon_any(bool mask) { return mask; }
 Real gnomon_abs(Real a) { return abs(a); }
 Real gnomon_sqrt(Real a) { return sqrt(a); }
 Real gnomon_fma(Real a, Real b, Real c) { return a * b + c; } // never called: GNOMON_FUSED is false
-// What is not kept or precise Mesa fuses, cancels, and replaces by min() and max(), which lose a NaN.
+// Without precise, or gnomon_kept, Mesa fuses and cancels operations and uses min() and max(), which lose a NaN.
 #if defined(GL_ES) && __VERSION__ < 320
-// There is no precise; but nothing is rewritten across a choice. Both sides of this one have the same value.
+// This version has no precise. Mesa rewrites nothing across a choice, though, and both sides of this one are equal.
 Real gnomon_kept(Real x) { return gnomon_select(abs(x) <= Real(3.4028234663852886e38), x, x + x); }
 Real gnomon_min(Real a, Real b) { return gnomon_select(a < b, a, gnomon_kept(b)); }
 Real gnomon_max(Real a, Real b) { return gnomon_select(b < a, a, gnomon_kept(b)); }

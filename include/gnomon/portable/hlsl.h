@@ -1,5 +1,5 @@
-// HLSL without templates, so that old front ends take it too.
-// For the same bits as on the CPU compile with strict IEEE arithmetic (/Gis); exact products stay whole in any case.
+// HLSL without templates, for old front ends too.
+// Compile with strict IEEE arithmetic (/Gis) for the same bits as on the CPU. Exact products are exact in any case.
 #ifndef GNOMON_PORTABLE_HLSL_H
 #define GNOMON_PORTABLE_HLSL_H
 

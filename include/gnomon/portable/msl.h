@@ -1,5 +1,5 @@
-// Metal: C++14 with address spaces. Kernels are no templates, as in the other shader languages: Real is float.
-// For the same bits as on the CPU compile with -fno-fast-math and -ffp-contract=off.
+// Metal: C++14 with address spaces. Kernels are not templates, as in the other shader languages: Real is float.
+// Compile with -fno-fast-math and -ffp-contract=off for the same bits as on the CPU.
 #ifndef GNOMON_PORTABLE_MSL_H
 #define GNOMON_PORTABLE_MSL_H
 

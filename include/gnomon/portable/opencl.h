@@ -1,6 +1,5 @@
-// OpenCL C from version 1.2, full profile.
-// For the same bits as on the CPU put #pragma OPENCL FP_CONTRACT OFF before the kernels and build without relaxed
-// mathematics.
+// OpenCL C from version 1.2, full profile. Put #pragma OPENCL FP_CONTRACT OFF before the kernels, and build without
+// relaxed mathematics, for the same bits as on the CPU.
 #ifndef GNOMON_PORTABLE_OPENCL_H
 #define GNOMON_PORTABLE_OPENCL_H
 
@@ -12,8 +11,8 @@
 #error "gnomon: -cl-fast-relaxed-math voids the treatment of NaN and the exact products; build without it"
 #endif
 
-// OpenCL C has no Real(x): a macro of the type's name supplies it, and leaves the type alone where no parenthesis
-// follows.
+// OpenCL C has no conversion Real(x). A macro with the name of the type supplies it, and is not expanded where
+// no parenthesis follows.
 typedef float Real;
 #define Real(x) ((float)(x))
 #define GNOMON_NAMESPACE_BEGIN
