@@ -100,6 +100,8 @@ class Prelude:
     blocks: list[str] = field(default_factory=list)
     macros: dict = field(default_factory=dict)
     unused: set = field(default_factory=set)
+    names: set = field(default_factory=set) # that get a prefix
+    prefix: str = ""
 
     @staticmethod
     def read(path):
@@ -136,10 +138,23 @@ class Prelude:
         for word in code_words("\n".join(texts)):
             if word.startswith("GNOMON_") and f"#define {word}" not in "\n".join(self.frame + texts):
                 raise DialectError(f"{word}: a word of the dialect that {self.guard} does not spell")
-        texts = [laid_out(text) for text in texts if code_words(text)]
+        texts = [laid_out(self.prefixed(text)) for text in texts if code_words(text)]
         namespace = [self.expanded(f"GNOMON_NAMESPACE_{end}\n") for end in ("BEGIN", "END")]
         namespace[1] = namespace[1].replace("}", "} // namespace gnomon")
         return "\n" + "\n".join(text for text in [namespace[0], *texts, namespace[1]] if text.strip()) + "\n"
+
+    @property
+    def has_namespaces(self):
+        return bool(self.macros["GNOMON_NAMESPACE_BEGIN"][1])
+
+    def prefixed(self, text):
+        """The text with the prefix before helpers' names, in comments too unless they may be words of English there."""
+        name = re.compile(rf"(?<![\w.])(?:{'|'.join(self.names) or '$'})\b")
+        parts = re.split(r"(//.*)", text)
+        for i, part in enumerate(parts):
+            plain = re.compile(r"[a-z]+" if part.startswith("//") else "$")
+            parts[i] = name.sub(lambda word: word[0] if plain.fullmatch(word[0]) else self.prefix + word[0], part)
+        return "".join(parts)
 
     def without_unused(self, text):
         names = "|".join(self.unused) or "$"

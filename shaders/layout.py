@@ -58,9 +58,19 @@ def laid_out(text):
         if statement and (not code or code.endswith((";", "{", "}")) and not depth("".join(statement))):
             lines += joined(statement)
             statement = []
-        elif not code or code.startswith("#"):
+        elif not code:
+            lines += broken(line)
+        elif code.startswith("#"):
             lines.append(line)
     return ONE_STATEMENT.sub(shortened, "\n".join(lines))
+
+
+def broken(comment):
+    """A comment's line, the words that reach beyond WIDTH on lines of their own."""
+    if len(comment) <= WIDTH:
+        return [comment]
+    end = comment.rindex(" ", 0, WIDTH + 1)
+    return [comment[:end], *broken(re.match(" *//+<? *", comment)[0] + comment[end + 1:])]
 
 
 def joined(statement):

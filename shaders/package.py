@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Writes the shader packages: the kernels of include/gnomon as files of one language each, that include nothing.
 
-usage: package.py INCLUDE VERSION OUTPUT    writes gnomon.ENDING and TECHNIQUE.ENDING into the folder OUTPUT
+usage: package.py INCLUDE VERSION OUTPUT [PREFIX]    writes gnomon.ENDING and TECHNIQUE.ENDING into the folder OUTPUT
 
-INCLUDE is the folder that holds gnomon/, VERSION is like 0.1.0. docs/architecture.md says how packages come about.
+INCLUDE is the folder that holds gnomon/, VERSION is like 0.1.0. PREFIX, or else gnomon_, begins the names of helpers where
+the language has no namespaces. docs/architecture.md says how packages come about.
 """
 import itertools
 import os
@@ -13,6 +14,8 @@ from pathlib import Path
 
 import wgsl
 from dialect import CONSTANT, DEFINED, DialectError, Header, Prelude
+from helpers import internal
+from layout import laid_out
 
 # Ending of the packages: prelude, the language's name, and how the preprocessor tells another language.
 LANGUAGES = {
@@ -88,7 +91,7 @@ def section(title, guard, comment, text):
 
 
 class Packager:
-    def __init__(self, include, version):
+    def __init__(self, include, version, prefix="gnomon_"):
         self.root = include / "gnomon"
         self.version = version
         self.number = int("".join(f"{int(part):02}" for part in version.split(".")))
@@ -104,12 +107,15 @@ class Packager:
             if not any(header in headers for headers, _ in self.packages.values()):
                 raise DialectError(f"{self.root / header.name}: in no technique of package.py")
         self.packages["gnomon"] = (everything, "")
+        self.prefix, self.internal = prefix, internal(everything)
 
     def files(self):
         """(name, text) of every package."""
         for ending, (prelude, language, other) in LANGUAGES.items():
             prelude = Prelude.read(self.root / "portable" / prelude)
             prelude.forget_unused(self.headers.values())
+            if not prelude.has_namespaces:
+                prelude.names, prelude.prefix = self.internal, self.prefix
             for package, (headers, count) in self.packages.items():
                 name = f"{package}.{ending}"
                 checks = CHECKS.format(name=name, language=language, other=other, number=self.number)
@@ -118,13 +124,17 @@ class Packager:
                 if ending == "glsl":
                     yield f"{package}.wgsl", wgsl.translated(text)
 
+    def name(self, name):
+        """A name of the headers as it is in packages of languages without namespaces."""
+        return self.prefix + name if name in self.internal else name
+
     def package(self, name, language, checks, prelude, headers, count):
         guard = "GNOMON_" + re.sub(r"\W", "_", name).upper()
         text = HEADING.format(version=self.version, name=name, language=language)
         text += f"#ifndef {guard}\n#define {guard}\n\n" + "".join(f"{block}\n" for block in prelude.frame)
         text += section("the language", prelude.guard, prelude.comment + checks, prelude.own_text())
         for header in headers:
-            comment = header.comment
+            comment = laid_out(prelude.prefixed(header.comment))
             for about, title, part_guard, blocks in self.parts(header):
                 if not count or about in ("", count):
                     text += section(title, part_guard, comment, prelude.spelled(blocks))
@@ -158,12 +168,12 @@ def write(files, output):
 
 
 def main():
-    if len(sys.argv) != 4 or not re.fullmatch(r"\d+\.\d+\.\d+", sys.argv[2]):
-        print("package.py: INCLUDE, VERSION such as 0.1.0, and OUTPUT expected", file=sys.stderr)
+    if len(sys.argv) not in (4, 5) or not re.fullmatch(r"\d+\.\d+\.\d+", sys.argv[2]):
+        print("package.py: INCLUDE, VERSION such as 0.1.0, OUTPUT, and perhaps PREFIX expected", file=sys.stderr)
         sys.exit(2)
     include, version, output = Path(sys.argv[1]), sys.argv[2], Path(sys.argv[3])
     try:
-        write(list(Packager(include, version).files()), output)
+        write(list(Packager(include, version, *sys.argv[4:]).files()), output)
     except (DialectError, OSError) as error:
         print(f"package.py: {error}", file=sys.stderr)
         sys.exit(2)

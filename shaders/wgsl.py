@@ -87,7 +87,7 @@ def translated(glsl):
     code = re.sub(r"//.*", "", text)
     if left := NOT_WGSL.search(code):
         raise DialectError(f"wgsl.py: cannot say in WGSL: {left[0].strip()}")
-    words = set(re.findall(r"\bgnomon_\w+", code)) - set(re.findall(r"(?:fn|const) (gnomon_\w+)", code))
+    words = set(re.findall(r"\bgnomon_\w+", code)) - set(re.findall(r"(?:fn|const|struct) (gnomon_\w+)", code))
     if words:
         raise DialectError(f"{LANGUAGE}: lacks {', '.join(sorted(words))}")
     return text

@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
 """The shader packages of one language: each by itself, all in one unit, and the same code as the headers have.
 
-usage: packages.py LANGUAGE INCLUDE PACKAGES    prints one line for each fault; exit code 1 if there is any
+usage: packages.py LANGUAGE INCLUDE PACKAGES             prints one line for each fault; exit code 1 if there is any
+       packages.py LANGUAGE INCLUDE --prefix PREFIX      the same of packages that are written with another prefix
 
 LANGUAGE is a key of languages.ROUTES, INCLUDE the folder that holds gnomon/, PACKAGES the one that shaders/package.py
 wrote. Every unit makes the compiler go through every kernel in it. What is compared, function by function, is SPIR-V or
-LLVM's code, after the passes that undo what the packager may do: take a branch whose condition the language decides.
+LLVM's code, after undoing what the packager may do: take a branch whose condition the language decides, and, where the
+language has no namespaces, prefix a name. No other name may be there without one than a kernel's of the table, and a struct's
+or a constant's that begins with a technique.
 """
 import re
 import struct
@@ -17,18 +20,56 @@ from pathlib import Path
 
 from languages import ROUTES, complaints
 
-sys.path.append(str(Path(__file__).parent.parent / "support"))
+sys.path += [str(Path(__file__).parents[1] / "support"), str(Path(__file__).parents[2] / "shaders")]
 from kernels import Headers
+from package import Packager
 
 SPIRV_PASSES = ["--eliminate-dead-branches", "--merge-blocks", "--eliminate-local-single-block",
                 "--eliminate-local-single-store", "--ssa-rewrite", "--eliminate-dead-code-aggressive"]
+
+
+NAMESPACES = ("c++", "metal")
+DEFINED = re.compile(r"^GNOMON_(?:(?:LIST_)?STRUCT|CONSTANT)\((\w+)", re.MULTILINE)
+GLOBAL = re.compile(r"^(?:typedef )?(?:static inline |__constant |static |const )*(?!return|else|precision)\w+ (\w+)(\(| = |\s*\{)",
+                    re.MULTILINE)
 
 
 class Refused(Exception):
     pass
 
 
-def touch(language, kernels):
+class Names:
+    """What the headers define, and what it is called in a package."""
+
+    def __init__(self, include, prefix):
+        self.prefix = prefix
+        self.headers = [path for path in (include / "gnomon").rglob("*.h") if path.parent.name != "portable"]
+        found = Headers(self.headers)
+        self.public = found.kernels
+        self.kernels = self.public + [kernel for kernel in found.details
+                                      if "GNOMON_MASK" not in [kernel.result, *kernel.parameters]]
+        self.all = {kernel.name for kernel in self.public + found.details} | {
+            name for path in self.headers for name in DEFINED.findall(path.read_text())}
+        self.techniques = {re.match("[a-z]+", path.stem)[0] for path in self.headers if path.parent.name != "numerics"}
+
+    def packaged(self, name, text):
+        """The name as the package of this text has it."""
+        return self.prefix + name if re.search(rf"\b{self.prefix}{name}\b", text) else name
+
+    def plain(self, text):
+        """The text with the headers' own names."""
+        return re.sub(rf"\b{self.prefix}(\w+)", lambda word: word[1] if word[1] in self.all else word[0], text)
+
+    def at_large(self, text):
+        """Names of a package that a user's own might meet."""
+        public = {kernel.name for kernel in self.public}
+        for name, after in GLOBAL.findall(re.sub("//.*", "", text)):
+            technique = re.match("[a-z]*", name)[0] in self.techniques and re.search(r"[_\d]", name)
+            if not name.startswith((self.prefix, "gnomon_")) and name not in public and (after == "(" or not technique):
+                yield name
+
+
+def touch(language, kernels, named):
     """(definitions, statements) that make a compiler go through these kernels."""
     if language in ("opencl", "metal"): # functions with neither static nor inline are compiled in any case
         return "", ""
@@ -40,8 +81,9 @@ def touch(language, kernels):
     calls = []
     for kernel in kernels:
         names = [f"a{i}" for i in range(len(kernel.parameters))]
-        declared = "".join(f"{'float' if type_ == 'Real' else type_} {name}; " for type_, name in zip(kernel.parameters, names))
-        calls.append(f"{{ {declared}{kernel.name}({', '.join(names)}); }}\n")
+        declared = "".join(f"{'float' if type_ == 'Real' else named(type_)} {name}; "
+                           for type_, name in zip(kernel.parameters, names))
+        calls.append(f"{{ {declared}{named(kernel.name)}({', '.join(names)}); }}\n")
     return "", "".join(calls)
 
 
@@ -49,16 +91,18 @@ def typed(type_, real):
     return real if type_ == "Real" else f"{type_}<{real}>"
 
 
-def code(language, text, kernels, folder, include=None):
+def code(language, text, kernels, folder, names, include=None):
     """The code that a unit becomes, by function."""
     route = ROUTES[language]
-    definitions, statements = touch(language, kernels)
+    definitions, statements = touch(language, kernels, lambda name: names.packaged(name, text))
     plain = "#define static\n#define inline\n" if language in ("opencl", "metal") else ""
     output = folder / "unit.out"
     run = route.compiled(route.begin + plain + text + definitions + route.main.format(statements), output, include)
     if run.returncode:
         raise Refused(complaints(run)[0])
-    return spirv_functions(output) if route.compiler[0] == "glslangValidator" else llvm_functions(output.read_text())
+    if route.compiler[0] == "glslangValidator":
+        return spirv_functions(output, names.plain)
+    return llvm_functions(names.plain(output.read_text()))
 
 
 def llvm_functions(text):
@@ -67,14 +111,14 @@ def llvm_functions(text):
             ((body, re.search(r"@(\w+)\(", body)) for body in re.findall(r"^define .*?^}", text, re.MULTILINE | re.DOTALL))}
 
 
-def spirv_functions(path):
+def spirv_functions(path, plain):
     """Functions by name; in each, types and constants are spelled out, and ids counted from 0."""
     optimised = path.with_suffix(".opt")
     subprocess.run(["spirv-opt", *SPIRV_PASSES, str(path), "-o", str(optimised)], check=True)
     run = subprocess.run(["spirv-dis", "--raw-id", "--no-color", "--no-indent", "--no-header", str(optimised)],
                          check=True, capture_output=True, text=True)
     head, *functions = re.split(r"\n(?=%\d+ = OpFunction )", run.stdout)
-    names = dict(re.findall(r'^OpName (%\d+) "(@?\w+)', head, re.MULTILINE))
+    names = dict(re.findall(r'^OpName (%\d+) "(@?\w+)', plain(head), re.MULTILINE))
     spelled = {}
     for name, text in re.findall(r"^(%\d+) = (Op(?:Type|Constant|Variable|Undef).*)", head, re.MULTILINE):
         spelled[name] = f"({re.sub(r'%[0-9]+', lambda word: spelled[word[0]], text)} {names.get(name, '')})"
@@ -105,17 +149,21 @@ def rounds_once(decimal):
 
 
 def main():
-    language, include, packages = sys.argv[1], *map(Path, sys.argv[2:])
-    found = Headers(path for path in (include / "gnomon").rglob("*.h") if path.parent.name != "portable")
-    kernels = found.kernels + [kernel for kernel in found.details if "GNOMON_MASK" not in [kernel.result, *kernel.parameters]]
-    texts = {path.stem: path.read_text() for path in sorted(packages.glob(f"*.{ROUTES[language].package}"))}
+    language, include, packages = sys.argv[1], *map(Path, sys.argv[2:4])
+    prefix = (sys.argv[4:] or ["gnomon_"])[0]
+    names = Names(include, prefix)
+    kernels = names.kernels
+    files = {path.name: path.read_text() for path in sorted(packages.glob("*"))}
+    if sys.argv[4:]:
+        files = dict(Packager(include, "0.0.0", prefix).files())
+    texts = {Path(name).stem: text for name, text in files.items() if name.endswith("." + ROUTES[language].package)}
     faults, functions = [], {}
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
 
         def compiled(what, text, wanted, include=None):
             try:
-                functions[what] = code(language, text, wanted, folder, include)
+                functions[what] = code(language, text, wanted, folder, names, include)
             except Refused as refused:
                 faults.append(f"{what}: {refused}")
 
@@ -124,7 +172,11 @@ def main():
         compiled("all packages", "\n".join([*texts.values()] * 2), kernels)
         for name, text in texts.items():
             heads = re.findall(r"^(?:\w[^(\n]*\b|    )(\w+)\(", text, re.MULTILINE)
-            compiled(name, text, [kernel for kernel in kernels if kernel.name in heads])
+            compiled(name, text, [kernel for kernel in kernels if names.packaged(kernel.name, text) in heads])
+            if language not in NAMESPACES:
+                faults += [f"{name}: {word} is a helper without a prefix" for word in names.at_large(text)]
+            if name == "gnomon":
+                faults += [f"{name}: {kernel.name} is missing" for kernel in names.public if kernel.name not in heads]
             faults += [f"{name}: {number} is rounded to another float by way of double"
                        for number in set(re.findall(r"\d+\.\d*(?:e[+-]?\d+)?|\d+e[+-]?\d+", re.sub("//.*", "", text)))
                        if not rounds_once(number)]

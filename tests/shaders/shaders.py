@@ -40,6 +40,7 @@ class Language(NamedTuple):
     call: str = "{}"
     declare: str = "{} {}"
     package: str = "" # what holds the kernels where there is no #include
+    name: Callable = str # of a struct, as the package has it
     changed: Callable = str # what becomes of the package's text
     compiler: list = [] # to SPIR-V, one module per kernel
 
@@ -81,7 +82,7 @@ alias float = f32;
 
 
 def type_of(language, name):
-    return "float" if name == "Real" else language.struct.format(name)
+    return "float" if name == "Real" else language.struct.format(language.name(name))
 
 
 def function(language, headers, kernel):
@@ -121,7 +122,10 @@ def main():
     language, output, table, include = LANGUAGES[sys.argv[1]], *map(Path, sys.argv[2:])
     headers, _ = kernels.read(table, [h for h in include.rglob("*.h") if h.parent.name != "portable"])
     output.mkdir(parents=True, exist_ok=True)
-    packages = dict(Packager(include, "0.0.0").files()) if language.package else {}
+    packages = {}
+    if language.package:
+        packager = Packager(include, "0.0.0")
+        packages, language = dict(packager.files()), language._replace(name=packager.name)
     if "{}" in language.entry:
         text = text_around(language, headers, headers.kernels, packages)
         (output / ("kernels" + language.ending)).write_text(text)
