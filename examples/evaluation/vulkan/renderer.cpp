@@ -2,6 +2,7 @@
 
 #include "evaluation/core/receivers.hpp"
 #include "renderer/shade/shading.hpp"
+#include "renderer/vulkan/scene.hpp"
 #include "spirv.hpp"
 
 #include <gnomon/passes/mips.hpp>
@@ -29,59 +30,17 @@ using usage = vk::ImageUsageFlagBits;
 constexpr int repetitions = 3;
 constexpr std::uint32_t group = 8; // texels along a side of a compute shader's workgroup
 
-template <class T> std::span<const std::byte> bytes_of(const T& value) { return std::as_bytes(std::span(&value, 1)); }
-
-// scale dot(p - eye.position, axis) + offset as a product with (p, 1).
-glm::vec4 row(const camera& eye, const glm::dvec3& axis, double scale, double offset)
-{
-    return glm::dvec4(scale * axis, offset - scale * glm::dot(eye.position, axis));
-}
-
-// Vulkan's clip space: y points down, depth goes from 0 to 1.
-std::array<glm::vec4, 4> clip_rows(const camera& eye)
-{
-    const double near = eye.near_distance, scale = 1 / (eye.far_distance - near);
-    const double depth = eye.perspective() ? eye.far_distance * scale : scale;
-    return {row(eye, eye.right, 1 / eye.half_extent.x, 0), row(eye, eye.up, -1 / eye.half_extent.y, 0),
-            row(eye, eye.forward, depth, -near * depth),
-            eye.perspective() ? row(eye, eye.forward, 1, 0) : glm::vec4(0, 0, 0, 1)};
-}
-
 view view_of(const stage& scenery, int map_resolution)
 {
     const camera& light = scenery.light;
-    const double depth = 2 / (light.far_distance - light.near_distance);
-    return {.light_rows = {row(light, light.right, 0.5 / light.half_extent.x, 0.5),
-                           row(light, light.up, -0.5 / light.half_extent.y, 0.5),
-                           row(light, light.forward, depth, -depth * light.near_distance - 1)},
+    const auto [u, v, depth] = vulkan::shadow_rows(light);
+    return {.light_rows = {u, v, depth},
             .eye = glm::dvec4(scenery.eye.position, 1),
             .to_light = glm::dvec4(-light.forward, 0),
             .sun = {daylight.sun, 0},
             .sky = {daylight.sky, 0},
             .earth = {daylight.earth, 0},
             .bias = {bias_radius * unit_slope(light, map_resolution), steepest_slope, map_resolution, 0}};
-}
-
-// Position, normal and albedo of each corner.
-std::vector<glm::vec3> corners_of(const scene& world)
-{
-    std::vector<glm::vec3> result;
-    for (const mesh& part : world.meshes)
-        for (const glm::uvec3& triangle : part.triangles) {
-            const std::array corners{part.positions[triangle.x], part.positions[triangle.y],
-                                     part.positions[triangle.z]};
-            const glm::vec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-            for (const glm::vec3& corner : corners) result.insert(result.end(), {corner, normal, part.albedo});
-        }
-    return result;
-}
-
-template <class T>
-vulkan::buffer filled(const vulkan::device& gpu, std::span<const T> values, vk::BufferUsageFlagBits use)
-{
-    vulkan::buffer result(gpu, values.size_bytes(), use);
-    std::ranges::copy(values, result.mapped<T>().begin());
-    return result;
 }
 
 vk::Extent2D square(int size) { return {std::uint32_t(size), std::uint32_t(size)}; }
@@ -118,7 +77,7 @@ class device_map {
     void blur(const vk::raii::CommandBuffer& commands) const
     {
         for (const auto& [pass, dx, dy] : blur_)
-            pass.record(commands, groups(), bytes_of(blur_push{dx, dy, radius_, int(size_) - 1}));
+            pass.record(commands, groups(), vulkan::bytes_of(blur_push{dx, dy, radius_, int(size_) - 1}));
     }
     void build_mips(const vk::raii::CommandBuffer& commands) const
     {
@@ -178,11 +137,13 @@ shadow_renderer::shadow_renderer(const vulkan::device& gpu, const stage& scenery
                                  int map_resolution, std::span<const float> taps, shading_language language)
     : gpu_(gpu),
       language_(language),
-      eye_rows_(clip_rows(scenery.eye)),
-      light_rows_(clip_rows(scenery.light)),
-      vertices_(filled<glm::vec3>(gpu, corners_of(scenery.world), vk::BufferUsageFlagBits::eVertexBuffer)),
-      frame_(filled<view>(gpu, std::array{view_of(scenery, map_resolution)}, vk::BufferUsageFlagBits::eUniformBuffer)),
-      taps_(filled<float>(gpu, taps, vk::BufferUsageFlagBits::eStorageBuffer)),
+      eye_rows_(vulkan::clip_rows(scenery.eye)),
+      light_rows_(vulkan::clip_rows(scenery.light)),
+      vertices_(
+          vulkan::filled<glm::vec3>(gpu, vulkan::corners_of(scenery.world), vk::BufferUsageFlagBits::eVertexBuffer)),
+      frame_(vulkan::filled<view>(gpu, std::array{view_of(scenery, map_resolution)},
+                                  vk::BufferUsageFlagBits::eUniformBuffer)),
+      taps_(vulkan::filled<float>(gpu, taps, vk::BufferUsageFlagBits::eStorageBuffer)),
       depths_(gpu, vk::Format::eD32Sfloat, square(map_resolution), usage::eDepthStencilAttachment | usage::eSampled, 1,
               vk::SampleCountFlagBits::e4),
       camera_depth_(gpu, vk::Format::eD32Sfloat, extent, usage::eDepthStencilAttachment),
@@ -226,22 +187,20 @@ device_frame shadow_renderer::render(const device_method& method) const
     result.passes = timed(
         gpu_,
         {
-            {"shadow_map", [&](auto& commands) { shadow_map.record(commands, vertices_, bytes_of(light_rows_)); }},
+            {"shadow_map",
+             [&](auto& commands) { shadow_map.record(commands, vertices_, vulkan::bytes_of(light_rows_)); }},
             {"resolve", [&](auto& commands) { map.resolve(commands); }},
             {"blur", [&](auto& commands) { map.blur(commands); }},
             {"mips", [&](auto& commands) { map.build_mips(commands); }},
-            {"lighting", [&](auto& commands) { lighting.record(commands, vertices_, bytes_of(eye_rows_)); }},
+            {"lighting", [&](auto& commands) { lighting.record(commands, vertices_, vulkan::bytes_of(eye_rows_)); }},
         });
 
-    const auto [width, height] = camera_picture_.extent();
-    const vulkan::buffer pixels(gpu_, width * height * sizeof(glm::vec4), vk::BufferUsageFlagBits::eTransferDst);
-    gpu_.run([&](const vk::raii::CommandBuffer& commands) { copy(commands, camera_picture_, pixels); });
-    result.colour = picture(int(width), int(height));
-    result.visibility = image<float>(int(width), int(height));
-    for (std::size_t i = 0; i < result.colour.pixels.size(); ++i) {
-        const glm::vec4 pixel = pixels.mapped<glm::vec4>()[i];
-        result.colour.pixels[i] = pixel;
-        result.visibility.pixels[i] = pixel.a;
+    const image<glm::vec4> pixels = vulkan::read_back(gpu_, camera_picture_);
+    result.colour = picture(pixels.width, pixels.height);
+    result.visibility = image<float>(pixels.width, pixels.height);
+    for (std::size_t i = 0; i < pixels.pixels.size(); ++i) {
+        result.colour.pixels[i] = pixels.pixels[i];
+        result.visibility.pixels[i] = pixels.pixels[i].a;
     }
     return result;
 }

@@ -1,0 +1,43 @@
+// A scene, a camera and a light as shaders read them, and the picture that comes back.
+#pragma once
+
+#include "device.hpp"
+#include "renderer/output/image.hpp"
+#include "renderer/scene/camera.hpp"
+#include "renderer/scene/scene.hpp"
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace gnomon::renderer::vulkan {
+
+// The bytes of a value, as push constants.
+template <class T> push_constants bytes_of(const T& value) { return std::as_bytes(std::span(&value, 1)); }
+
+// A buffer that holds these values.
+template <class T> buffer filled(const device& owner, std::span<const T> values, vk::BufferUsageFlags usage)
+{
+    buffer result(owner, values.size_bytes(), usage);
+    std::ranges::copy(values, result.mapped<T>().begin());
+    return result;
+}
+
+// Three vectors for each corner of each triangle: position, the triangle's normal, albedo.
+std::vector<glm::vec3> corners_of(const scene& world);
+
+// The rows of the matrix from positions to Vulkan's clip space, in which y points down and depth goes from 0 to 1.
+std::array<glm::vec4, 4> clip_rows(const camera& eye);
+
+// The rows of the matrix from positions to texture coordinates and signed depth in the shadow map of a directional light.
+std::array<glm::vec4, 3> shadow_rows(const camera& light);
+
+// Level 0 of an image of format R32G32B32A32_SFLOAT that can be copied from.
+renderer::image<glm::vec4> read_back(const device& owner, const image& source);
+
+} // namespace gnomon::renderer::vulkan
