@@ -9,10 +9,9 @@
 #include <gnomon/passes/look_up.hpp>
 #include <gnomon/storage/moments_formats.hpp>
 
-#include <cmath>
 #include <cstdio>
 
-constexpr std::size_t lanes = 4;
+constexpr std::size_t lanes = 4, side = 1024; // of a pack, and of the shadow map
 using floats [[gnu::vector_size(4 * lanes)]] = float;
 
 struct mask { // what a comparison returns: all bits of a lane set, or none
@@ -44,20 +43,17 @@ struct pack {
         return a;
     }
 };
-static_assert(gnomon::real<pack>);
 
 int main()
 {
     using namespace gnomon::renderer;
     using format = gnomon::moments4_unorm16;
-    constexpr int side = 1024;
     const stage scenery = fence_stage(16.0 / 9.0); // and a map as in lesson 2, without the blur
     const auto depths = rasterize_depth<1>(scenery.world, scenery.light, side, side);
     std::vector<format::texel> texels(gnomon::mip_texels(side, side));
     for (std::size_t i = 0; i < depths.pixels.size(); ++i)
         texels[i] = format::encode(gnomon::moments4_from_depth(depths.pixels[i][0]));
     gnomon::build_mips<format>({texels, side, side});
-
     const auto seen = rasterize_surfaces(scenery.world, scenery.eye, 960, 540);
     const receivers all = receivers_of(seen, scenery.light, side); // what faces the light, with the bias of lesson 2
     image<float> visibility(960, 540, 1.0f);

@@ -148,11 +148,7 @@ shadow_renderer::shadow_renderer(const vulkan::device& gpu, const stage& scenery
               vk::SampleCountFlagBits::e4),
       camera_depth_(gpu, vk::Format::eD32Sfloat, extent, usage::eDepthStencilAttachment),
       camera_picture_(gpu, vk::Format::eR32G32B32A32Sfloat, extent, usage::eColorAttachment | usage::eTransferSrc),
-      trilinear_(gpu.handle(),
-                 vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eLinear,
-                                       vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge,
-                                       vk::SamplerAddressMode::eClampToEdge)
-                     .setMaxLod(VK_LOD_CLAMP_NONE))
+      trilinear_(vulkan::trilinear_sampler(gpu))
 {}
 
 bool shadow_renderer::supports(const device_method& method) const

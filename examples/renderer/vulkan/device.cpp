@@ -219,6 +219,14 @@ void build_mips(const vk::raii::CommandBuffer& commands, const image& target)
     }
 }
 
+vk::raii::Sampler trilinear_sampler(const device& owner)
+{
+    constexpr auto edge = vk::SamplerAddressMode::eClampToEdge;
+    return {owner.handle(), vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear,
+                                                  vk::SamplerMipmapMode::eLinear, edge, edge, edge)
+                                .setMaxLod(VK_LOD_CLAMP_NONE)};
+}
+
 inputs::inputs(const device& owner, const std::vector<resource>& resources, std::size_t push_bytes)
 {
     std::vector<vk::DescriptorSetLayoutBinding> bindings;

@@ -1,12 +1,13 @@
 // Headless Vulkan 1.3 on the RAII handles of vulkan.hpp: a device with one queue, buffers and images with memory of
 // their own, compute passes, and times taken on the device.
 //
-//     const vulkan::device gpu;                                        // throws vulkan::unavailable where there is
-//     none vulkan::buffer input(gpu, bytes), output(gpu, bytes); const vulkan::compute_pass pass(gpu, {spirv}, {input,
-//     output}, sizeof(push)); gpu.run([&](const vk::raii::CommandBuffer& commands) { pass.record(commands, {groups, 1,
-//     1}, push); }); output.mapped<float>()                                           // the results
+//     const vulkan::device gpu; // throws vulkan::unavailable where there is none
+//     const vulkan::buffer input(gpu, bytes), output(gpu, bytes);
+//     const vulkan::compute_pass pass(gpu, {spirv}, {input, output}, sizeof(push));
+//     gpu.run([&](const vk::raii::CommandBuffer& commands) { pass.record(commands, {groups, 1, 1}, push); });
+//     output.mapped<float>() // the results
 //
-// Images stay in the general layout: whoever records passes has to think of barriers alone.
+// Images stay in the general layout, and every pass ends with a barrier: a later one sees what an earlier one wrote.
 #pragma once
 
 #include <vulkan/vulkan_raii.hpp>
@@ -116,6 +117,9 @@ struct uniform {
     const buffer& source;
 };
 using resource = std::variant<std::reference_wrapper<const buffer>, uniform, sampled, stored, vk::Sampler>;
+
+// Linear between texels and between mip levels; beyond the edge the outermost texel repeats.
+vk::raii::Sampler trilinear_sampler(const device& owner);
 
 using push_constants = std::span<const std::byte>;
 

@@ -50,8 +50,14 @@ renderer::image<glm::vec4> read_back(const device& owner, const image& source)
     renderer::image<glm::vec4> result(width, height);
     const buffer pixels(owner, result.pixels.size() * sizeof(glm::vec4), vk::BufferUsageFlagBits::eTransferDst);
     owner.run([&](const vk::raii::CommandBuffer& commands) { copy(commands, source, pixels); });
-
     std::ranges::copy(pixels.mapped<glm::vec4>(), result.pixels.begin());
+    return result;
+}
+
+picture without_alpha(const renderer::image<glm::vec4>& source)
+{
+    picture result(source.width, source.height);
+    std::ranges::copy(source.pixels, result.pixels.begin());
     return result;
 }
 

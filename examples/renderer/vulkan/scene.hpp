@@ -40,4 +40,7 @@ std::array<glm::vec4, 3> shadow_rows(const camera& light);
 // Level 0 of an image of format R32G32B32A32_SFLOAT that can be copied from.
 renderer::image<glm::vec4> read_back(const device& owner, const image& source);
 
+// The colours of a picture with an alpha channel.
+picture without_alpha(const renderer::image<glm::vec4>& source);
+
 } // namespace gnomon::renderer::vulkan
