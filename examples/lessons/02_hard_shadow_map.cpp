@@ -22,7 +22,7 @@ using namespace gnomon::renderer;
 using format = gnomon::moments4_unorm16; // 64 bits per texel
 
 constexpr int width = 960, height = 540; // of the picture
-constexpr int side = 512;                // of the shadow map
+constexpr int side = 1024;               // of the shadow map
 constexpr double filter_radius = 5.5;    // in texels: the blur reaches 4 to either side, the look-up 1.5 further
 
 // How far the filter region of a sloped receiver rises towards the light: the depth bias that keeps it from shadowing itself.

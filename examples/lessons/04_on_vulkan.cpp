@@ -20,7 +20,7 @@
 using namespace gnomon::renderer;
 using use = vk::ImageUsageFlagBits;
 
-constexpr std::uint32_t side = 512, width = 960, height = 540;
+constexpr std::uint32_t side = 1024, width = 960, height = 540;
 
 void draw(const vulkan::device& gpu)
 {
