@@ -1,0 +1,257 @@
+#!/usr/bin/env python3
+"""Runs a lesson in an empty folder and checks what it prints and draws: lessons_test.py FOLDER_OF_PROGRAMS LessonNN"""
+
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import matplotlib.image
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAMS = Path(sys.argv.pop(1)).resolve()
+HALF_CODE = 0.5 / 255
+SIZE = (540, 960, 3)
+
+# Of the picture of the fence: ground on which no shadow falls, and ground that the sign board shadows.
+LIT = (slice(440, 530), slice(640, 940))
+SHADOWED = (slice(415, 445), slice(420, 500))
+
+
+def name_of(number):
+    return next((ROOT / "examples" / "lessons").glob(f"{number:02}_*.cpp")).stem
+
+
+def run(number, folder):
+    """The output of a lesson, whose pictures are below the folder."""
+    done = subprocess.run([PROGRAMS / f"lesson_{name_of(number)}"], cwd=folder, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, ""), (done.returncode, done.stderr)
+    return done.stdout
+
+
+def picture(number, folder):
+    return matplotlib.image.imread(Path(folder) / "out" / "lessons" / f"{name_of(number)}.png")[..., :3]
+
+
+def linear(srgb):
+    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+
+
+def rows(text):
+    """The numbers of each line that begins with one."""
+    found = [re.findall(r"[-+]?\d+(?:\.\d+)?", line) for line in text.splitlines() if re.match(r"\s*[-+]?\d", line)]
+    return [[float(word) for word in line] for line in found]
+
+
+def source(number):
+    return (ROOT / "examples" / "lessons" / f"{name_of(number)}.cpp").read_text(encoding="utf-8")
+
+
+class Lesson(unittest.TestCase):
+    """Runs lesson NUMBER once; self.printed is its output."""
+
+    NUMBER = 0
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.printed = run(cls.NUMBER, cls.folder.name)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def drawn(self):
+        return picture(self.NUMBER, self.folder.name)
+
+    def check_fence(self, seen):
+        """The light of sun and sky on open ground, that of the sky alone (stage.cpp, shading.hpp) below the sign."""
+        self.assertEqual(seen.shape, SIZE)
+        albedo, sky, sun = np.array([[0.40, 0.43, 0.34], [0.30, 0.35, 0.44], [1.0, 0.94, 0.84]])
+        cosine = 0.55 / np.sqrt(0.75**2 + 0.55**2 + 0.25**2)
+        self.assertLess(np.abs(linear(seen[LIT]) - albedo * (sky + cosine * sun)).max(), 0.005) # no acne anywhere
+        self.assertLess(np.abs(linear(seen[SHADOWED]) - albedo * sky).max(), 0.03) # next to no light leaks
+
+
+class Lesson01(Lesson):
+    NUMBER = 1
+
+    def setUp(self):
+        depths = re.search(r"depths\{([^}]*)\}", source(1))[1]
+        self.depths = np.array([float(z.strip().rstrip("f")) for z in depths.split(",")])
+        self.rows = [row for row in rows(self.printed) if len(row) == 3]
+
+    def test_the_exact_answer_is_exact(self):
+        self.assertEqual(len(self.rows), 37)
+        for receiver, exact, _ in self.rows:
+            if np.abs(self.depths - receiver).min() > 1e-3: # where decimals do not decide
+                self.assertAlmostEqual(exact, np.mean(self.depths < receiver), delta=6e-4)
+
+    def test_the_texel_never_darkens_what_is_lit(self):
+        for _, exact, stored in self.rows:
+            self.assertLessEqual(stored, exact + 1e-3)
+
+    def test_the_texel_is_tight_between_and_behind_surfaces(self):
+        for receiver, exact, stored in self.rows:
+            if -0.3 < receiver < 0.2 or receiver > 0.45:
+                self.assertGreater(stored, exact - 0.02)
+
+
+class Lesson02(Lesson):
+    NUMBER = 2
+
+    def test_the_picture_is_lit_and_shadowed_where_it_should_be(self):
+        self.check_fence(self.drawn())
+
+    def test_the_document_shows_this_very_picture(self):
+        shown = matplotlib.image.imread(ROOT / "docs" / "images" / "lesson_hard_shadow_map.png")[..., :3]
+        self.assertLess(np.abs(shown - self.drawn()).mean(), HALF_CODE)
+
+
+class Lesson03(Lesson):
+    NUMBER = 3
+
+    def test_packs_give_the_bits_of_scalars(self):
+        receivers, different = re.fullmatch(r"(\d+) receivers, (\d+) differ from one at a time\n", self.printed).groups()
+        self.assertGreater(int(receivers), 100000)
+        self.assertEqual(int(different), 0)
+
+    def test_the_picture_is_lit_and_shadowed_where_it_should_be(self):
+        self.check_fence(self.drawn())
+
+
+class Lesson04(Lesson):
+    NUMBER = 4
+
+    def setUp(self):
+        if self.printed.startswith("skipped: "):
+            print(self.printed)
+            self.skipTest("no device")
+
+    def test_the_picture_is_lit_and_shadowed_where_it_should_be(self):
+        self.check_fence(self.drawn())
+
+    def test_the_picture_is_that_of_the_second_lesson(self):
+        run(2, self.folder.name)
+        difference = np.abs(self.drawn() - picture(2, self.folder.name)).max(axis=2)
+        self.assertLess(difference.mean(), HALF_CODE)
+        self.assertLess(np.mean(difference > 0.05), 0.002) # edges of triangles
+
+
+class Lesson05(Lesson):
+    NUMBER = 5
+    NEAR, FAR = 0.5, 40
+
+    def test_every_buffer_gives_the_linear_depth(self):
+        buffers = [row for row in rows(self.printed) if len(row) == 7]
+        self.assertEqual(len(buffers), 7)
+        for distance, *depths, wrong in buffers:
+            exact = 2 * (distance - self.NEAR) / (self.FAR - self.NEAR) - 1
+            for depth in depths:
+                self.assertAlmostEqual(depth, exact, delta=0.0051)
+            perspective = self.FAR * (distance - self.NEAR) / (distance * (self.FAR - self.NEAR))
+            self.assertAlmostEqual(wrong, 2 * perspective - 1, delta=0.0051)
+
+    def test_cascades_use_their_own_planes(self):
+        planes = (0.5, 3, 12, 40)
+        cascades = [row for row in rows(self.printed) if len(row) == 3]
+        self.assertEqual(len(cascades), 6)
+        for distance, cascade, depth in cascades:
+            begin, end = planes[int(cascade)], planes[int(cascade) + 1]
+            self.assertTrue(begin <= distance <= end)
+            self.assertAlmostEqual(depth, 2 * (distance - begin) / (end - begin) - 1, delta=0.0051)
+
+
+class Lesson06(Lesson):
+    NUMBER = 6
+
+    def test_the_closed_form_is_the_share_of_time_in_shadow(self):
+        text = source(6)
+        lists = re.search(r"seen\{\{(.*?)\}\};", text, re.DOTALL)[1].strip().split("\n")
+        number = r"([-\d.]+)f?"
+        texels = [np.array(re.findall(r"\{" + ", ".join([number] * 4) + r", \d+\}", line), float) for line in lists]
+        path = re.search(r"path\{\{" + ", ".join([number] * 4) + r", \d+\}, " + ", ".join([number] * 4), text).groups()
+        t0, t1, z0, z1, x0, _, _, x1 = (float(word) for word in path)
+        self.assertEqual((len(texels), t0, t1), (3, 0, 1))
+        t = (np.arange(200000) + 0.5) / 200000
+        hidden = np.zeros_like(t)
+        for x, ranges in enumerate(texels):
+            here = np.floor(x0 + (x1 - x0) * t) == x
+            for begin, end, near, far in ranges:
+                depth = near + (far - near) * (t - begin) / (end - begin)
+                hidden[here & (begin <= t) & (t <= end) & (depth < z0 + (z1 - z0) * t)] = 1
+        closed = float(re.search(r"closed form: in shadow for ([\d.]+)", self.printed)[1])
+        self.assertTrue(0.1 < closed < 0.9)
+        self.assertAlmostEqual(closed, hidden.mean(), delta=2e-5)
+
+    def test_samples_come_nearer_the_more_there_are(self):
+        closed = float(re.search(r"closed form: in shadow for ([\d.]+)", self.printed)[1])
+        errors = [abs(row[1] - closed) for row in rows(self.printed)]
+        self.assertEqual(len(errors), 3)
+        self.assertTrue(errors[0] > errors[1] > errors[2])
+        self.assertLess(errors[2], 1e-4)
+
+    def test_spans_do_not_overlap(self):
+        for line in re.findall(r"texel \d.*", self.printed):
+            spans = [(float(a), float(b)) for a, b in re.findall(r"([\d.]+)\.\.([\d.]+)", line)]
+            self.assertTrue(spans)
+            for (_, end), (begin, _) in zip(spans, spans[1:]):
+                self.assertLessEqual(end, begin)
+
+
+class Lesson07(Lesson):
+    NUMBER = 7
+
+    def test_the_map_has_ranges(self):
+        self.assertGreater(int(re.match(r"\d+", self.printed)[0]), 512 * 512)
+
+    def test_shadows_fall_on_the_ground_and_are_smooth(self):
+        seen = self.drawn()
+        self.assertEqual(seen.shape, SIZE)
+        ground = linear(seen[300:]).mean(axis=2)
+        self.assertLess(ground.min(), 0.6 * np.median(ground)) # dark below cubes
+        self.assertGreater(np.mean(ground > 0.8 * np.median(ground)), 0.8) # lit elsewhere
+        bend = np.abs(ground[:, 2:] - 2 * ground[:, 1:-1] + ground[:, :-2])
+        self.assertLess(np.mean(bend > 0.03), 0.02) # no noise: bends are at edges alone
+
+    def test_the_document_shows_this_very_picture(self):
+        shown = matplotlib.image.imread(ROOT / "docs" / "images" / "lesson_map_of_ranges.png")[..., :3]
+        self.assertLess(np.abs(shown - self.drawn()).mean(), HALF_CODE)
+
+
+class Lesson08(Lesson):
+    NUMBER = 8
+
+    def setUp(self):
+        lines = re.findall(r"^(.*?)\s+(\d\.\d+)\s+(\d\.\d+)$", self.printed, re.MULTILINE)
+        self.dark = {name: float(dark) for name, dark, _ in lines}
+        self.light = {name: float(light) for name, _, light in lines}
+        self.assertEqual(len(self.dark), 5)
+
+    def test_a_depth_test_without_bias_has_acne_and_moments_have_next_to_none(self):
+        self.assertGreater(self.dark["depths, no bias"], 0.3)
+        self.assertLess(self.dark["moments, no bias"], 0.1)
+
+    def test_bias_takes_darkness_and_shadows_alike(self):
+        settings = ("moments, no bias", "moments, bias", "moments, 5 x bias")
+        dark, light = ([column[name] for name in settings] for column in (self.dark, self.light))
+        self.assertTrue(dark[0] > dark[1] > dark[2])
+        self.assertTrue(light[0] < light[1] < light[2])
+
+    def test_over_darkening_takes_light_from_shadows_and_beside_them(self):
+        self.assertLess(self.light["moments, over-darkened"], 0.8 * self.light["moments, bias"])
+        self.assertGreater(self.dark["moments, over-darkened"], self.dark["moments, bias"])
+
+    def test_the_picture_shows_all_settings_side_by_side(self):
+        self.assertEqual(self.drawn().shape, (400, 5 * 400 + 4 * 4, 3))
+
+    def test_the_document_shows_this_very_picture(self):
+        shown = matplotlib.image.imread(ROOT / "docs" / "images" / "lesson_bias.png")[..., :3]
+        self.assertLess(np.abs(shown - self.drawn()).mean(), HALF_CODE)
+
+
+if __name__ == "__main__":
+    unittest.main()
