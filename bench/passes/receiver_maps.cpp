@@ -65,7 +65,7 @@ class squares_map {
         }
         first_.push_back(static_cast<std::uint32_t>(ranges_.size()));
         totals_.resize(first.size() - 1);
-        set_totals(lists(), std::span(totals_), range_ids::surfaces);
+        set_summaries(lists(), std::span(totals_), range_ids::surfaces);
         for (std::size_t i = 0; i < receivers; ++i) {
             const float x = number(0, side), y = number(0, side), z = number(-1, 1);
             const float u = x + number(-longest, longest), v = y + number(-longest, longest);

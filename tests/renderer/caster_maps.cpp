@@ -85,8 +85,8 @@ TEST_CASE("caster maps keep the shadows of what is at rest, however soon lists a
     CHECK(lists.counts.early_resolves > 0);
     std::vector<range_summary<float>> totals(lists.first.size() - 1);
     range_map<float> map = lists.map();
-    set_totals(map, std::span(totals), range_ids::surfaces);
-    map.totals = totals;
+    set_summaries(map, std::span(totals), range_ids::surfaces);
+    map.summaries = totals;
     int below = 0;
     for (int y = 13; y < 51; ++y)
         for (int x = 13; x < 51; ++x) {

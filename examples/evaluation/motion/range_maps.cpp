@@ -141,7 +141,7 @@ range_shadow_map with_totals(range_shadow_map resolved)
     resolved.method += " with totals", resolved.format += ", 16 B totals";
     resolved.totals.resize(texels_of(resolved.resolution));
     resolved.build_ms +=
-        1e3 * least_seconds([&] { set_totals(resolved.map(), std::span(resolved.totals), range_ids::surfaces); });
+        1e3 * least_seconds([&] { set_summaries(resolved.map(), std::span(resolved.totals), range_ids::surfaces); });
     resolved.bytes += resolved.totals.size() * sizeof resolved.totals[0];
     return resolved;
 }

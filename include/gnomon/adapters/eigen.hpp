@@ -1,6 +1,6 @@
-// Eigen vectors to and from the library's structs of equal numbers: moments4, moments6, variance_moments, ...
-// Members keep their order: b1 is the first coefficient. An Eigen array is no Real, by design: expressions are
-// evaluated here, at the edge.
+// Conversion between Eigen vectors and the library's structs of equal numbers: moments4, moments6, variance_moments,
+// ... Members keep their order: b1 is the first coefficient. An Eigen array is no Real, by design; from_eigen evaluates
+// an expression before any kernel sees it.
 //
 //     Eigen::Vector4d v = gnomon::to_eigen(gnomon::moments4_from_depth(0.5));
 //     auto b = gnomon::from_eigen<gnomon::moments4<double>>(0.5 * (v + w));

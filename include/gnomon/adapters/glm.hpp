@@ -1,5 +1,6 @@
-// GLM vectors to and from the library's structs of two to four equal numbers: moments4, variance_moments,
-// exponential_variance_moments, ... Members keep their order: b1 is x. Kernels take the structs; GLM stays at the edge.
+// Conversion between GLM vectors and the library's structs of two to four equal numbers: moments4, variance_moments,
+// exponential_variance_moments, ... Members keep their order: b1 is x. Kernels accept the structs only; GLM stays at
+// the edge.
 //
 //     glm::vec4 v = gnomon::to_glm(gnomon::moments4_from_depth(0.5f));
 //     auto b = gnomon::from_glm<gnomon::moments4<float>>(v);

@@ -1,6 +1,6 @@
-// Separable blur of a shadow map in its storage format: each pass decodes, sums over the taps in float and encodes, so
-// a two-pass blur rounds twice, as on a GPU. Beyond the edge the outermost texel repeats. No allocation; bands of rows
-// may run on different threads.
+// Separable blur of a shadow map in its storage format. Each pass decodes texels, sums over the taps in float and
+// encodes the sum, so a blur of two passes rounds twice, as on a GPU. Beyond the map's edge the outermost texel
+// repeats. No allocation; threads may blur different bands of rows.
 //
 //     const auto weights = gnomon::gaussian_weights();                                  // 9 taps
 //     gnomon::blur<gnomon::moments4_unorm16>(map, scratch, map, weights);
@@ -14,7 +14,7 @@
 
 namespace gnomon {
 
-/// Gaussian weights at whole distances from the middle tap, normalised to sum to 1 up to rounding. sigma in texels.
+/// Gaussian weights at whole distances from the middle tap, normalised to sum to 1 up to rounding. sigma is in texels.
 template <std::size_t taps = 9> std::array<float, taps> gaussian_weights(double sigma = (taps - 1) / 4.0)
 {
     static_assert(taps % 2 == 1, "gnomon: a blur has a middle tap");
@@ -29,7 +29,7 @@ template <std::size_t taps = 9> std::array<float, taps> gaussian_weights(double 
     return result;
 }
 
-/// The most taps that a blur accepts: its window of decoded texels lies on the stack.
+/// Largest number of taps that a blur accepts: its window of decoded texels lies on the stack.
 inline constexpr std::size_t maximum_blur_taps = 63;
 
 namespace detail {
@@ -39,8 +39,8 @@ template <class T> struct lines {
     std::size_t along, across; // steps between texels of a line, and between lines
 };
 
-/// Blurs texels [first, last) of each of the given count of lines, which are length texels long; a few lines at a time,
-/// keeping the decoded texels under the taps in a ring.
+/// Blur texels [first, last) of each of `count` lines of `length` texels, a few lines at a time, with the decoded
+/// texels under the taps in a ring.
 template <class Format>
 void blur_lines(lines<const format_texel<Format>> source, lines<format_texel<Format>> target, std::size_t length,
                 std::size_t first, std::size_t last, std::size_t count, std::span<const float> weights)
@@ -54,7 +54,7 @@ void blur_lines(lines<const format_texel<Format>> source, lines<format_texel<For
 
     for (std::size_t begin = 0; begin < count; begin += batch) {
         const std::size_t lanes = std::min(batch, count - begin);
-        // Position p of the padded line, which repeats its ends radius times, goes into slot p % taps.
+        // Position p of the padded line, which repeats its ends radius times, has slot p % taps.
         const auto load = [&](std::size_t p) {
             const std::size_t i = std::min(p > radius ? p - radius : 0, length - 1);
             for (std::size_t k = 0; k < lanes; ++k) {
@@ -98,8 +98,8 @@ void expect_blur(map_view<const format_texel<Format>> source, map_view<format_te
 
 } // namespace detail
 
-/// One pass along x into the given rows of target, which shares no memory with source. Weights: an odd number, any
-/// signs.
+/// Blur along x into the given rows of target. Target must not overlap source. Weights: an odd number of them, of any
+/// sign.
 template <class Format>
 void blur_along_x(map_view<const format_texel<Format>> source, map_view<format_texel<Format>> target,
                   std::span<const float> weights, row_range rows)
@@ -110,7 +110,7 @@ void blur_along_x(map_view<const format_texel<Format>> source, map_view<format_t
                                source.width, 0, source.width, rows.last - rows.first, weights);
 }
 
-/// One pass along y into the given rows of target, which shares no memory with source; it reads rows beyond them.
+/// Blur along y into the given rows of target; reads source rows beyond these. Target must not overlap source.
 template <class Format>
 void blur_along_y(map_view<const format_texel<Format>> source, map_view<format_texel<Format>> target,
                   std::span<const float> weights, row_range rows)
@@ -120,7 +120,7 @@ void blur_along_y(map_view<const format_texel<Format>> source, map_view<format_t
                                source.height, rows.first, rows.last, source.width, weights);
 }
 
-/// Both passes over the whole map: source to scratch, scratch to target. Target may be the source.
+/// Blur the whole map along both axes: source to scratch, scratch to target. Target may be source.
 template <class Format>
 void blur(map_view<const format_texel<Format>> source, map_view<format_texel<Format>> scratch,
           map_view<format_texel<Format>> target, std::span<const float> weights)

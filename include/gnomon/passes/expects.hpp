@@ -1,6 +1,6 @@
-// How a pass answers arguments that do not fit together, before it has written anything: GNOMON_EXPECTS throws
-// std::invalid_argument, or prints and aborts where exceptions are off. Define it beforehand for another answer; it
-// must not return where the condition is false.
+// Checks of a pass's arguments, before the pass writes anything. GNOMON_EXPECTS throws std::invalid_argument, or prints
+// and aborts if exceptions are off. Define the macro before inclusion to replace it; a replacement must not return if
+// the condition is false.
 #ifndef GNOMON_PASSES_EXPECTS_HPP
 #define GNOMON_PASSES_EXPECTS_HPP
 
@@ -32,7 +32,7 @@
 
 namespace gnomon {
 
-/// The message for two arguments that do not fit: "gnomon: blur: target.width is 4, but source.width is 5".
+/// Message for two arguments that do not fit: "gnomon: blur: target.width is 4, but source.width is 5".
 inline std::string mismatch(std::string_view pass, std::string_view first, std::size_t first_value,
                             std::string_view second, std::size_t second_value)
 {

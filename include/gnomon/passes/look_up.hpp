@@ -1,6 +1,6 @@
-// Bilinear and trilinear look-up in a shadow map in its storage format: texels are decoded, then interpolated in float,
-// so nothing is rounded to the format. Positions are in texels of the map itself, texel centres at +0.5; beyond the
-// edge the outermost texel repeats.
+// Bilinear and trilinear look-up in a shadow map in its storage format. Texels are decoded, then interpolated in float,
+// so nothing is rounded to the format. Positions are in texels of the map itself, texel centres at +0.5. Beyond the
+// map's edge the outermost texel repeats.
 #ifndef GNOMON_PASSES_LOOK_UP_HPP
 #define GNOMON_PASSES_LOOK_UP_HPP
 
@@ -10,8 +10,9 @@ namespace gnomon {
 
 namespace detail {
 
-/// The lower of two neighbouring whole numbers in [0, extent - 1] around a coordinate, and how far it lies to the
-/// upper. NaN counts as 0.
+/// The two neighbouring whole numbers in [0, extent - 1] around a coordinate, and the fraction from the lower to the
+/// upper one.
+/// NaN: the coordinate counts as 0.
 struct neighbours {
     std::size_t lower, upper;
     float fraction;
@@ -25,7 +26,7 @@ inline neighbours neighbours_of(float coordinate, std::size_t extent)
     return {lower, std::min(lower + 1, extent - 1), x - float(lower)};
 }
 
-/// Exact where both are equal: a constant map stays constant.
+/// Linear interpolation from a to b. Exact if both are equal, so a constant map stays constant.
 template <std::size_t n> std::array<float, n> mix(const std::array<float, n>& a, const std::array<float, n>& b, float t)
 {
     std::array<float, n> r;
@@ -45,14 +46,17 @@ channel_array<Format> bilinear_channels(map_view<const format_texel<Format>> map
 
 } // namespace detail
 
-/// The filtered channels at (x, y), which a format's intensity or factor takes. Any position, NaN counts as 0; the map
-/// has texels.
+/// Filtered channels at position (x, y), for the intensity or factor of a format.
+/// Domain: a map with texels, and any position.
+/// NaN: a coordinate counts as 0.
 template <class Format> format_channels<Format> bilinear(map_view<const format_texel<Format>> map, float x, float y)
 {
     return std::bit_cast<format_channels<Format>>(detail::bilinear_channels<Format>(map, x, y));
 }
 
-/// The same between two levels; level 0 is the map itself, fractions lie between. Any level, clamped; NaN counts as 0.
+/// Filtered channels at position (x, y) of a mip chain, interpolated between two levels. Level 0 is the map itself; the
+/// level is clamped to the chain.
+/// NaN: a coordinate or level counts as 0.
 template <class Format>
 format_channels<Format> trilinear(mip_view<const format_texel<Format>> mips, float x, float y, float level)
 {

@@ -1,6 +1,7 @@
-// Rectangles of texels in the caller's memory, and what passes over them have in common: shape checks, and texels as
-// arrays of floats. A pass is generic in a storage format (storage/moments_formats.hpp, storage/filters_formats.hpp): texels are
-// decoded, combined linearly in float and encoded, so that every pass rounds to the format, as it would on a GPU.
+// Rectangles of texels in the caller's memory, with what all passes over them share: shape checks, and texels as arrays
+// of floats. A pass is generic in a storage format (storage/moments_formats.hpp, storage/filters_formats.hpp). It
+// decodes texels, combines them linearly in float and encodes the result, so that every pass rounds to the format, as
+// on a GPU.
 #ifndef GNOMON_PASSES_MAP_VIEW_HPP
 #define GNOMON_PASSES_MAP_VIEW_HPP
 
@@ -16,7 +17,7 @@
 
 namespace gnomon {
 
-/// width x height texels, rows stride texels apart, the first one at the beginning of the span.
+/// A map of width x height texels. Rows are stride texels apart; the first row begins at the begin of the span.
 template <class T> struct map_view {
     std::span<T> texels;
     std::size_t width = 0, height = 0, stride = 0;
@@ -31,7 +32,7 @@ template <class T> struct map_view {
     constexpr T& operator()(std::size_t x, std::size_t y) const { return texels[y * stride + x]; }
 };
 
-/// A band of rows, first to last - 1: what one thread of the caller works on.
+/// A band of rows, first to last - 1, such as one thread's share.
 struct row_range {
     std::size_t first = 0, last = 0;
 };
@@ -53,7 +54,7 @@ template <class Format> format_texel<Format> store_channels(const channel_array<
     return Format::encode_channels(std::bit_cast<format_channels<Format>>(c));
 }
 
-/// The map has texels, its rows do not overlap, and they all lie in the span.
+/// Check that the map has texels, that its rows do not overlap, and that all of them lie in the span.
 template <class T> void expect_map(std::string_view pass, std::string_view name, map_view<T> map)
 {
     const std::string n(name);

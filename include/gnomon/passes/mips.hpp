@@ -1,6 +1,6 @@
-// Mip chain of a shadow map in its storage format. A texel is the mean of the texels that it covers in the level below:
-// 2x2 where the extent is even; 3 with the weights of their overlap along an odd extent, so that the mean of a level is
-// that of the map but for rounding.
+// Mip chain of a shadow map in its storage format. A texel is the mean of the texels that it covers in the level below.
+// Along an even extent these are 2. Along an odd extent they are 3, weighted by their overlap, so that every level has
+// the mean of the map except for rounding.
 #ifndef GNOMON_PASSES_MIPS_HPP
 #define GNOMON_PASSES_MIPS_HPP
 
@@ -15,13 +15,13 @@ constexpr std::size_t mip_extent(std::size_t extent, std::size_t level)
     return level < 64 ? std::max<std::size_t>(extent >> level, 1) : 1;
 }
 
-/// Levels down to 1x1, the map itself included.
+/// Number of levels down to 1 x 1, including the map itself.
 constexpr std::size_t mip_levels(std::size_t width, std::size_t height)
 {
     return std::size_t(std::bit_width(std::max(width, height)));
 }
 
-/// Texels of all levels, one after the other.
+/// Number of texels of all levels.
 constexpr std::size_t mip_texels(std::size_t width, std::size_t height)
 {
     std::size_t sum = 0;
@@ -30,7 +30,7 @@ constexpr std::size_t mip_texels(std::size_t width, std::size_t height)
     return sum;
 }
 
-/// All levels in one span, the largest first, each without gaps.
+/// All levels in one span, the largest first, each without gaps between its rows.
 template <class T> struct mip_view {
     std::span<T> texels;
     std::size_t width = 0, height = 0;
@@ -49,7 +49,7 @@ template <class T> struct mip_view {
 
 namespace detail {
 
-/// The texels under one of the next level: begin to begin + 2, of which the last may weigh nothing.
+/// The texels under a texel of the next level: begin to begin + 2, of which the last may have weight 0.
 struct footprint {
     std::size_t begin;
     std::array<float, 3> weights;
@@ -66,8 +66,8 @@ constexpr footprint mip_footprint(std::size_t extent, std::size_t i)
 
 } // namespace detail
 
-/// The given rows of the next smaller level. Target has half the source's extents, rounded down, at least 1, and no
-/// memory of it.
+/// Fill the given rows of target, the next smaller level of source. Target has half of source's extents, rounded down,
+/// at least 1. Target must not overlap source.
 template <class Format>
 void downsample(map_view<const format_texel<Format>> source, map_view<format_texel<Format>> target, row_range rows)
 {
@@ -98,7 +98,7 @@ void downsample(map_view<const format_texel<Format>> source, map_view<format_tex
     }
 }
 
-/// Fills every level below the first.
+/// Fill every level below the first.
 template <class Format> void build_mips(mip_view<format_texel<Format>> mips)
 {
     constexpr std::string_view pass = "build_mips";

@@ -1,7 +1,8 @@
-// The lists of several texels resolved at once, a lane for each: what passes/range/resolve.hpp does for one, for ids of
-// surfaces. A list is a column of rows. Every range is compared with every other one of its texel: in the time that
-// both have, one hides the other, or does up to the crossing of their lines. What is hidden is taken from a range's
-// begin or end, which takes no branches. Where its middle is hidden, what is left behind that goes into a further row.
+// The lists of several texels resolved at once, one list in each lane of a pack: passes/range/resolve.hpp for packs,
+// for ids of surfaces. A row holds one range of each list. Every range is compared with every other range of its texel:
+// while both last, one occludes the other throughout, or up to the crossing of their lines. Occluded time is removed
+// from a range's begin or end, without branches. If the middle of a range is occluded, the part behind it becomes a
+// further row.
 #ifndef GNOMON_SIMD_RESOLVE_HPP
 #define GNOMON_SIMD_RESOLVE_HPP
 
@@ -14,10 +15,10 @@
 
 namespace gnomon {
 
-/// A number in each lane.
+/// One number for each lane.
 template <class Pack> using pack_lanes = std::array<lane_t<Pack>, sizeof(Pack) / sizeof(lane_t<Pack>)>;
 
-/// The k-th range of each list; an empty one where a list is shorter.
+/// The k-th range of each list; an empty one if a list is shorter.
 template <class Pack> struct range_row {
     alignas(Pack) pack_lanes<Pack> t0, t1, z0, z1, id;
 
@@ -39,8 +40,8 @@ template <class Pack> struct range_row {
     }
 };
 
-/// From when to when a row is in front; nowhere where the end is not after the begin. Then its slope, and the place in
-/// the list of the range that it is a part of.
+/// The times from begin to end at which a row is in front, none unless begin < end; its slope; and the place in the
+/// list of the range that it is a part of.
 template <class Pack> struct front_row {
     alignas(Pack) pack_lanes<Pack> begin, end, slope, place;
 
@@ -65,12 +66,12 @@ template <class Pack> struct loaded_row {
     Pack depth(const Pack& t) const { return range.z0 + (t - range.t0) * slope; }
 };
 
-/// The time for which one of two ranges is hidden by the other.
+/// The times at which each of two ranges is occluded by the other.
 template <class Pack> struct hidden_times {
     Pack a_from, a_to, b_from, b_to;
 };
 
-/// Which of two rows is in front from when to when; see front_resolver::succession_of.
+/// The times at which each of two rows is occluded by the other (see front_resolver::order_of).
 template <class Pack> hidden_times<Pack> compare_rows(const loaded_row<Pack>& a, const loaded_row<Pack>& b)
 {
     const Pack begin = gnomon_max(a.range.t0, b.range.t0), end = gnomon_min(a.range.t1, b.range.t1);
@@ -90,7 +91,7 @@ template <class Pack> hidden_times<Pack> compare_rows(const loaded_row<Pack>& a,
         const Pack meeting = begin + (end - begin) * (exact_early / (exact_early - exact_late));
         change = gnomon_select(crossing, gnomon_max(gnomon_min(meeting, end), begin), change);
     }
-    // Up to the change a is in front, or b, and from then on the other.
+    // Up to the change one of the two is in front, and from then on the other.
     const auto a_first = a_all || b_all || early < none;
     return {gnomon_select(a_first, change, begin), gnomon_select(a_first, end, change),
             gnomon_select(a_first, begin, change), gnomon_select(a_first, change, end)};
@@ -98,9 +99,9 @@ template <class Pack> hidden_times<Pack> compare_rows(const loaded_row<Pack>& a,
 
 } // namespace detail
 
-/// Finds what is in front of lists that are columns of the first rows, and says so in as many fronts. Rows and fronts
-/// are vectors; more are added for what falls apart, and what was behind the first rows goes. Ranges without a duration
-/// or with depths that are not finite are in front of nothing.
+/// Find the visible parts of lists whose first ranges are the first `count` rows, and write them into as many fronts.
+/// rows and fronts are vectors. Rows are added for ranges that fall apart; rows beyond the first `count` are removed at
+/// the start. A range without duration, or with a depth that is not finite, is in front of nothing.
 template <class Pack, class Rows, class Fronts> void resolve_rows(Rows& rows, Fronts& fronts, std::size_t count)
 {
     using lane = lane_t<Pack>;
@@ -114,10 +115,10 @@ template <class Pack, class Rows, class Fronts> void resolve_rows(Rows& rows, Fr
         ((r.z1 - r.z0) / (r.t1 - r.t0)).store_unaligned(fronts[k].slope.data());
         fronts[k].place.fill(lane(k));
     }
-    std::array<std::size_t, sizeof(Pack) / sizeof(lane)> ends; // of what has been added to each list
+    std::array<std::size_t, sizeof(Pack) / sizeof(lane)> ends; // of the rows added for each list
     ends.fill(count);
     std::size_t compared = 1;
-    // Part of row k becomes a row of its own, which is compared later.
+    // Make a part of row k a row of its own, to be compared later.
     const auto add = [&](std::size_t i, std::size_t k, lane begin, lane end) {
         const std::size_t to = std::max(ends[i], compared + 1);
         ends[i] = to + 1;
@@ -130,8 +131,8 @@ template <class Pack, class Rows, class Fronts> void resolve_rows(Rows& rows, Fr
         fronts[to].place[i] = fronts[k].place[i], fronts[to].slope[i] = fronts[k].slope[i];
         fronts[to].begin[i] = begin, fronts[to].end[i] = end;
     };
-    // Takes from a row the time in which the other one hides it, where some is set. What is hidden itself hides
-    // nothing, lest three lines that meet within rounding hide one another.
+    // Remove from a row the time at which the other one occludes it, where `some` is set. An occluded part occludes
+    // nothing, so that three lines that meet within rounding cannot occlude one another.
     const auto hide = [&](std::size_t k, detail::loaded_row<Pack>& row, const auto& some, const Pack& from,
                           const Pack& to) {
         const auto during = some && from < to;

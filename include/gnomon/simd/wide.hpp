@@ -1,10 +1,10 @@
-// Two packs as one Real: every operation is issued twice, so that one half's work fills the other's latency. A kernel
-// is one long chain of dependent operations, longer than a processor looks ahead; with twice the lanes it runs faster
-// per lane.
+// Two packs as one Real. Every operation is issued twice, so that the work of one half fills the latency of the other.
+// A kernel is one long chain of dependent operations, longer than a processor looks ahead; with twice the lanes it
+// takes less time for each lane.
 //
 //     using real = gnomon::wide<xsimd::batch<float>>;
 //
-// The lanes of low come first. Bits are those of the pack, which loads and stores as xsimd's do.
+// The lanes of low come first. Results have the bits of the pack; loads and stores are those of xsimd.
 #ifndef GNOMON_SIMD_WIDE_HPP
 #define GNOMON_SIMD_WIDE_HPP
 

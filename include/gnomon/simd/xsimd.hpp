@@ -1,5 +1,5 @@
-// Packs of xsimd as a Real: the operations that one instruction does and the generic prelude would not find.
-// Optional: kernels accept xsimd::batch without this header too, and give the same bits, only slower.
+// Packs of xsimd as a Real: single instructions for operations that the generic prelude does not map to one. Optional:
+// kernels accept xsimd::batch without this header, too, with the same bits, only slower.
 #ifndef GNOMON_SIMD_XSIMD_HPP
 #define GNOMON_SIMD_XSIMD_HPP
 
@@ -24,7 +24,7 @@ template <class T, class A> struct pack_operations<xsimd::batch<T, A>> {
     static constexpr bool fused = false;
 #endif
 
-    // minps and maxps return their second operand where one is NaN, as the dialect asks.
+    // minps and maxps return their second operand if one is NaN, as the dialect requires.
     static GNOMON_INLINE pack min(pack a, pack b)
     {
         if constexpr (is_x86) return xsimd::min(a, b);
@@ -36,7 +36,7 @@ template <class T, class A> struct pack_operations<xsimd::batch<T, A>> {
         else return xsimd::select(b < a, a, b);
     }
 
-    // xsimd's own fma is a multiplication and an addition for SSE, AVX2 without fma3 and, before 11.0, AVX-512.
+    // xsimd's own fma is a multiplication and an addition for SSE, for AVX2 without fma3 and, before 11.0, for AVX-512.
     static GNOMON_INLINE pack fma(pack a, pack b, pack c)
     {
 #if defined(__FMA__)
@@ -53,7 +53,7 @@ template <class T, class A> struct pack_operations<xsimd::batch<T, A>> {
 #endif
     }
 
-    // As for a scalar: the sum leaves n in the low bits, where the shift takes it into the exponent.
+    // As for a scalar: the sum leaves n in the low bits, and the shift moves n into the exponent.
     static GNOMON_INLINE pack power_of_two(pack n)
     {
         using integer = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;

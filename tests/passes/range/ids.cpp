@@ -68,7 +68,7 @@ template <class T> struct one_texel {
           totals(first.size() - 1)
     {
         first[0] = 0;
-        set_totals(map(), std::span(totals), ids);
+        set_summaries(map(), std::span(totals), ids);
     }
     range_map<T> map() const { return {1, 1, first, ranges}; }
     range_map<T> with_totals() const { return {1, 1, first, ranges, totals}; }
@@ -219,10 +219,10 @@ TEST_CASE("resolve_ranges: the second layer follows the span that it is behind")
     CHECK(shadow(0.5f, 3) == 1);
     CHECK(shadow(-0.25f, 1) == 0);
     CHECK(resolved(ranges, range_ids::surfaces).size() == 2);
-    CHECK(total_of<float>(spans, range_ids::surfaces).id == 1); // who promises too much keeps the second layer
+    CHECK(summarize<float>(spans, range_ids::surfaces).id == 1); // who promises too much keeps the second layer
 }
 
-TEST_CASE_TEMPLATE("total_of: hidden always where spans fill all of the time, and there alone", T, float, double)
+TEST_CASE_TEMPLATE("summarize: hidden always where spans fill all of the time, and there alone", T, float, double)
 {
     bit_source bits(74);
     std::int64_t always = 0;
@@ -239,7 +239,7 @@ TEST_CASE_TEMPLATE("total_of: hidden always where spans fill all of the time, an
                 spans.push_back(
                     {times[k], times[k + 1], T(bits.uniform(-1, 1)), T(bits.uniform(-1, 1)), T(bits.below(3))});
         const bool filled = missing + 1 >= times.size() || times[missing] == times[missing + 1];
-        REQUIRE((total_of<T>(spans, range_ids::any).shadowed == 1) == filled);
+        REQUIRE((summarize<T>(spans, range_ids::any).shadowed == 1) == filled);
         always += filled;
     }
     CHECK(always > 0);
@@ -247,20 +247,20 @@ TEST_CASE_TEMPLATE("total_of: hidden always where spans fill all of the time, an
 }
 
 #if defined(__cpp_exceptions)
-TEST_CASE("set_totals says what does not fit")
+TEST_CASE("set_summaries says what does not fit")
 {
     const one_texel<float> texel({{0, 1, 0, 0, 1}}, range_ids::any);
     std::vector<range_summary<float>> totals(texel.totals.size());
     range_map<float> map = texel.map();
     map.width = 2 * map.tile;
-    CHECK_THROWS_WITH_AS(set_totals(map, std::span(totals), range_ids::any),
-                         doctest::Contains("range totals: map.first.size() is"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(set_summaries(map, std::span(totals), range_ids::any),
+                         doctest::Contains("range summaries: map.first.size() is"), std::invalid_argument);
     map = texel.map();
     map.ranges = map.ranges.first(0);
-    CHECK_THROWS_WITH_AS(set_totals(map, std::span(totals), range_ids::any),
+    CHECK_THROWS_WITH_AS(set_summaries(map, std::span(totals), range_ids::any),
                          doctest::Contains("but map.ranges.size() is 0"), std::invalid_argument);
     totals.pop_back();
-    CHECK_THROWS_WITH_AS(set_totals(texel.map(), std::span(totals), range_ids::any),
-                         doctest::Contains("range totals: totals.size() + 1 is"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(set_summaries(texel.map(), std::span(totals), range_ids::any),
+                         doctest::Contains("range summaries: summaries.size() + 1 is"), std::invalid_argument);
 }
 #endif

@@ -53,8 +53,8 @@ template <class T> struct random_map {
     {
         totals.resize(first.size() - 1);
         range_map<T> result = map();
-        set_totals(result, std::span(totals), range_ids::any);
-        result.totals = totals;
+        set_summaries(result, std::span(totals), range_ids::any);
+        result.summaries = totals;
         return result;
     }
 
@@ -280,11 +280,11 @@ TEST_CASE("static_intensities say what does not fit")
                          doctest::Contains("but map.ranges.size() is"), std::invalid_argument);
     map = random.map();
     std::vector<range_summary<float>> totals(map.first.size()), few(3);
-    map.totals = totals;
+    map.summaries = totals;
     CHECK_THROWS_WITH_AS(static_intensities<float>(map, receivers, shadows),
-                         doctest::Contains("static_intensities: map.totals.size() + 1 is"), std::invalid_argument);
-    CHECK_THROWS_WITH_AS(set_totals(random.map(), std::span(few), range_ids::any),
-                         doctest::Contains("range totals: totals.size() + 1 is 4"), std::invalid_argument);
+                         doctest::Contains("static_intensities: map.summaries.size() + 1 is"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(set_summaries(random.map(), std::span(few), range_ids::any),
+                         doctest::Contains("range summaries: summaries.size() + 1 is 4"), std::invalid_argument);
     CHECK(shadows == std::vector<float>(2, 7.f));
 }
 #endif

@@ -1,7 +1,7 @@
-// Lists without their backdrops. A backdrop is there for the whole of the shutter, behind all else, as the ground often
-// is. It shadows nothing that its texel sees, and where nothing is in front of it no list remains. Keep it where
-// receivers come from outside of the map's scene: they may be behind it, as may be a receiver beside the backdrop's
-// border that only part of the texel sees.
+// Lists without their backdrops. A backdrop lasts for the whole shutter, behind everything else, as the ground often
+// does. It shadows nothing that its texel sees, and where nothing is in front of it no list remains. Keep backdrops if
+// receivers are not part of the map's scene, since they may lie behind a backdrop. A receiver beside the border of a
+// backdrop that only part of the texel sees may lie behind it, too.
 #ifndef GNOMON_PASSES_RANGE_BACKDROP_HPP
 #define GNOMON_PASSES_RANGE_BACKDROP_HPP
 
@@ -13,15 +13,16 @@
 
 namespace gnomon {
 
-/// Ranges as they come, less the farthest that lasts from 0 to 1, which waits: whether it is a backdrop is known at the
-/// end. Whoever drops hidden ranges meanwhile must ask every range through this filter first. A hidden backdrop, once
-/// dropped, would leave the lowest caster in its place. Of one list, or of one in each lane of a pack.
+/// A filter that withholds the farthest of those ranges that last from 0 to 1: only after the last range is it known
+/// whether that one is a backdrop. If occluded ranges are dropped at the same time, every range must pass this filter
+/// first: after the loss of an occluded backdrop the filter would take the lowest caster for the backdrop. Real is a
+/// scalar for one list, or a pack for a list in each lane.
 template <class Real> class backdrop_filter {
   public:
     using range = depth_time_range<Real>;
 
-    /// Takes r, and returns the range that goes into the list instead: r, or what has waited until now, which is empty
-    /// at first.
+    /// Add r, and return the range to insert into the list instead: r itself, or the range that was withheld until now,
+    /// which is empty at first.
     GNOMON_INLINE range add(const range& r)
     {
         const auto some = r.t0 <= r.t1 && r.z0 == r.z0 && r.z1 == r.z1;
@@ -33,14 +34,14 @@ template <class Real> class backdrop_filter {
         return listed;
     }
 
-    /// The farthest that lasts from 0 to 1; an empty one where there is none.
+    /// The farthest range that lasts from 0 to 1; an empty one if there is none.
     const range& waiting() const { return waiting_; }
 
-    /// True where that is behind all others that have come.
+    /// True if the withheld range is behind all others that were added.
     auto is_backdrop() const { return waiting_some() && deepest_ <= nearer_end(waiting_); }
 
-    /// The range that has waited in vain, since it is not behind all else, and belongs into the list; else an empty
-    /// one. Ask after the last range.
+    /// The withheld range if it is no backdrop and belongs into the list, else an empty range. Call after the last
+    /// range.
     range rest() const { return range_select(is_backdrop(), range_empty(Real(range_nothing)), waiting_); }
 
   private:
@@ -49,7 +50,8 @@ template <class Real> class backdrop_filter {
 
     auto waiting_some() const { return waiting_.t0 < waiting_.t1; }
 
-    /// By the nearer end, then by the farther one; of equal ones the lower id waits.
+    /// True if a is farther than b, by the nearer end, then by the farther end; of equal ranges the one with the lower
+    /// id.
     static auto is_behind(const range& a, const range& b)
     {
         const auto same_near = nearer_end(a) == nearer_end(b), same_far = farther_end(a) == farther_end(b);
@@ -61,7 +63,7 @@ template <class Real> class backdrop_filter {
     Real deepest_ = Real(-1); // of all others; depths are in [-1, 1]
 };
 
-/// A list without its backdrop, in place, in its order.
+/// Remove the backdrop of a list, in place; the order of the others stays. Return the list that remains.
 template <class T> std::span<depth_time_range<T>> without_backdrop(std::span<depth_time_range<T>> list)
 {
     backdrop_filter<T> filter;

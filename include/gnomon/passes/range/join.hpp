@@ -1,7 +1,7 @@
-// Resolved lists with fewer ranges. On a fine mesh a texel sees one triangle after the other, each for a short time and
-// all on nearly one line of depth. Ranges that follow one another become one wherever a line stays behind all of them
-// by no more than a tolerance, as far as it does (the opening of a cone, Williams 1981): what was lit stays lit, and
-// shadow is lost in that depth alone.
+// Resolved lists with fewer ranges. On a fine mesh a texel sees one triangle after the other, each for a short time,
+// and all of them almost on one line of depth. Consecutive ranges become one as long as some line stays behind all of
+// them by at most a tolerance (the opening of a cone, Williams 1981). All that was lit stays lit; shadow is lost only
+// within that depth.
 #ifndef GNOMON_PASSES_RANGE_JOIN_HPP
 #define GNOMON_PASSES_RANGE_JOIN_HPP
 
@@ -16,8 +16,8 @@ namespace gnomon {
 
 namespace detail {
 
-/// Lines from half a tolerance behind the begin of a first range that are behind all ranges joined so far, and no
-/// farther than the tolerance.
+/// The set of lines that begin half a tolerance behind the begin of a first range and lie behind all ranges joined so
+/// far, by at most the tolerance.
 template <class T> class joining_cone {
   public:
     joining_cone(const depth_time_range<T>& first, T tolerance)
@@ -26,7 +26,7 @@ template <class T> class joining_cone {
         narrow(first.t1, first.z1);
     }
 
-    /// Joins the next range, if some line stays; false if none does.
+    /// Join the next range and return true if some line remains; else return false.
     bool add(const depth_time_range<T>& next)
     {
         const joining_cone before = *this;
@@ -66,10 +66,11 @@ template <class T> class joining_cone {
 
 } // namespace detail
 
-/// Joins the ranges of a resolved list, in place and in order of time. Only those are joined that follow one another
-/// without a gap and that same(a, b) says to be of one surface. A joined range lies behind every part by 0 to the
-/// tolerance, but for 8 roundings of its depths; of several ids it has none (range_mixed), and shadows them all.
-/// A tolerance that is not above 0 joins nothing. Not for lists with second layers (range_ids::any).
+/// Join the ranges of a resolved list, in place and in order of time, and return the list that remains. Ranges are
+/// joined only if they follow one another without a gap and same(a, b) returns true, for ranges of one surface. A
+/// joined range lies behind every part by 0 to the tolerance, up to 8 roundings of its depths. A joined range of
+/// several ids has the id range_mixed, and shadows all of them. A tolerance that is not above 0 joins nothing.
+/// Domain: lists without second layers (range_ids::any makes some).
 template <class T, class Same>
 std::span<depth_time_range<T>> join_ranges(std::span<depth_time_range<T>> list, T tolerance, const Same& same)
 {

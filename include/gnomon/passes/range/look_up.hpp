@@ -38,7 +38,7 @@ T static_intensity(const range_map<T>& map, T x, T y, static_receiver<T> state, 
     detail::for_each_static_texel(map, x, y, look_ups, [&](T weight, std::size_t texel) {
         state = static_receiver_set_weight(state, weight);
         if constexpr (std::is_same_v<Add, box_shutter>) {
-            if (map.totals.empty() || !detail::add_total_box(state, map.totals[texel]))
+            if (map.summaries.empty() || !detail::add_total_box(state, map.summaries[texel]))
                 detail::add_list_box(state, map[texel]);
         } else
             detail::for_each_counted(map[texel], state.id,

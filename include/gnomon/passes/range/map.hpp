@@ -1,6 +1,6 @@
-// A shadow map of depth-time ranges: a list for each texel, all of them one after the other in one array, in the order
-// of the texels, which a table of first entries divides. Nothing is chased from pointer to pointer, and nothing is
-// wasted on texels with short lists (the layout that Hong & Oh 2017 name as future work, after Vasilakis & Fudos 2012).
+// A shadow map of depth-time ranges: a list for each texel, all lists one after the other in one array, in the order of
+// texels, and a table of where each list begins. There are no pointers to follow, and short lists waste no memory (the
+// layout that Hong & Oh 2017 name as future work, after Vasilakis & Fudos 2012).
 #ifndef GNOMON_PASSES_RANGE_MAP_HPP
 #define GNOMON_PASSES_RANGE_MAP_HPP
 
@@ -15,24 +15,25 @@
 
 namespace gnomon {
 
-/// The promise that ids make about the receivers that look maps up, each of which ignores the ranges of its own id.
+/// A promise about ids. A receiver ignores the ranges of its own id.
 enum class range_ids {
-    /// The caller promises that no point of an id's surface is behind another point of it, as seen from the light, at
-    /// any time: an id is that of a triangle, a plane or the lit side of a convex part. Who sees his own surface in
-    /// front of himself is lit.
+    /// No point of an id's surface is behind another point of that surface, as seen from the light, at any time: an id
+    /// is that of a triangle, a plane or the lit side of a convex part. A receiver behind its own surface is lit by
+    /// that surface.
     surfaces,
-    /// No promise: a receiver may be behind ranges of its own id, and in the shadow of others behind these.
+    /// No promise. A receiver may be behind ranges of its own id, and in the shadow of other ranges behind these.
     any
 };
 
-/// Texel i, by range_map::texel, has the ranges first[i] to first[i + 1] - 1. Texels are counted by tiles of 32 x 32,
-/// in these by blocks of 4 x 4, and row by row in each, so that neighbours along either axis are near one another in
-/// memory and a rasterizer lays out tile after tile; tiles are whole, so first holds texels(width, height) + 1 numbers.
+/// A map of width x height texels. The texel of number i, range_map::texel(width, x, y), has the ranges first[i] to
+/// first[i + 1] - 1. Texels are counted by tiles of 32 x 32, within a tile by blocks of 4 x 4, and within a block row
+/// by row, so that neighbours along either axis are close in memory and a rasterizer writes tile after tile. Tiles are
+/// whole: first has texels(width, height) + 1 numbers.
 template <class T> struct range_map {
     std::size_t width = 0, height = 0;
     std::span<const std::uint32_t> first;
     std::span<const depth_time_range<T>> ranges;
-    std::span<const range_summary<T>> totals = {}; // of each texel's ranges, for receivers at rest; or none
+    std::span<const range_summary<T>> summaries = {}; // of each texel's list, for static receivers; or none
 
     static constexpr std::size_t tile = 32, block = 4, texels_per_tile = tile * tile;
     static constexpr std::size_t tiles(std::size_t texels) { return (texels + tile - 1) / tile; }
@@ -57,7 +58,7 @@ template <class T> struct range_map {
     }
 };
 
-/// Says what of a map does not fit.
+/// Check the sizes of a map's arrays.
 template <class T> void check_shape(const range_map<T>& map, std::string_view pass)
 {
     const std::size_t numbers = map.texels(map.width, map.height) + 1;
@@ -65,44 +66,44 @@ template <class T> void check_shape(const range_map<T>& map, std::string_view pa
                    mismatch(pass, "map.first.size()", map.first.size(), "texels(map.width, map.height) + 1", numbers));
     GNOMON_EXPECTS(map.first.back() <= map.ranges.size(),
                    mismatch(pass, "map.first.back()", map.first.back(), "map.ranges.size()", map.ranges.size()));
-    GNOMON_EXPECTS(map.totals.empty() || map.totals.size() + 1 == numbers,
-                   mismatch(pass, "map.totals.size() + 1", map.totals.size() + 1, "map.first.size()", numbers));
+    GNOMON_EXPECTS(map.summaries.empty() || map.summaries.size() + 1 == numbers,
+                   mismatch(pass, "map.summaries.size() + 1", map.summaries.size() + 1, "map.first.size()", numbers));
 }
 
-/// The total of a resolved list. What it hides from a receiver behind it is 1 if its spans fill the time from 0 to 1,
-/// and only then.
-template <class T> range_summary<T> total_of(std::span<const depth_time_range<T>> list, range_ids ids)
+/// Summary of a resolved list. Its shadowed time is 1 if and only if the ranges fill the time from 0 to 1.
+template <class T> range_summary<T> summarize(std::span<const depth_time_range<T>> list, range_ids ids)
 {
-    range_summary<T> total = range_summary_begin(T(-1));
+    range_summary<T> summary = range_summary_begin(T(-1));
     depth_time_range<T> front = range_empty(T(range_nothing));
     T filled = 0;
     bool layers = false;
     for (const depth_time_range<T>& r : list) {
-        if (range_is_second_layer(front, r)) { // seen by those alone whose own id is in front
-            total.nearest = gnomon_min(total.nearest, gnomon_min(r.z0, r.z1));
+        if (range_is_second_layer(front, r)) { // only a receiver whose own id is in front sees it
+            summary.nearest = gnomon_min(summary.nearest, gnomon_min(r.z0, r.z1));
             layers = true;
             continue;
         }
         front = r;
-        total = range_summary_add(total, r);
+        summary = range_summary_add(summary, r);
         if (r.t0 <= filled && filled < r.t1) filled = r.t1;
     }
-    total.shadowed = filled < 1 ? gnomon_min(total.shadowed, 1 - std::numeric_limits<T>::epsilon()) : T(1);
-    if (ids == range_ids::surfaces && !layers) total.id = T(range_nothing);
-    return total;
+    summary.shadowed = filled < 1 ? gnomon_min(summary.shadowed, 1 - std::numeric_limits<T>::epsilon()) : T(1);
+    if (ids == range_ids::surfaces && !layers) summary.id = T(range_nothing);
+    return summary;
 }
 
-/// The totals of a map's resolved lists, one for each texel.
-template <class T> void set_totals(const range_map<T>& map, std::span<range_summary<T>> totals, range_ids ids)
+/// Fill summaries with those of a map's resolved lists, one for each texel.
+template <class T> void set_summaries(const range_map<T>& map, std::span<range_summary<T>> summaries, range_ids ids)
 {
-    check_shape(map, "range totals");
-    GNOMON_EXPECTS(
-        totals.size() + 1 == map.first.size(),
-        mismatch("range totals", "totals.size() + 1", totals.size() + 1, "map.first.size()", map.first.size()));
-    for (std::size_t i = 0; i < totals.size(); ++i) totals[i] = total_of(map[i], ids);
+    check_shape(map, "range summaries");
+    GNOMON_EXPECTS(summaries.size() + 1 == map.first.size(),
+                   mismatch("range summaries", "summaries.size() + 1", summaries.size() + 1, "map.first.size()",
+                            map.first.size()));
+    for (std::size_t i = 0; i < summaries.size(); ++i) summaries[i] = summarize(map[i], ids);
 }
 
-/// From how many ranges each texel has to where they begin, in place: the last number becomes the sum of all counts.
+/// Replace the number of ranges of each texel by the index at which they begin. The last number becomes the sum of all
+/// counts.
 inline void begins_from_counts(std::span<std::uint32_t> counts_then_sum)
 {
     std::uint32_t sum = 0;
@@ -114,8 +115,8 @@ inline void begins_from_counts(std::span<std::uint32_t> counts_then_sum)
     }
 }
 
-/// Ranges as they come, each with its texel, put into the lists of a map; each list keeps their order.
-/// first: one more than there are texels; sorted: as many as there are ranges.
+/// Sort ranges, each given with its texel, into the lists of a map. Each list keeps the order of its ranges. first has
+/// one number more than there are texels; sorted has as many elements as there are ranges.
 template <class T>
 void sort_into_lists(std::span<const std::uint32_t> texels, std::span<const depth_time_range<T>> ranges,
                      std::span<std::uint32_t> first, std::span<depth_time_range<T>> sorted)

@@ -1,5 +1,6 @@
-// Neighbours parted: triangles whose edges are widened (motion/triangle/edge_widening.h) overlap for a moment where one follows
-// the other. Lists of few ranges would spend room on that moment, and merge for want of room.
+// Neighbouring ranges parted. Triangles with widened edges (motion/triangle/edge_widening.h) overlap for a brief time
+// where one follows the other. Short lists would store that time as ranges of its own, and merge others for lack of
+// room.
 #ifndef GNOMON_PASSES_RANGE_PART_HPP
 #define GNOMON_PASSES_RANGE_PART_HPP
 
@@ -10,13 +11,13 @@
 
 namespace gnomon {
 
-/// The longest time for which neighbours overlap, and the largest distance between them then.
+/// The longest time for which neighbours overlap, and the largest distance between them in that time.
 template <class T> inline constexpr T neighbours_overlap = T(0x1p-14);
 template <class T> inline constexpr T neighbours_distance = T(0x1p-13);
 
-/// Ends every range of a list at the begin of another one that follows it so closely: which begins at nearly its depth,
-/// neighbours_overlap before it ends at most, and lasts longer. In place. All times keep a range; for those moments the
-/// nearer of the two may be gone.
+/// End every range of a list, in place, at the begin of another range that follows closely: one that begins at nearly
+/// the same depth, at most neighbours_overlap before the first range ends, and ends later. Every time that was covered
+/// stays covered; within the overlap the nearer of the two ranges may be lost.
 template <class T> void part_neighbours(std::span<depth_time_range<T>> list)
 {
     for (depth_time_range<T>& r : list)

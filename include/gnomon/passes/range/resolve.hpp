@@ -1,16 +1,15 @@
-// Lists of any length, resolved: what of some ranges is in front at any time, as spans of time that do not overlap,
-// the lower envelope over the shutter interval (Gribel et al. 2010; Palmer 2011, 2.1). A receiver asks the spans and
-// gets the same answer as of all ranges, if its depth is not as near to theirs as resolve_tie says, and
-// static_receiver.h may add them up.
+// Resolved lists of any length: the parts of ranges that are in front at each time, as disjoint spans of time, the
+// lower envelope over the shutter interval (Gribel et al. 2010; Palmer 2011, 2.1). For a receiver whose depth differs
+// from those of the ranges by more than resolve_tie, the spans give the same answer as all ranges. static_receiver.h
+// adds them up.
 //
-// A receiver ignores the ranges of its own id, so it may see past a span that is in front. Where that can happen
-// (range_ids), the spans of a second layer follow each span: what is in front among the ranges of other ids than the
-// span's, while the span lasts. range_is_second_layer tells which they are; they count for receivers of the span's id
-// alone.
+// A receiver ignores the ranges of its own id, so it may see past a span that is in front. If that can happen
+// (range_ids), the spans of a second layer follow each span: the ranges of other ids that are in front while that span
+// lasts. range_is_second_layer tells these spans from the others; they count only for receivers of the span's id.
 //
-// Ranges come one at a time. A span keeps the number of its range, not cut depths, and two ranges always cross at one
-// time, computed from the ranges as they came. So depths are interpolated once, at the end, and the order in which
-// ranges come matters only where three lines meet within rounding.
+// Ranges are inserted one at a time. A span stores the number of its range, not clipped depths, and two ranges always
+// cross at a single time, computed from the ranges as they were given. So depths are interpolated only once, at the
+// end, and the order of insertion matters only where three lines meet within rounding.
 #ifndef GNOMON_PASSES_RANGE_RESOLVE_HPP
 #define GNOMON_PASSES_RANGE_RESOLVE_HPP
 
@@ -27,30 +26,30 @@
 
 namespace gnomon {
 
-/// From t0 to t1 the range of this number is in front.
+/// A span of time, from t0 to t1, and the number of the range that is in front.
 template <class T> struct visible_span {
     T t0, t1;
     std::uint32_t range;
 };
 
-/// Depths as near as that count as one, lest rounding makes spans of no use where surfaces meet. Error: where n ranges
-/// come so near one another, the one in front may be n - 1 ties behind the nearest.
+/// The largest distance of depths that count as equal, which avoids useless spans where surfaces meet within rounding.
+/// Error: where n ranges come that close to one another, the one in front may be n - 1 ties behind the nearest.
 template <class T> inline constexpr T resolve_tie = T(0x1p-18);
 
 namespace detail {
 
-/// The most spans that n ranges have: their lower envelope is a Davenport-Schinzel sequence of order 3, which is no
-/// longer than n (1 + 2 H(n - 1)), H the harmonic numbers (Sharir & Agarwal 1995, 1.2).
+/// Upper bound of the number of spans of n ranges. Their lower envelope is a Davenport-Schinzel sequence of order 3,
+/// with at most n (1 + 2 H(n - 1)) elements, H the harmonic numbers (Sharir & Agarwal 1995, 1.2).
 constexpr std::size_t envelope_capacity(std::size_t n) { return n * (3 + 2 * std::size_t(std::bit_width(n))) + 2; }
 
 } // namespace detail
 
-/// Room that resolving n ranges takes, E = envelope_capacity(n). An insertion rewrites as many spans as it changes,
-/// aside: 2 E for ids of surfaces. For any ids the spans of both layers follow, up to 6 E. Proof: let each id have one
-/// of two colours at random. A span of the second layer that does not begin with one in front begins in the envelope of
-/// its colour if its own id and that of the span before it have the one colour and the id in front has the other, as
-/// one colouring in four has it. Both envelopes have E spans together, so there are 4 E such spans; E spans are in
-/// front, and E begin with these.
+/// Number of spans that resolving n ranges needs, with E = envelope_capacity(n). Ids of surfaces need 2 E: the spans,
+/// and as much scratch for those that an insertion changes. Any ids need up to 6 E more, for the spans of both layers.
+/// Proof: colour each id at random with one of two colours. Consider a span of the second layer that does not begin
+/// together with one in front. It begins in the envelope of its colour if its own id and that of the span before it
+/// have one colour and the id in front has the other, which holds for one colouring in four. Both envelopes have E
+/// spans together, so there are at most 4 E such spans; E spans are in front, and E begin together with these.
 constexpr std::size_t resolve_capacity(std::size_t n, range_ids ids)
 {
     return (ids == range_ids::surfaces ? 2 : 9) * detail::envelope_capacity(n);
@@ -58,22 +57,23 @@ constexpr std::size_t resolve_capacity(std::size_t n, range_ids ids)
 
 namespace detail {
 
-/// The spans in front of those ranges of a texel that are inserted, in the caller's memory.
+/// The spans in front among the inserted ranges of a texel, in the caller's memory.
 template <class T> class front_resolver {
   public:
-    /// spans and changed: envelope_capacity(ranges.size()) each.
+    /// Sizes of spans and changed: envelope_capacity(ranges.size()) each.
     front_resolver(std::span<const depth_time_range<T>> ranges, std::span<visible_span<T>> spans,
                    std::span<visible_span<T>> changed)
         : ranges_(ranges), spans_(spans), changed_(changed)
     {}
 
-    /// Nothing is inserted yet, and of what will be, only what is from one time to the other.
+    /// Remove all ranges, and clip those to come to the times [from, to].
     void restart(T from, T to) { count_ = 0, from_ = from, to_ = to; }
 
-    /// In order; in time that nothing covers there is none.
+    /// The spans in order; none where no range lasts.
     std::span<const visible_span<T>> spans() const { return spans_.first(count_); }
 
-    /// A range of the list, by its number. One without a duration, or with a depth that is not finite, changes nothing.
+    /// Insert a range of the list by its number. A range without duration, or with a depth that is not finite, changes
+    /// nothing.
     void insert(std::uint32_t number)
     {
         const depth_time_range<T>& r = ranges_[number];
@@ -89,13 +89,13 @@ template <class T> class front_resolver {
         for (; next < count_ && spans_[next].t0 < t1; ++next) {
             const visible_span<T> old = spans_[next];
             const T begin = std::max(old.t0, t0), end = std::min(old.t1, t1);
-            const succession who = succession_of(number, old.range);
-            unchanged = unchanged && !(reached < begin) && who.early == old.range && who.late == old.range;
-            const T change = std::clamp(who.change, begin, end);
+            const front_order order = order_of(number, old.range);
+            unchanged = unchanged && !(reached < begin) && order.before == old.range && order.after == old.range;
+            const T change = std::clamp(order.change, begin, end);
             change_to({old.t0, begin, old.range});
             change_to({reached, begin, number});
-            change_to({begin, change, who.early});
-            change_to({change, end, who.late});
+            change_to({begin, change, order.before});
+            change_to({change, end, order.after});
             change_to({end, old.t1, old.range});
             reached = end;
         }
@@ -111,13 +111,13 @@ template <class T> class front_resolver {
     }
 
   private:
-    /// Which of two ranges is in front before a change, and which after it.
-    struct succession {
-        std::uint32_t early, late;
+    /// The numbers of the ranges in front before and after a change.
+    struct front_order {
+        std::uint32_t before, after;
         T change;
     };
 
-    /// True where all spans from t0 to t1, from the first on, are in front of all of r.
+    /// True if all spans from t0 to t1, from `first` on, are in front of all of r.
     bool is_behind(const depth_time_range<T>& r, T t0, T t1, std::size_t first) const
     {
         T reached = t0;
@@ -129,9 +129,9 @@ template <class T> class front_resolver {
         return !(reached < t1);
     }
 
-    /// The same whichever comes first. At one depth throughout, the lower id is in front; where the ends tie, the one
-    /// that is nearer on average.
-    succession succession_of(std::uint32_t i, std::uint32_t j) const
+    /// The order of two ranges, independent of which comes first. At equal depth throughout, the lower id is in front;
+    /// where both ends tie, the range that is nearer on average.
+    front_order order_of(std::uint32_t i, std::uint32_t j) const
     {
         if (j < i) std::swap(i, j);
         const depth_time_range<T>& a = ranges_[i];
@@ -145,12 +145,12 @@ template <class T> class front_resolver {
         const bool early_tie = std::abs(early) <= resolve_tie<T>, late_tie = std::abs(late) <= resolve_tie<T>;
         if (early_tie && late_tie) {
             const bool b_first = early + late == 0 ? b.id < a.id : early + late > 0;
-            return b_first ? succession{j, j, T(0)} : succession{i, i, T(0)};
+            return b_first ? front_order{j, j, T(0)} : front_order{i, i, T(0)};
         }
         if ((early < 0 || early_tie) && (late < 0 || late_tie)) return {i, i, T(0)};
         if ((early > 0 || early_tie) && (late > 0 || late_tie)) return {j, j, T(0)};
         const T change = begin + (end - begin) * (early / (early - late));
-        return early < 0 ? succession{i, j, change} : succession{j, i, change};
+        return early < 0 ? front_order{i, j, change} : front_order{j, i, change};
     }
 
     void change_to(const visible_span<T>& s)
@@ -173,8 +173,8 @@ template <class T> class front_resolver {
 
 } // namespace detail
 
-/// The spans of a list, in spans, which has room for resolve_capacity(ranges.size(), ids): those in front in order,
-/// each followed by those of its second layer, if there are any.
+/// Resolve a list into spans, which has room for resolve_capacity(ranges.size(), ids). The result holds the spans in
+/// front, in order, each followed by those of its second layer, if there are any.
 template <class T>
 std::span<const visible_span<T>> resolve_ranges(std::span<const depth_time_range<T>> ranges,
                                                 std::span<visible_span<T>> spans, range_ids ids)

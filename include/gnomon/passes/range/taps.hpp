@@ -111,8 +111,8 @@ template <class T> class static_taps {
     {
         if (count_ == taps_.size()) drain();
         taps_[count_++] = {receiver, texel, weight};
-        if (map_.totals.empty()) prefetch(&map_.first[texel]);
-        else prefetch(&map_.totals[texel]);
+        if (map_.summaries.empty()) prefetch(&map_.first[texel]);
+        else prefetch(&map_.summaries[texel]);
     }
 
     /// Adds what all taps so far lose.
@@ -126,10 +126,10 @@ template <class T> class static_taps {
             if (changed) shadows_[t.receiver] = state.shadowed;
             return changed;
         };
-        if (!map_.totals.empty()) {
+        if (!map_.summaries.empty()) {
             std::size_t left = 0;
             for (const tap& t : used()) {
-                const range_summary<T>& total = map_.totals[t.texel];
+                const range_summary<T>& total = map_.summaries[t.texel];
                 const bool decided = change(t, [&](static_receiver<T>& state) { return add_total_box(state, total); });
                 taps_[left] = t;
                 left += !decided;
@@ -180,7 +180,7 @@ template <class T> class moving_taps {
             }
             taps_[count_++] = {&cells_[cell_count_ - 1], texel, i, j, false, {}, 0, nullptr};
             prefetch(&map_.first[texel]);
-            if (!map_.totals.empty()) prefetch(&map_.totals[texel]);
+            if (!map_.summaries.empty()) prefetch(&map_.summaries[texel]);
         });
     }
 
@@ -292,10 +292,10 @@ template <class T> class moving_taps {
     void drain()
     {
         const auto used = [&] { return std::span(taps_).first(count_); };
-        if (!map_.totals.empty()) {
+        if (!map_.summaries.empty()) {
             std::size_t left = 0;
             for (const tap& t : used()) {
-                const range_summary<T>& total = map_.totals[t.texel];
+                const range_summary<T>& total = map_.summaries[t.texel];
                 if (add_total(t, total)) continue;
                 taps_[left] = t;
                 taps_[left++].single = total.id == T(range_nothing);
