@@ -98,7 +98,7 @@ struct depth : triangle_and_sample {
         using real = std::common_type_t<Reals...>;
         const std::array<real, 26> x{operands...};
         const moving_triangle<real> m = triangle(x);
-        return moving_triangle_depth(m, moving_triangle_edges(m, x[24], x[25]), real(0.5));
+        return moving_depth_at(m, moving_triangle_edges(m, x[24], x[25]), real(0.5), real(1));
     }
 };
 
@@ -167,8 +167,7 @@ struct vertex_depths : field_and_sample {
         using real = std::common_type_t<Reals...>;
         const std::array<real, inputs> x{operands...};
         const moving_triangle<real> m = corners(x);
-        return moving_triangle_linear_depth(m, edges(x), real(0.25)) +
-               moving_triangle_linear_depth(m, edges(x), real(0.75));
+        return moving_depth_at(m, edges(x), real(0.25), real(0)) + moving_depth_at(m, edges(x), real(0.75), real(0));
     }
 };
 

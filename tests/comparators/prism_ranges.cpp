@@ -145,7 +145,7 @@ TEST_CASE("translations, in perspective, too: the ranges are the exact ones, wit
                 REQUIRE(r.first.id == 7);
                 if (how == motion::translation || divided == 1) continue; // depths beyond the limits, or no line
                 const double t = bits.uniform(x.begin0, x.end0);
-                REQUIRE(std::abs(range_depth(r.first, t) - moving_triangle_linear_depth(m, e, t)) <= 1e-9);
+                REQUIRE(std::abs(range_depth(r.first, t) - moving_depth_at(m, e, t, 0)) <= 1e-9);
             }
         }
         CHECK(4 * seen > effort(100'000));

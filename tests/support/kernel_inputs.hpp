@@ -150,10 +150,6 @@ inline constexpr input_family<T> input_families[] = {
      [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits).triangle); }},
     {"moving_vertex", 8,
      [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits).triangle.a); }},
-    {"sheared_vertex", 4,
-     [](auto put, const situation&, bit_source& bits) {
-         put(moving_vertex_shear(any_seen_triangle<T>(bits).triangle.a, T(bits.uniform(-1, 1)), T(0)));
-     }},
     {"moving_edge", 3, [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits).edges.a); }},
     {"moving_edges", 9, [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits).edges); }},
     {"edge_intervals", 4,
@@ -162,20 +158,14 @@ inline constexpr input_family<T> input_families[] = {
      }},
     {"moving_triangle_and_edges", 33,
      [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits)); }},
-    {"sample_plane", 3,
-     [](auto put, const situation&, bit_source& bits) { put(any_field_and_triangle<T>(bits).field.a.e0); }},
     {"edge_equation", 9,
-     [](auto put, const situation&, bit_source& bits) { put(any_field_and_triangle<T>(bits).field.b); }},
+     [](auto put, const situation&, bit_source& bits) { put(any_setup_and_triangle<T>(bits).setup.b); }},
     {"triangle_setup", 27,
-     [](auto put, const situation&, bit_source& bits) { put(any_field_and_triangle<T>(bits).field); }},
-    {"moving_field_and_triangle", 51,
-     [](auto put, const situation&, bit_source& bits) { put(any_field_and_triangle<T>(bits)); }},
-    {"depth_setup", 16, [](auto put, const situation&, bit_source& bits) { put(any_depth_field<T>(bits)); }},
+     [](auto put, const situation&, bit_source& bits) { put(any_setup_and_triangle<T>(bits).setup); }},
+    {"setup_and_triangle", 51,
+     [](auto put, const situation&, bit_source& bits) { put(any_setup_and_triangle<T>(bits)); }},
+    {"depth_setup", 16, [](auto put, const situation&, bit_source& bits) { put(any_depth_setup<T>(bits)); }},
     {"depth_curve", 11, [](auto put, const situation&, bit_source& bits) { put(any_depth_curve<T>(bits)); }},
-    {"moving_cubic", 4,
-     [](auto put, const situation& s, bit_source& bits) {
-         put(depth_over_plane(any_depth_curve<T>(bits), T(s.receiver), T(bits.chance(0.5) ? 1 : -1)));
-     }},
     {"coverage_intervals", 9,
      [](auto put, const situation&, bit_source& bits) {
          put(moving_coverage(any_seen_triangle<T>(bits).edges, T(1)));
@@ -197,12 +187,12 @@ inline constexpr input_family<T> input_families[] = {
          for (std::size_t n = bits.below(6); n > 0; --n) state = prism_pair_add(state, any_prism_fragment<T>(bits));
          put(state);
      }},
-    {"timed_fragment", 3, [](auto put, const situation&, bit_source& bits) { put(any_moment_fragment<T>(bits)); }},
+    {"timed_fragment", 3, [](auto put, const situation&, bit_source& bits) { put(any_timed_fragment<T>(bits)); }},
     {"fragment_cover", 7,
      [](auto put, const situation&, bit_source& bits) {
-         fragment_cover<T> state = fragment_cover_begin(any_moment_fragment<T>(bits));
+         fragment_cover<T> state = fragment_cover_begin(any_timed_fragment<T>(bits));
          for (std::size_t n = bits.below(3); n > 0; --n)
-             state = fragment_cover_add(state, any_moment_fragment<T>(bits));
+             state = fragment_cover_add(state, any_timed_fragment<T>(bits));
          put(state);
      }},
     {"range_cover", 7,

@@ -43,7 +43,7 @@ template <class T> prism_fragment<T> any_prism_fragment(bit_source& bits)
             T(bits.uniform(-1, 1))};
 }
 
-template <class T> timed_fragment<T> any_moment_fragment(bit_source& bits)
+template <class T> timed_fragment<T> any_timed_fragment(bit_source& bits)
 {
     const prism_fragment<T> f = any_prism_fragment<T>(bits);
     return {f.time, f.depth, T(bits.below(4))};

@@ -103,29 +103,29 @@ template <class T> seen_triangle<T> any_seen_triangle(bit_source& bits)
 }
 
 /// A moving triangle and its edge functions around some origin.
-template <class T> struct field_and_triangle {
-    triangle_setup<T> field;
+template <class T> struct setup_and_triangle {
+    triangle_setup<T> setup;
     moving_triangle<T> triangle;
 };
 
-template <class T> field_and_triangle<T> any_field_and_triangle(bit_source& bits)
+template <class T> setup_and_triangle<T> any_setup_and_triangle(bit_source& bits)
 {
     const moving_triangle<T> m = any_seen_triangle<T>(bits).triangle;
     return {triangle_setup_make(m, T(bits.uniform(-1, 1)), T(bits.uniform(-1, 1))), m};
 }
 
-template <class T> depth_setup<T> any_depth_field(bit_source& bits)
+template <class T> depth_setup<T> any_depth_setup(bit_source& bits)
 {
-    const field_and_triangle<T> x = any_field_and_triangle<T>(bits);
-    return depth_setup_make(x.field, x.triangle);
+    const setup_and_triangle<T> x = any_setup_and_triangle<T>(bits);
+    return depth_setup_make(x.setup, x.triangle);
 }
 
 /// Depth at a sample near the origin.
 template <class T> depth_curve<T> any_depth_curve(bit_source& bits)
 {
-    const field_and_triangle<T> x = any_field_and_triangle<T>(bits);
+    const setup_and_triangle<T> x = any_setup_and_triangle<T>(bits);
     const T s_x = T(bits.uniform(-1, 1)), s_y = T(bits.uniform(-1, 1));
-    return moving_depth_curve(depth_setup_make(x.field, x.triangle), triangle_setup_edges(x.field, s_x, s_y), s_x, s_y);
+    return moving_depth_curve(depth_setup_make(x.setup, x.triangle), triangle_setup_edges(x.setup, s_x, s_y), s_x, s_y);
 }
 
 /// A receiver on its way over some texels, by an orthographic light or by one in perspective, and as it leaves some

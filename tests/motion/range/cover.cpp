@@ -205,8 +205,8 @@ TEST_CASE("covers of carried triangles, from prisms and from covered times")
                 const auto c = moving_coverage(e, facing);
                 for (std::size_t j = 0; j < std::size_t(c.count); ++j) {
                     const interval t = intervals_of(c)[j];
-                    ranges.push_back(range_between(t.begin, moving_triangle_depth(m[k], e, t.begin), t.end,
-                                                   moving_triangle_depth(m[k], e, t.end), double(k)));
+                    ranges.push_back(range_between(t.begin, moving_depth_at(m[k], e, t.begin, 1), t.end,
+                                                   moving_depth_at(m[k], e, t.end, 1), double(k)));
                 }
             }
         }
@@ -222,7 +222,7 @@ TEST_CASE("covers of carried triangles, from prisms and from covered times")
                     const double a = moving_edge_at(e.a, t), b = moving_edge_at(e.b, t), c = moving_edge_at(e.c, t);
                     const bool there = (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
                     double& z = double(k) == cover.id ? own : others;
-                    if (there) z = std::min(z, moving_triangle_depth(m[k], e, t));
+                    if (there) z = std::min(z, moving_depth_at(m[k], e, t, 1));
                 }
                 REQUIRE(own <= others + 1e-9);
                 REQUIRE(own <= 1);

@@ -90,13 +90,13 @@ TEST_CASE_TEMPLATE("range_clip: the times asked for, the same depths; in two par
     });
 }
 
-TEST_CASE_TEMPLATE("range_crossing: within the stated error, and an order on either side", T, float, double)
+TEST_CASE_TEMPLATE("range_crossing: of clipped ranges, within the stated error, and an order on either side", T, float, double)
 {
     for_each_range<T>(100'000, [](const depth_time_range<T>& a, bit_source& bits) {
         const auto b = any_range<T>(bits);
         const T begin = std::max(a.t0, b.t0), end = std::min(a.t1, b.t1);
         if (!(begin < end)) return;
-        const T t = range_crossing(a, b);
+        const T t = range_crossing(range_clip_to(a, b), range_clip_to(b, a));
         REQUIRE(t >= begin);
         REQUIRE(t <= end + T(u<T>));
         const wide d0 = depth(a, wide(begin)) - depth(b, wide(begin)), d1 = depth(a, wide(end)) - depth(b, wide(end));

@@ -51,11 +51,6 @@ template <class T> exact depth_at_plane(const moving_triangle<T>& m, exact s_x, 
     return p[0][2] + (w - p[0][3]) / (p[2][3] - p[0][3]) * (p[2][2] - p[0][2]);
 }
 
-template <class T> T any_depth(const moving_triangle<T>& m, const moving_edges<T>& e, T t, T divided)
-{
-    return divided > 0 ? moving_triangle_depth(m, e, t) : moving_triangle_linear_depth(m, e, t);
-}
-
 template <class T>
 std::vector<depth_piece<T>> pieces_of(const moving_triangle<T>& m, const moving_edges<T>& e, T begin, T end, T divided,
                                       T tolerance)
@@ -98,7 +93,7 @@ TEST_CASE_TEMPLATE("linear depth is that of the point that the sample sees", T, 
         ++asked;
         if (!(bound < 1e4L * exact(u<T>))) continue;
         ++sharp;
-        REQUIRE(std::abs(exact(moving_triangle_linear_depth(m, e, t)) - std::clamp(z, -1.0L, 1.0L)) <= bound);
+        REQUIRE(std::abs(exact(moving_depth_at(m, e, t, 0)) - std::clamp(z, -1.0L, 1.0L)) <= bound);
     }
     CHECK(double(sharp) > 0.8 * double(asked));
 }
@@ -125,7 +120,7 @@ TEST_CASE_TEMPLATE("a plane across the axis goes along it linearly, also in pers
         const moving_edges<T> e = moving_triangle_edges(m, T(s_x), T(s_y));
         const T t = T(bits.uniform(0, 1));
         const exact z = exact(m.a.z0) * (1 - exact(t)) + exact(m.a.z1) * exact(t);
-        REQUIRE(std::abs(exact(moving_triangle_linear_depth(m, e, t)) - z) <= 16 * exact(u<T>));
+        REQUIRE(std::abs(exact(moving_depth_at(m, e, t, 0)) - z) <= 16 * exact(u<T>));
         exact least = HUGE_VALL, sizes = 0;
         for (const auto& edge : {e.a, e.b, e.c}) sizes += exact(moving_edge_size(edge));
         for (int k = 0; k <= 16; ++k) {

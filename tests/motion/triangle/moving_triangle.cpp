@@ -60,7 +60,7 @@ TEST_CASE_TEMPLATE("depth of the covering triangle, and between its vertices' de
                 largest = std::max(largest, std::abs(vertex));
             }
             const exact rounding = 16 * exact(u<T>) * std::max(largest, exact(1));
-            const exact depth = exact(moving_triangle_depth(m, e, t));
+            const exact depth = exact(moving_depth_at(m, e, t, 1));
             REQUIRE(depth >= std::clamp(low, -1.0L, 1.0L) - rounding);
             REQUIRE(depth <= std::clamp(high, -1.0L, 1.0L) + rounding);
             for (std::size_t k = 0; k < 3; ++k) wrong += r.tolerance[k] * std::abs(at.z[k] - z / w * at.w[k]);
@@ -82,8 +82,8 @@ TEST_CASE_TEMPLATE("lines of depth end on it, and are straight for what is at re
         const coverage_intervals<T> x = moving_coverage(e, 1);
         if (x.count == 0) return;
         const depth_line<T> line = moving_depth_line(m, e, x.begin0, x.end0, T(1));
-        REQUIRE(line.z0 == moving_triangle_depth(m, e, x.begin0));
-        REQUIRE(line.z1 == moving_triangle_depth(m, e, x.end0));
+        REQUIRE(line.z0 == moving_depth_at(m, e, x.begin0, 1));
+        REQUIRE(line.z1 == moving_depth_at(m, e, x.end0, 1));
         if (how != movement::still || e.a.e0 + e.b.e0 + e.c.e0 < T(0.01)) return;
         ++still;
         REQUIRE(line.deviation <= 6400 * T(u<T>));
@@ -123,7 +123,7 @@ TEST_CASE("still, edge-on, touching and carried triangles")
     CHECK(numbers(coverage(still, 0, 0)) == everything);   // at a vertex
     CHECK(numbers(coverage(still, 2, 0)) == nothing);      // on an edge's extension
     const auto edges = moving_triangle_edges(still, 0.25, 0.25);
-    CHECK(moving_triangle_depth(still, edges, 0.75) == 0.25);
+    CHECK(moving_depth_at(still, edges, 0.75, 1) == 0.25);
     const depth_line<double> line = moving_depth_line(still, edges, 0.0, 1.0, 1.0);
     CHECK(line.z0 == -0.5);
     CHECK(line.z1 == 0.5);
@@ -150,7 +150,7 @@ TEST_CASE("still, edge-on, touching and carried triangles")
     // Behind the light there is no depth in front of anything.
     moving_triangle<double> behind = still;
     for (auto* v : {&behind.a, &behind.b, &behind.c}) v->w0 = v->w1 = -1;
-    CHECK(moving_triangle_depth(behind, moving_triangle_edges(behind, -0.25, -0.25), 0.5) == 1);
+    CHECK(moving_depth_at(behind, moving_triangle_edges(behind, -0.25, -0.25), 0.5, 1) == 1);
 }
 
 TEST_CASE_TEMPLATE("anything in gives intervals in order and depths in [-1, 1]", T, float, double)
@@ -170,7 +170,7 @@ TEST_CASE_TEMPLATE("anything in gives intervals in order and depths in [-1, 1]",
         const coverage_intervals<T> x = moving_coverage(e, facing);
         require_in_order(x);
         const T t = bits.chance(0.5) ? hostile.pattern() : T(bits.uniform(0, 1));
-        REQUIRE(std::abs(moving_triangle_depth(m, e, t)) <= 1);
+        REQUIRE(std::abs(moving_depth_at(m, e, t, 1)) <= 1);
         const depth_line<T> line = moving_depth_line(m, e, x.begin0, t, T(1));
         REQUIRE(std::abs(line.z0) <= 1);
         REQUIRE(std::abs(line.z1) <= 1);

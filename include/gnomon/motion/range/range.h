@@ -117,13 +117,14 @@ GNOMON_DETAIL_KERNEL GNOMON_MASK range_occludes(GNOMON_T(depth_time_range) a, GN
 }
 
 /// The part of a during the time of b, possibly empty.
-GNOMON_KERNEL GNOMON_T(depth_time_range) range_clip_to(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+GNOMON_DETAIL_KERNEL GNOMON_T(depth_time_range) range_clip_to(GNOMON_T(depth_time_range) a,
+                                                              GNOMON_T(depth_time_range) b)
 {
     return range_clip(a, b.t0, b.t1);
 }
 
 /// Time at which two ranges of the same begin and end are at the same depth; one of these ends if they never are.
-GNOMON_KERNEL Real range_crossing_same_times(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+GNOMON_DETAIL_KERNEL Real range_crossing(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
 {
     Real distance0 = a.z0 - b.z0;
     Real distance1 = a.z1 - b.z1;
@@ -131,19 +132,13 @@ GNOMON_KERNEL Real range_crossing_same_times(GNOMON_T(depth_time_range) a, GNOMO
     return a.t0 * (Real(1) - passed) + a.t1 * passed;
 }
 
-/// Time at which both ranges are at the same depth; if they never are, an end of the time that they share. On either
-/// side of it one of the two, once cut there by range_clip, is in front throughout.
-/// Error: (80 z / d + 4) 2^-p, z the largest depth and d the change of the distance between the ranges.
-GNOMON_KERNEL Real range_crossing(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
-{
-    return range_crossing_same_times(range_clip_to(a, b), range_clip_to(b, a));
-}
-
 /// The part of a that is in front of b, possibly empty. Where depths are equal throughout, the range with the lower id
 /// is in front. This part and the part of b in front of a fill the time that both share, bit for bit, unless both
 /// depths and ids are equal.
-/// Error: that of range_crossing, for the time at which the front changes.
-GNOMON_KERNEL GNOMON_T(depth_time_range) range_visible_part(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+/// Error: (80 z / d + 4) 2^-p for the time at which the front changes, z the largest depth and d the change of the
+/// distance between the ranges.
+GNOMON_DETAIL_KERNEL GNOMON_T(depth_time_range) range_visible_part(GNOMON_T(depth_time_range) a,
+                                                                   GNOMON_T(depth_time_range) b)
 {
     depth_time_range near_a = range_clip_to(a, b);
     depth_time_range near_b = range_clip_to(b, a);
@@ -152,7 +147,7 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_visible_part(GNOMON_T(depth_time_
     GNOMON_MASK tie = before0 == Real(0) && before1 == Real(0) && a.id < b.id;
     GNOMON_MASK first = Real(0) < before0 || (before0 == Real(0) && Real(0) < before1) || tie;
     GNOMON_MASK last = Real(0) < before1 || (before1 == Real(0) && Real(0) < before0) || tie;
-    Real crossing = clamp_or_nan(range_crossing_same_times(near_a, near_b), near_a.t0, near_a.t1);
+    Real crossing = clamp_or_nan(range_crossing(near_a, near_b), near_a.t0, near_a.t1);
     Real begin = gnomon_select(first, near_a.t0, gnomon_select(last, crossing, Real(1)));
     Real end = gnomon_select(last, near_a.t1, gnomon_select(first, crossing, Real(0)));
     GNOMON_MASK some = begin < end;
@@ -162,7 +157,8 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_visible_part(GNOMON_T(depth_time_
 /// The part of r that remains after `other` occludes its begin, its end or all of it. If only the middle is occluded, r
 /// stays whole, since a range cannot have a hole. Cuts fall at times that `other` covers, so no gap opens.
 /// Error: that of range_depth, for the depth line.
-GNOMON_KERNEL GNOMON_T(depth_time_range) range_trim(GNOMON_T(depth_time_range) r, GNOMON_T(depth_time_range) other)
+GNOMON_DETAIL_KERNEL GNOMON_T(depth_time_range) range_trim(GNOMON_T(depth_time_range) r,
+                                                           GNOMON_T(depth_time_range) other)
 {
     depth_time_range occluding = range_visible_part(other, r);
     GNOMON_MASK some = occluding.t0 < occluding.t1;

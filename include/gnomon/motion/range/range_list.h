@@ -40,7 +40,7 @@ GNOMON_LIST_STRUCT(range_list)
 
 /// r in the canonical form of a list. An empty range if r is empty, leaves [0, 1], has a NaN, or has a depth beyond
 /// 2^60.
-GNOMON_KERNEL GNOMON_T(depth_time_range) range_canonical(GNOMON_T(depth_time_range) r)
+GNOMON_DETAIL_KERNEL GNOMON_T(depth_time_range) range_canonical(GNOMON_T(depth_time_range) r)
 {
     r.id = gnomon_max(r.id, GNOMON_LITERAL(range_mixed));
     GNOMON_MASK known = gnomon_abs(r.z0) + gnomon_abs(r.z1) < GNOMON_LITERAL(range_far);
@@ -50,7 +50,7 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_canonical(GNOMON_T(depth_time_ran
 /// r moved towards the light, or away from it where side is 1 instead of -1. The distance exceeds the accumulated
 /// rounding of up to 18 cuts: 2^-16, since depths at the cuts are rounded, plus the change of depth within a time of
 /// 2^-21, since times are rounded. For two ranges together that rounding is 268 2^-p of depth and 4 2^-p of time.
-GNOMON_KERNEL GNOMON_T(depth_time_range) range_offset(GNOMON_T(depth_time_range) r, GNOMON_SETTING side)
+GNOMON_DETAIL_KERNEL GNOMON_T(depth_time_range) range_offset(GNOMON_T(depth_time_range) r, GNOMON_SETTING side)
 {
     Real change = gnomon_abs(r.z1 - r.z0);
     Real brief = gnomon_min(change * Real(0.000000476837158203125) / (r.t1 - r.t0), change);
@@ -61,8 +61,8 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_offset(GNOMON_T(depth_time_range)
 }
 
 /// Add the cost of a merge to the list's counts.
-GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_count_merge(GNOMON_LIST_T(range_list) list,
-                                                                    GNOMON_T(range_pair) p)
+GNOMON_DETAIL_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_count_merge(GNOMON_LIST_T(range_list) list,
+                                                                           GNOMON_T(range_pair) p)
 {
     list.time_added = saturate_or_zero(list.time_added + p.gap);
     list.depth_added = gnomon_max(list.depth_added + p.shift, Real(0));
@@ -70,8 +70,8 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_count_merge(GNOMON_LIST_
 }
 
 /// Insert r at its place in the order, into a list that has an empty range (see range_list_insert).
-GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_place(GNOMON_LIST_T(range_list) list,
-                                                              GNOMON_T(depth_time_range) r)
+GNOMON_DETAIL_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_place(GNOMON_LIST_T(range_list) list,
+                                                                     GNOMON_T(depth_time_range) r)
 {
     for (int i = 0; i + 1 < GNOMON_CAPACITY; ++i) { // the first empty one goes to the end
         depth_time_range s = list.ranges[i];
@@ -212,8 +212,8 @@ GNOMON_LIST_KERNEL GNOMON_T(depth_time_range) range_list_front(GNOMON_LIST_T(ran
 
 /// Append r, which begins after all ranges of the list, disjoint and in order of time. If there is no room, merge two
 /// neighbours.
-GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_append(GNOMON_LIST_T(range_list) list,
-                                                               GNOMON_T(depth_time_range) r)
+GNOMON_DETAIL_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_append(GNOMON_LIST_T(range_list) list,
+                                                                      GNOMON_T(depth_time_range) r)
 {
     // The last range and r are neighbours, too. Places count from the end; of all pairs one with an empty range is
     // merged first.

@@ -25,7 +25,7 @@ GNOMON_CONSTANT(range_merge_margin, 0.000003814697265625); // 2^-18, exact
 /// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
 /// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
 /// the result is the other one, unchanged.
-GNOMON_KERNEL GNOMON_T(depth_time_range) range_merge(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+GNOMON_DETAIL_KERNEL GNOMON_T(depth_time_range) range_merge(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
 {
     GNOMON_T(depth_time_range) hull;
     hull.t0 = gnomon_min(a.t0, b.t0);
@@ -56,13 +56,13 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_merge(GNOMON_T(depth_time_range) 
 }
 
 /// Area between the range and the far plane, in time and depth.
-GNOMON_KERNEL Real range_area(GNOMON_T(depth_time_range) r)
+GNOMON_DETAIL_KERNEL Real range_area(GNOMON_T(depth_time_range) r)
 {
     return range_duration(r) * (Real(1) - Real(0.5) * (r.z0 + r.z1));
 }
 
 /// Largest distance of an end of r behind the range `nearer`, 0 if none is behind or r is empty.
-GNOMON_KERNEL Real range_distance(GNOMON_T(depth_time_range) r, GNOMON_T(depth_time_range) nearer)
+GNOMON_DETAIL_KERNEL Real range_distance(GNOMON_T(depth_time_range) r, GNOMON_T(depth_time_range) nearer)
 {
     Real distance0 = r.z0 - range_depth(nearer, r.t0);
     Real distance1 = r.z1 - range_depth(nearer, r.t1);
@@ -73,7 +73,7 @@ GNOMON_KERNEL Real range_distance(GNOMON_T(depth_time_range) r, GNOMON_T(depth_t
 /// plus the time for which a surface loses its id. If one range is empty, there is nothing to merge: the cost is -1,
 /// gap and shift are 0.
 /// Error: gap and shift are exact except for rounding.
-GNOMON_KERNEL GNOMON_T(range_pair) range_pair_make(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+GNOMON_DETAIL_KERNEL GNOMON_T(range_pair) range_pair_make(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
 {
     GNOMON_T(range_pair) p;
     p.merged = range_merge(a, b);
@@ -103,7 +103,7 @@ GNOMON_KERNEL GNOMON_T(range_pair) range_pair_make(GNOMON_T(depth_time_range) a,
 }
 
 /// r alone, at a cost above that of any pair: the start of a search for the cheapest pair.
-GNOMON_KERNEL GNOMON_T(range_pair) range_pair_empty(GNOMON_T(depth_time_range) r)
+GNOMON_DETAIL_KERNEL GNOMON_T(range_pair) range_pair_empty(GNOMON_T(depth_time_range) r)
 {
     GNOMON_T(range_pair) p;
     p.merged = r;
@@ -114,7 +114,7 @@ GNOMON_KERNEL GNOMON_T(range_pair) range_pair_empty(GNOMON_T(depth_time_range) r
 }
 
 /// The pair with the lower cost; a if the costs are equal.
-GNOMON_KERNEL GNOMON_T(range_pair) range_pair_cheaper(GNOMON_T(range_pair) a, GNOMON_T(range_pair) b)
+GNOMON_DETAIL_KERNEL GNOMON_T(range_pair) range_pair_cheaper(GNOMON_T(range_pair) a, GNOMON_T(range_pair) b)
 {
     GNOMON_MASK cheaper = b.cost < a.cost;
     GNOMON_T(range_pair) p;

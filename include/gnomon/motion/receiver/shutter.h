@@ -23,7 +23,7 @@ GNOMON_CONSTANT(shutter_weight_limit, 1152921504606846976.0); // 2^60: eight of 
 /// The exposure between two times, given in either order. An exposure shorter than 2^-20 lasts 2^-20 from its begin on,
 /// or until shutter close if it would end later: a range that covers that time shadows the receiver entirely.
 /// NaN: a NaN stays NaN.
-GNOMON_KERNEL GNOMON_T(shutter_exposure) shutter_exposure_make(Real a, Real b)
+GNOMON_DETAIL_KERNEL GNOMON_T(shutter_exposure) shutter_exposure_make(Real a, Real b)
 {
     Real least = Real(0.00000095367431640625);
     GNOMON_MASK swapped = b < a;
@@ -65,14 +65,14 @@ GNOMON_KERNEL Real shutter_tent(Real t, Real begin, Real end)
 
 /// A weight limited to [0, 2^60].
 /// NaN: 0.
-GNOMON_KERNEL Real shutter_weight(Real w)
+GNOMON_DETAIL_KERNEL Real shutter_weight(Real w)
 {
     return gnomon_select(Real(0) < w, gnomon_min(w, GNOMON_LITERAL(shutter_weight_limit)), Real(0));
 }
 
 /// Fraction of the sum that is this weight, 1/8 if the sum is 0. In [0, 1], also where division is not correctly
 /// rounded.
-GNOMON_KERNEL Real shutter_share(Real weight, Real sum)
+GNOMON_DETAIL_KERNEL Real shutter_share(Real weight, Real sum)
 {
     return gnomon_select(Real(0) < sum, saturate_or_zero(weight / sum), Real(0.125));
 }

@@ -40,7 +40,7 @@ GNOMON_CONSTANT(texel_border_none, 2.0);                  // after the end of th
 /// Share of the path's time, in [0, 1], at which one coordinate leaves a texel towards the last texel; 2 in the last
 /// texel.
 /// Error: 4 2^-p (|x0| + |c| w0 + |x1| + |c| w1) over the distance from x0 - c w0 to x1 - c w1, and 2 2^-p.
-GNOMON_KERNEL Real texel_border_share(Real x0, Real w0, Real x1, Real w1, Real texel, Real last)
+GNOMON_DETAIL_KERNEL Real texel_border_share(Real x0, Real w0, Real x1, Real w1, Real texel, Real last)
 {
     Real border = texel + gnomon_select(texel < last, Real(1), Real(0));
     Real distance0 = x0 - gnomon_product(border, w0);
@@ -50,7 +50,7 @@ GNOMON_KERNEL Real texel_border_share(Real x0, Real w0, Real x1, Real w1, Real t
 }
 
 /// End the texel's time at the next border, or at the end of the sweep.
-GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_set_times(GNOMON_T(texel_sweep) sweep)
+GNOMON_DETAIL_KERNEL GNOMON_T(texel_sweep) texel_sweep_set_times(GNOMON_T(texel_sweep) sweep)
 {
     Real passed = gnomon_min(sweep.across_column, sweep.across_row);
     Real t = sweep.path.depth.t0 * (Real(1) - passed) + sweep.path.depth.t1 * passed;
@@ -60,7 +60,7 @@ GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_set_times(GNOMON_T(texel_sweep) 
 }
 
 /// Find the first crossings of borders.
-GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_start(GNOMON_T(texel_sweep) sweep)
+GNOMON_DETAIL_KERNEL GNOMON_T(texel_sweep) texel_sweep_start(GNOMON_T(texel_sweep) sweep)
 {
     receiver_path p = sweep.path;
     sweep.across_column = texel_border_share(p.x0, p.w0, p.x1, p.w1, sweep.column, sweep.last_column);
@@ -97,8 +97,8 @@ GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_begin(GNOMON_T(receiver_path) pa
 /// NaN: empty.
 /// Error: 4 2^-p (|x0| + |c| w0 + |x1| + |c| w1) over the distance from x0 - c w0 to x1 - c w1, for the border x = c
 /// that is crossed; rows alike.
-GNOMON_KERNEL GNOMON_T(linear_interval) receiver_path_over(GNOMON_T(receiver_path) p, Real left, Real top, Real right,
-                                                           Real bottom)
+GNOMON_DETAIL_KERNEL GNOMON_T(linear_interval) receiver_path_over(GNOMON_T(receiver_path) p, Real left, Real top,
+                                                                  Real right, Real bottom)
 {
     linear_interval a = linear_edge_inside(p.x0 - gnomon_product(left, p.w0), p.x1 - gnomon_product(left, p.w1));
     linear_interval b = linear_edge_inside(p.y0 - gnomon_product(top, p.w0), p.y1 - gnomon_product(top, p.w1));
@@ -111,7 +111,7 @@ GNOMON_KERNEL GNOMON_T(linear_interval) receiver_path_over(GNOMON_T(receiver_pat
 }
 
 /// Column or row of a position, limited to low - 1, before the first, and high, after the last.
-GNOMON_KERNEL Real texel_clamp(Real x, Real low, Real high)
+GNOMON_DETAIL_KERNEL Real texel_clamp(Real x, Real low, Real high)
 {
     return gnomon_min(gnomon_max(texel_below(x), low - Real(1)), high);
 }

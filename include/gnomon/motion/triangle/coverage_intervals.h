@@ -45,7 +45,7 @@ GNOMON_KERNEL Real moving_edge_at(GNOMON_T(moving_edge) e, Real t)
 }
 
 /// Sum of the absolute coefficients; infinite or NaN if one is.
-GNOMON_KERNEL Real moving_edge_size(GNOMON_T(moving_edge) e)
+GNOMON_DETAIL_KERNEL Real moving_edge_size(GNOMON_T(moving_edge) e)
 {
     return (gnomon_abs(e.e0) + gnomon_abs(e.e1)) + gnomon_abs(e.e2);
 }
@@ -126,7 +126,7 @@ GNOMON_KERNEL GNOMON_T(linear_interval) linear_coverage(GNOMON_T(moving_edges) e
 
 /// Sort four numbers by a network of five exchanges.
 /// Domain: no NaN.
-GNOMON_KERNEL GNOMON_T(ordered4) ordered4_make(Real a, Real b, Real c, Real d)
+GNOMON_DETAIL_KERNEL GNOMON_T(ordered4) ordered4_make(Real a, Real b, Real c, Real d)
 {
     Real low0 = gnomon_min(a, b);
     Real high0 = gnomon_max(a, b);

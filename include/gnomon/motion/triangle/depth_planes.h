@@ -25,7 +25,7 @@ GNOMON_CONSTANT(cubic_third, 0.333333333333333333333);
 
 /// Value of h at time t in [0, 1].
 /// Error: 8 2^-p times the largest coefficient.
-GNOMON_KERNEL Real moving_cubic_at(GNOMON_T(moving_cubic) h, Real t)
+GNOMON_DETAIL_KERNEL Real moving_cubic_at(GNOMON_T(moving_cubic) h, Real t)
 {
     Real s = Real(1) - t;
     return (h.h0 * s + h.h1 * t) * (s * s) + (h.h2 * s + h.h3 * t) * (t * t);
@@ -34,8 +34,8 @@ GNOMON_KERNEL Real moving_cubic_at(GNOMON_T(moving_cubic) h, Real t)
 /// Time at which the sign of h changes between begin and end, where h has the values at_begin and at_end and is
 /// monotonic between them. By 24 halvings.
 /// Error: 2^-24 of the interval.
-GNOMON_KERNEL GNOMON_T(cubic_root) moving_cubic_root(GNOMON_T(moving_cubic) h, Real begin, Real end, Real at_begin,
-                                                     Real at_end)
+GNOMON_DETAIL_KERNEL GNOMON_T(cubic_root) moving_cubic_root(GNOMON_T(moving_cubic) h, Real begin, Real end,
+                                                            Real at_begin, Real at_end)
 {
     GNOMON_MASK before = at_begin < Real(0);
     GNOMON_MASK after = at_end < Real(0);
@@ -60,7 +60,7 @@ GNOMON_KERNEL GNOMON_T(cubic_root) moving_cubic_root(GNOMON_T(moving_cubic) h, R
 /// NaN: none.
 /// Error: the error of the cubic's value over its slope at that time, and 2^-24. If h only touches 0 within its error,
 /// as if it did not.
-GNOMON_KERNEL GNOMON_T(edge_intervals) moving_cubic_inside(GNOMON_T(moving_cubic) h)
+GNOMON_DETAIL_KERNEL GNOMON_T(edge_intervals) moving_cubic_inside(GNOMON_T(moving_cubic) h)
 {
     Real none = GNOMON_LITERAL(coverage_none);
     // A third of the slope, by Bernstein coefficients. The ends of the times at which h rises are the turning points.
@@ -111,7 +111,7 @@ GNOMON_KERNEL GNOMON_T(edge_intervals) moving_cubic_inside(GNOMON_T(moving_cubic
 }
 
 /// The cubic N + (z_c - plane) D, times side.
-GNOMON_KERNEL GNOMON_T(moving_cubic) depth_over_plane(GNOMON_T(depth_curve) c, Real plane, Real side)
+GNOMON_DETAIL_KERNEL GNOMON_T(moving_cubic) depth_over_plane(GNOMON_T(depth_curve) c, Real plane, Real side)
 {
     Real z0 = c.z0 - plane;
     Real z1 = c.z1 - plane;

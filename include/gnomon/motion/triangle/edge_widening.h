@@ -14,13 +14,13 @@ GNOMON_NAMESPACE_BEGIN
 GNOMON_CONSTANT(edge_field_margin, 0.0000019073486328125); // 2^-19, 32 2^-p in float
 
 /// Largest absolute value of the plane within h_x and h_y of the origin.
-GNOMON_KERNEL Real sample_plane_size(GNOMON_T(sample_plane) p, Real h_x, Real h_y)
+GNOMON_DETAIL_KERNEL Real sample_plane_size(GNOMON_T(sample_plane) p, Real h_x, Real h_y)
 {
     return (gnomon_abs(p.x) * h_x + gnomon_abs(p.y) * h_y) + gnomon_abs(p.c);
 }
 
 /// Largest absolute value of the edge function's coefficients within h_x and h_y of the origin.
-GNOMON_KERNEL Real edge_equation_size(GNOMON_T(edge_equation) f, Real h_x, Real h_y)
+GNOMON_DETAIL_KERNEL Real edge_equation_size(GNOMON_T(edge_equation) f, Real h_x, Real h_y)
 {
     Real outer = gnomon_max(sample_plane_size(f.e0, h_x, h_y), sample_plane_size(f.e2, h_x, h_y));
     return gnomon_max(outer, sample_plane_size(f.e1, h_x, h_y));

@@ -46,7 +46,7 @@ GNOMON_STRUCT(depth_trial)
 GNOMON_STRUCT(bernstein_cubic) { Real c0, c1, c2, c3; };
 
 /// The vertex relative to the sample (s_x, s_y), which is in the units of x / w.
-GNOMON_KERNEL GNOMON_T(sheared_vertex) moving_vertex_shear(GNOMON_T(moving_vertex) v, Real s_x, Real s_y)
+GNOMON_DETAIL_KERNEL GNOMON_T(sheared_vertex) moving_vertex_shear(GNOMON_T(moving_vertex) v, Real s_x, Real s_y)
 {
     GNOMON_T(sheared_vertex) r;
     r.x0 = v.x0 - gnomon_product(s_x, v.w0);
@@ -57,14 +57,14 @@ GNOMON_KERNEL GNOMON_T(sheared_vertex) moving_vertex_shear(GNOMON_T(moving_verte
 }
 
 /// Cross product of two vectors. Odd in the two vectors bit for bit, with and without contraction by the compiler.
-GNOMON_KERNEL Real sheared_cross(Real a_x, Real a_y, Real b_x, Real b_y)
+GNOMON_DETAIL_KERNEL Real sheared_cross(Real a_x, Real a_y, Real b_x, Real b_y)
 {
     return gnomon_product(a_x, b_y) - gnomon_product(a_y, b_x);
 }
 
 /// Edge function from a to b: positive where the sample is on the left of the edge. Exchanging a and b negates it bit
 /// for bit.
-GNOMON_KERNEL GNOMON_T(moving_edge) moving_edge_make(GNOMON_T(sheared_vertex) a, GNOMON_T(sheared_vertex) b)
+GNOMON_DETAIL_KERNEL GNOMON_T(moving_edge) moving_edge_make(GNOMON_T(sheared_vertex) a, GNOMON_T(sheared_vertex) b)
 {
     GNOMON_T(moving_edge) e;
     e.e0 = sheared_cross(a.x0, a.y0, b.x0, b.y0);
@@ -121,28 +121,13 @@ GNOMON_KERNEL Real moving_depth_at(GNOMON_T(moving_triangle) m, GNOMON_T(moving_
     return gnomon_select(Real(0) < w, depth, Real(1));
 }
 
-/// Depth z / w at time t of a triangle in clip space. In perspective this depth is not linear in view distance. See
-/// moving_depth_at.
-GNOMON_KERNEL Real moving_triangle_depth(GNOMON_T(moving_triangle) m, GNOMON_T(moving_edges) e, Real t)
-{
-    return moving_depth_at(m, e, t, Real(1));
-}
-
-/// Depth at time t of a triangle whose vertices have a z that is linear in view distance. A cubic over a quadratic,
-/// also in perspective; linear in time for a plane across the light's axis that moves along the axis. See
-/// moving_depth_at.
-GNOMON_KERNEL Real moving_triangle_linear_depth(GNOMON_T(moving_triangle) m, GNOMON_T(moving_edges) e, Real t)
-{
-    return moving_depth_at(m, e, t, Real(0));
-}
-
 /// Upper bound of the deviation of N / D from its chord, where N - chord D = u (1 - u) P(u), |P| <= most, and D is a
 /// cubic with the Bernstein coefficients d0, d0 + turn0, d3 + turn1, d3, the middle ones times 3. With turn the lesser
 /// of the two, for positive D,
 ///     D(u) / (u (1 - u)) >= d0 / u + d3 / (1 - u) + turn - d0 - d3 >= turn + 2 sqrt(d0 d3)
 /// The same holds for negative D, with -D. If D may vanish, the bound is 4, more than all depths.
 /// NaN: 4.
-GNOMON_KERNEL Real depth_nonlinearity(Real most, Real d0, Real d3, Real turn0, Real turn1)
+GNOMON_DETAIL_KERNEL Real depth_nonlinearity(Real most, Real d0, Real d3, Real turn0, Real turn1)
 {
     GNOMON_MASK negative = d0 < Real(0);
     Real turn = gnomon_select(negative, Real(-1) * gnomon_max(turn0, turn1), gnomon_min(turn0, turn1));
@@ -156,8 +141,8 @@ GNOMON_KERNEL Real depth_nonlinearity(Real most, Real d0, Real d3, Real turn0, R
 /// these limits depth would be free0 and free1 at the ends, and deviate by bend from the line between them. A limit
 /// that is passed in between adds no more than the distance of either end from its free depth; and no deviation exceeds
 /// the limits.
-GNOMON_KERNEL GNOMON_T(depth_line) depth_line_within(Real z0, Real z1, Real free0, Real free1, Real bend, Real least,
-                                                     Real most)
+GNOMON_DETAIL_KERNEL GNOMON_T(depth_line) depth_line_within(Real z0, Real z1, Real free0, Real free1, Real bend,
+                                                            Real least, Real most)
 {
     Real beyond = gnomon_max(gnomon_abs(free0 - z0), gnomon_abs(free1 - z1));
     Real all = gnomon_max(most - gnomon_min(z0, z1), gnomon_max(z0, z1) - least);
@@ -169,7 +154,7 @@ GNOMON_KERNEL GNOMON_T(depth_line) depth_line_within(Real z0, Real z1, Real free
 }
 
 /// Edge function between the times begin and end, by its Bernstein coefficients there, the middle one times 2.
-GNOMON_KERNEL GNOMON_T(moving_edge) moving_edge_between(GNOMON_T(moving_edge) e, Real begin, Real end)
+GNOMON_DETAIL_KERNEL GNOMON_T(moving_edge) moving_edge_between(GNOMON_T(moving_edge) e, Real begin, Real end)
 {
     Real left = Real(1) - end;
     GNOMON_T(moving_edge) r;
@@ -181,8 +166,8 @@ GNOMON_KERNEL GNOMON_T(moving_edge) moving_edge_between(GNOMON_T(moving_edge) e,
 
 /// Sum of the three edge functions from moving_edge_between, each times a linear function: from a0 to a1, from b0 to
 /// b1, from c0 to c1.
-GNOMON_KERNEL GNOMON_T(bernstein_cubic) moving_edges_combine(GNOMON_T(moving_edges) e, Real a0, Real a1, Real b0,
-                                                             Real b1, Real c0, Real c1)
+GNOMON_DETAIL_KERNEL GNOMON_T(bernstein_cubic) moving_edges_combine(GNOMON_T(moving_edges) e, Real a0, Real a1, Real b0,
+                                                                    Real b1, Real c0, Real c1)
 {
     GNOMON_T(bernstein_cubic) r;
     r.c0 = (e.a.e0 * a0 + e.b.e0 * b0) + e.c.e0 * c0;
@@ -236,14 +221,14 @@ GNOMON_KERNEL GNOMON_T(depth_line) moving_depth_line(GNOMON_T(moving_triangle) m
 }
 
 /// Time at which the fraction `passed` of an interval has passed: begin for 0, end for 1, in order between.
-GNOMON_KERNEL Real moving_depth_time(Real begin, Real end, Real passed)
+GNOMON_DETAIL_KERNEL Real moving_depth_time(Real begin, Real end, Real passed)
 {
     return gnomon_select(passed < Real(1), begin + gnomon_product(end - begin, passed), end);
 }
 
 /// The rest of an interval from the fraction `passed` on, as the first trial.
 /// NaN: passed is then 0.
-GNOMON_KERNEL GNOMON_T(depth_trial) depth_trial_begin(Real begin, Real end, Real passed)
+GNOMON_DETAIL_KERNEL GNOMON_T(depth_trial) depth_trial_begin(Real begin, Real end, Real passed)
 {
     GNOMON_T(depth_trial) r;
     r.start = saturate_or_zero(passed);
@@ -261,8 +246,8 @@ GNOMON_KERNEL GNOMON_T(depth_trial) depth_trial_begin(Real begin, Real end, Real
 /// there are at most 31 such pieces and a rest, since `passed` is rounded. Otherwise the piece is shortened to a half,
 /// or to a third if a half would not suffice: lines of a parabola deviate by the squares of their lengths. A settled
 /// trial stays so, with the same line.
-GNOMON_KERNEL GNOMON_T(depth_trial) depth_trial_next(GNOMON_T(depth_trial) trial, GNOMON_T(depth_line) fit, Real begin,
-                                                     Real end, GNOMON_SETTING tolerance)
+GNOMON_DETAIL_KERNEL GNOMON_T(depth_trial) depth_trial_next(GNOMON_T(depth_trial) trial, GNOMON_T(depth_line) fit,
+                                                            Real begin, Real end, GNOMON_SETTING tolerance)
 {
     Real shortest = Real(0.0322265625);
     GNOMON_MASK fits = fit.deviation <= tolerance || trial.share <= shortest;

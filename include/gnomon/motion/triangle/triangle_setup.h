@@ -62,7 +62,7 @@ GNOMON_STRUCT(depth_setup)
 GNOMON_STRUCT(depth_curve) { Real n0, n1, n2, n3, d0, d1, d2, z0, z1, least, most; };
 
 /// Homogeneous line through two points of the plane.
-GNOMON_KERNEL GNOMON_T(sample_plane) homogeneous_line(Real a_x, Real a_y, Real a_w, Real b_x, Real b_y, Real b_w)
+GNOMON_DETAIL_KERNEL GNOMON_T(sample_plane) homogeneous_line(Real a_x, Real a_y, Real a_w, Real b_x, Real b_y, Real b_w)
 {
     GNOMON_T(sample_plane) r;
     r.x = sheared_cross(a_y, a_w, b_y, b_w);
@@ -86,7 +86,8 @@ GNOMON_KERNEL GNOMON_T(edge_equation) edge_equation_make(GNOMON_T(moving_vertex)
 }
 
 /// The vertex relative to an origin on the map, in the units of x / w.
-GNOMON_KERNEL GNOMON_T(moving_vertex) moving_vertex_translate(GNOMON_T(moving_vertex) v, Real origin_x, Real origin_y)
+GNOMON_DETAIL_KERNEL GNOMON_T(moving_vertex) moving_vertex_translate(GNOMON_T(moving_vertex) v, Real origin_x,
+                                                                     Real origin_y)
 {
     sheared_vertex s = moving_vertex_shear(v, origin_x, origin_y);
     v.x0 = s.x0;
@@ -152,7 +153,7 @@ GNOMON_KERNEL GNOMON_T(triangle_setup) triangle_setup_make(GNOMON_T(moving_trian
 }
 
 /// Value of the affine function p at the sample. Odd in p, bit for bit.
-GNOMON_KERNEL Real sample_plane_at(GNOMON_T(sample_plane) p, Real s_x, Real s_y)
+GNOMON_DETAIL_KERNEL Real sample_plane_at(GNOMON_T(sample_plane) p, Real s_x, Real s_y)
 {
     return (gnomon_product(p.x, s_x) + gnomon_product(p.y, s_y)) + p.c;
 }
@@ -180,7 +181,7 @@ GNOMON_KERNEL GNOMON_T(moving_edges) triangle_setup_edges(GNOMON_T(triangle_setu
 
 /// Edge function at a sample, for an edge function that is linear in time: its middle coefficient is the mean of the
 /// others.
-GNOMON_KERNEL GNOMON_T(moving_edge) linear_edge_at(GNOMON_T(edge_equation) f, Real s_x, Real s_y)
+GNOMON_DETAIL_KERNEL GNOMON_T(moving_edge) linear_edge_at(GNOMON_T(edge_equation) f, Real s_x, Real s_y)
 {
     GNOMON_T(moving_edge) e;
     e.e0 = sample_plane_at(f.e0, s_x, s_y);
@@ -201,16 +202,16 @@ GNOMON_KERNEL GNOMON_T(moving_edges) triangle_setup_edges_linear(GNOMON_T(triang
 
 /// Upper bound of the affine function p over the samples within h_x and h_y of each sample; the lower bound if facing
 /// is -1.
-GNOMON_KERNEL GNOMON_T(sample_plane) sample_plane_around(GNOMON_T(sample_plane) p, Real h_x, Real h_y,
-                                                         GNOMON_SETTING facing)
+GNOMON_DETAIL_KERNEL GNOMON_T(sample_plane) sample_plane_around(GNOMON_T(sample_plane) p, Real h_x, Real h_y,
+                                                                GNOMON_SETTING facing)
 {
     p.c = p.c + facing * (gnomon_abs(p.x) * h_x + gnomon_abs(p.y) * h_y);
     return p;
 }
 
 /// Bounds of an edge function, as of triangle_setup_around.
-GNOMON_KERNEL GNOMON_T(edge_equation) edge_equation_around(GNOMON_T(edge_equation) f, Real h_x, Real h_y,
-                                                           GNOMON_SETTING facing)
+GNOMON_DETAIL_KERNEL GNOMON_T(edge_equation) edge_equation_around(GNOMON_T(edge_equation) f, Real h_x, Real h_y,
+                                                                  GNOMON_SETTING facing)
 {
     f.e0 = sample_plane_around(f.e0, h_x, h_y, facing);
     f.e1 = sample_plane_around(f.e1, h_x, h_y, facing);
@@ -232,8 +233,8 @@ GNOMON_KERNEL GNOMON_T(triangle_setup) triangle_setup_around(GNOMON_T(triangle_s
 }
 
 /// The sum of a times k_a and b times k_b.
-GNOMON_KERNEL GNOMON_T(sample_plane) sample_planes_combine(GNOMON_T(sample_plane) a, Real k_a, GNOMON_T(sample_plane) b,
-                                                           Real k_b)
+GNOMON_DETAIL_KERNEL GNOMON_T(sample_plane) sample_planes_combine(GNOMON_T(sample_plane) a, Real k_a,
+                                                                  GNOMON_T(sample_plane) b, Real k_b)
 {
     GNOMON_T(sample_plane) r;
     r.x = a.x * k_a + b.x * k_b;
@@ -243,8 +244,8 @@ GNOMON_KERNEL GNOMON_T(sample_plane) sample_planes_combine(GNOMON_T(sample_plane
 }
 
 /// Twice the middle coefficient of an edge times one end of a depth, plus an outer coefficient times the other end.
-GNOMON_KERNEL GNOMON_T(sample_plane) depth_setup_middle(GNOMON_T(sample_plane) outer, Real across,
-                                                        GNOMON_T(sample_plane) middle, Real beside)
+GNOMON_DETAIL_KERNEL GNOMON_T(sample_plane) depth_setup_middle(GNOMON_T(sample_plane) outer, Real across,
+                                                               GNOMON_T(sample_plane) middle, Real beside)
 {
     return sample_planes_combine(outer, across, middle, Real(2) * beside);
 }
