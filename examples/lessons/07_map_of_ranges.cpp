@@ -20,7 +20,7 @@ constexpr int width = 960, height = 540, side = 512;
 constexpr float tolerance = 0.001f; // of depth: what moves along a curve becomes several lines
 
 // The path of a segment over the light's map: position in texels and depth at both ends, in front of its own surface.
-gnomon::receiver_path<float> path_of(const seen_course& segment, const moving_camera& light)
+gnomon::receiver_path<float> path_of(const seen_segment& segment, const moving_camera& light)
 {
     const auto end = [&](float t, const glm::vec3& position, const glm::vec3& normal) {
         const camera at = light.at(double(t));
@@ -48,7 +48,7 @@ int main()
 
     // 3. The look-up of each segment, averaged over its own time.
     std::vector<float> visibility;
-    for (const seen_course& segment : seen.courses) {
+    for (const seen_segment& segment : seen.segments) {
         const auto path = path_of(segment, scenery.light);
         visibility.push_back(1 - gnomon::moving_intensity(lists.map(), path, segment.t0, segment.t1));
     }

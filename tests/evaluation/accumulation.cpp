@@ -50,7 +50,7 @@ TEST_CASE("receivers of accumulated maps see what the texels around them say")
     for (const int look_ups : {1, 3}) {
         std::vector<float> packed;
         accumulated_visibility(maps, receivers, packed, look_ups);
-        const auto found = in_order_of_courses(receivers, packed, at_times.courses.size());
+        const auto found = in_order_of_segments(receivers, packed, at_times.segments.size());
         REQUIRE(found.size() == all.size());
         int between = 0, away = 0;
         for (std::size_t i = 0; i < all.size(); ++i) {
@@ -86,7 +86,7 @@ TEST_CASE("interleaved maps give a receiver at rest the mean over the maps")
         const glm::vec3 up(0, 1, 0);
         for (int i = 0; i < 400; ++i) {
             const glm::vec3 p(0.4f * float(i % 20) - 4, 0, 0.4f * float(i / 20) - 4);
-            seen.courses.push_back({0, 1, 1, 1u << 20, p, p, up, up});
+            seen.segments.push_back({0, 1, 1, 1u << 20, p, p, up, up});
         }
         std::vector<resting_receiver> receivers;
         for (const light_receiver& r : light_receivers_of(seen, stage.light, resolution))

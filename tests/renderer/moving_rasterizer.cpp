@@ -282,7 +282,7 @@ TEST_CASE("work grows with what is covered: eight times the motion tests no more
     CHECK(tested_per_pair(8) < 2.5);
 }
 
-TEST_CASE("the camera's courses are what instants see")
+TEST_CASE("the camera's segments are what instants see")
 {
     const moving_scene world = any_scene(7, 8);
     const camera eye = perspective_view_from({2, 5, 6}, {0, 0, 0}, bounds_of(world).corners(), glm::radians(45.0), 1.5);
@@ -292,13 +292,13 @@ TEST_CASE("the camera's courses are what instants see")
     int asked = 0, other = 0;
     for (std::size_t pixel = 0; pixel < std::size_t(width * height); ++pixel) {
         float whole = 0;
-        for (const seen_course& c : analytic(pixel)) whole += c.weight;
+        for (const seen_segment& c : analytic(pixel)) whole += c.weight;
         CHECK(whole <= 1.0001f);
-        for (const seen_course& s : stochastic(pixel)) {
+        for (const seen_segment& s : stochastic(pixel)) {
             CHECK(s.weight == 1.0f / samples);
             ++asked;
             bool same = false;
-            for (const seen_course& c : analytic(pixel)) {
+            for (const seen_segment& c : analytic(pixel)) {
                 if (!(c.t0 <= s.t0 && s.t0 <= c.t1) || c.triangle != s.triangle) continue;
                 const float passed = (s.t0 - c.t0) / std::max(c.t1 - c.t0, 1e-9f);
                 same |= glm::distance(glm::mix(c.p0, c.p1, passed), s.p0) < 2e-3f;
@@ -307,7 +307,7 @@ TEST_CASE("the camera's courses are what instants see")
         }
     }
     CHECK(asked > width * height * samples / 2);
-    // At the ends of courses and where two surfaces meet, rounding decides.
+    // At the ends of segments and where two surfaces meet, rounding decides.
     CHECK(other < asked / 500);
 }
 
@@ -322,7 +322,7 @@ TEST_CASE("what is behind the eye or before the near plane is not seen")
         const std::size_t y = pixel / 64;
         if (y < 31) REQUIRE(seen(pixel).empty());
         if (y > 40) REQUIRE(!seen(pixel).empty());
-        for (const seen_course& c : seen(pixel)) REQUIRE(c.p0.y == doctest::Approx(0).epsilon(1e-3));
+        for (const seen_segment& c : seen(pixel)) REQUIRE(c.p0.y == doctest::Approx(0).epsilon(1e-3));
     }
 }
 

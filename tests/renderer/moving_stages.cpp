@@ -242,7 +242,7 @@ TEST_CASE("the trapezoid's closed form is that of the tracer")
 
     const moving_stage stage = trapezoid(aspect);
     const tracer rays(stage.world);
-    std::vector<receiver_course> receivers;
+    std::vector<receiver_motion> receivers;
     for (int i = -40; i <= 40; ++i)
         for (const float z : {-1.4f, 0.f, 1.f, 1.6f}) {
             const receiver there{{0.04f * static_cast<float>(i), 0, z}, {0, 1, 0}};
@@ -264,7 +264,7 @@ TEST_CASE("the lit ramp is lit, exactly and everywhere")
     const reference_picture picture = rays.photograph(stage.light, stage.eye, 160, 90, 64);
     CHECK(std::ranges::all_of(picture.visibility.pixels, [](float v) { return v == 1; }));
     CHECK(std::ranges::count_if(picture.coverage.pixels, [](float c) { return c > 0; }) > 1000);
-    std::vector<receiver_course> receivers;
+    std::vector<receiver_motion> receivers;
     for (int y = 0; y < 90; ++y)
         for (int x = 0; x < 160; ++x) {
             const hit seen = rays.first_hit(ray_through(stage.eye, {(x + 0.5) / 160, (y + 0.5) / 90}), 0.5f);

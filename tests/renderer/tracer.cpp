@@ -165,7 +165,7 @@ TEST_CASE("hits lie on their rays and triangles, and their points go along with 
         CHECK(glm::dot(glm::dvec3(seen.normal), along) < 0);
         CHECK(glm::length(seen.normal) == doctest::Approx(1));
         CHECK(seen.weights.x + seen.weights.y + seen.weights.z == doctest::Approx(1));
-        const receiver_course point = rays.receiver_of(seen, t);
+        const receiver_motion point = rays.receiver_of(seen, t);
         CHECK(glm::length(glm::mix(point.open.position, point.closing.position, t) - seen.position) < 1e-5f);
         CHECK(glm::dot(point.open.normal, seen.normal) > 0.5f); // the plane turns by 40 degrees
         CHECK(glm::dot(point.closing.normal, seen.normal) > 0.5f);
@@ -179,7 +179,7 @@ TEST_CASE("the mean visibility is that of its moments: it counts rays, and is th
 {
     const moving_stage stage = cubes_to_the_light(1.5);
     const tracer rays(stage.world);
-    std::vector<receiver_course> receivers;
+    std::vector<receiver_motion> receivers;
     for (int i = 0; i < 200; ++i) {
         const receiver there{{-3 + 0.03f * static_cast<float>(i), 0, 0.3f}, {0, 1, 0}};
         receivers.push_back({there, there});
@@ -208,7 +208,7 @@ TEST_CASE("a receiver that moves along with a bar above stays in its shadow, one
     const moving_stage stage = trapezoid(1.5);
     const tracer rays(stage.world);
     const auto at = [](float x) { return receiver{{x, 0, 0}, {0, 1, 0}}; };
-    const std::vector<receiver_course> receivers{{at(-1), at(1)}, {at(0), at(0)}, {at(1), at(-1)}};
+    const std::vector<receiver_motion> receivers{{at(-1), at(1)}, {at(0), at(0)}, {at(1), at(-1)}};
     std::vector<float> visible(3);
     rays.mean_visibility(stage.light, receivers, 4096, visible);
     CHECK(visible[0] == 0);
@@ -220,7 +220,7 @@ TEST_CASE("where only the light or only the receiver moves, visibility changes a
 {
     const moving_stage stage = pillars(1.5);
     const tracer rays(stage.world);
-    std::vector<receiver_course> receivers;
+    std::vector<receiver_motion> receivers;
     for (int i = 0; i < 100; ++i) {
         const receiver open{{0.5f + 0.03f * static_cast<float>(i), 0, 1.7f}, {0, 1, 0}};
         receiver closing = open;
@@ -234,7 +234,7 @@ TEST_CASE("where only the light or only the receiver moves, visibility changes a
         for (int k = 0; k < n; ++k) {
             const float t = (static_cast<float>(k) + 0.5f) / n;
             std::vector<receiver> there;
-            for (const receiver_course& r : receivers)
+            for (const receiver_motion& r : receivers)
                 there.push_back({glm::mix(r.open.position, r.closing.position, t), r.open.normal});
             rays.visibility(light, there, std::vector<float>(100, t), now);
             for (std::size_t i = 0; i < 100; ++i) sum[i] += now[i];
@@ -294,7 +294,7 @@ TEST_CASE("shapes of moving queries are checked, and nothing but the sky is lit"
     const tracer rays(moving_scene{});
     const moving_camera light{camera{}, glm::dvec3(0)};
     std::vector<float> visible(2);
-    const std::vector<receiver_course> receivers(2);
+    const std::vector<receiver_motion> receivers(2);
     CHECK_THROWS_WITH(rays.mean_visibility(light, receivers, 0, visible), "tracer: 0 moments, at least one expected");
     CHECK_THROWS_WITH(rays.mean_visibility(light, receivers, 4, std::span(visible).first(1)),
                       "tracer: 2 receivers, room for 1 results");

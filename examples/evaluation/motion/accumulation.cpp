@@ -108,15 +108,15 @@ seen_motion seen_at_times(const seen_motion& seen, std::span<const float> times)
 {
     seen_motion result{seen.width, seen.height, {0}, {}};
     for (std::size_t pixel = 0; pixel + 1 < seen.first.size(); ++pixel) {
-        const auto courses = seen(pixel);
+        const auto segments = seen(pixel);
         for (const float t : times) {
-            const auto c = std::ranges::find_if(courses, [&](const seen_course& some) { return t < some.t1; });
-            if (c == courses.end() || t < c->t0) continue;
+            const auto c = std::ranges::find_if(segments, [&](const seen_segment& some) { return t < some.t1; });
+            if (c == segments.end() || t < c->t0) continue;
             const float passed = (t - c->t0) / (c->t1 - c->t0);
             const glm::vec3 p = glm::mix(c->p0, c->p1, passed), n = glm::normalize(glm::mix(c->n0, c->n1, passed));
-            result.courses.push_back({t, t, 1 / float(times.size()), c->triangle, p, p, n, n});
+            result.segments.push_back({t, t, 1 / float(times.size()), c->triangle, p, p, n, n});
         }
-        result.first.push_back(std::uint32_t(result.courses.size()));
+        result.first.push_back(std::uint32_t(result.segments.size()));
     }
     return result;
 }
@@ -133,7 +133,7 @@ std::vector<accumulated_receivers> accumulated_receivers_of(const seen_motion& a
         accumulated_receivers& to = result[std::size_t(std::ranges::lower_bound(maps.times, t) - maps.times.begin())];
         const texel_position<float> at = receiver_path_at(r.path, t);
         to.x.push_back(at.x), to.y.push_back(at.y), to.depth.push_back(std::min(r.path.depth.z0, cleared));
-        to.course.push_back(std::uint32_t(i));
+        to.segment.push_back(std::uint32_t(i));
     }
     for (accumulated_receivers& some : result)
         for (std::vector<float>* member : {&some.x, &some.y, &some.depth}) member->resize(whole_packs(member->size()));
@@ -151,12 +151,12 @@ void accumulated_visibility(const accumulated_maps& maps, std::span<const accumu
     else throw std::invalid_argument(fmt::format("accumulation: {} look-ups, 1 and 3 are possible", look_ups));
 }
 
-std::vector<float> in_order_of_courses(std::span<const accumulated_receivers> receivers,
-                                       std::span<const float> visibility, std::size_t courses)
+std::vector<float> in_order_of_segments(std::span<const accumulated_receivers> receivers,
+                                        std::span<const float> visibility, std::size_t segments)
 {
-    std::vector<float> result(courses);
+    std::vector<float> result(segments);
     for (const accumulated_receivers& some : receivers) {
-        for (std::size_t i = 0; i < some.course.size(); ++i) result[some.course[i]] = visibility[i];
+        for (std::size_t i = 0; i < some.segment.size(); ++i) result[some.segment[i]] = visibility[i];
         visibility = visibility.subspan(some.x.size());
     }
     return result;

@@ -29,13 +29,13 @@ std::vector<float> middle_times(int count);
 accumulated_maps accumulate(const renderer::moving_scene& world, const renderer::moving_camera& light, int resolution,
                             std::vector<float> times);
 
-// What each pixel sees at these times, as courses of one time, in order.
+// What each pixel sees at these times, as segments of one time, in order.
 renderer::seen_motion seen_at_times(const renderer::seen_motion& seen, std::span<const float> times);
 
-// Those of these courses that face the light, as the map of their time sees them, and which courses they are.
+// Those of these segments that face the light, as the map of their time sees them, and which segments they are.
 struct accumulated_receivers {
     std::vector<float> x, y, depth; // texel position and biased depth; whole packs of them
-    std::vector<std::uint32_t> course;
+    std::vector<std::uint32_t> segment;
 };
 
 // The receivers of each map.
@@ -47,9 +47,9 @@ std::vector<accumulated_receivers> accumulated_receivers_of(const renderer::seen
 void accumulated_visibility(const accumulated_maps& maps, std::span<const accumulated_receivers> receivers,
                             std::vector<float>& visibility, int look_ups = 1);
 
-// The same in the order of the courses, and 0 for those that face away.
-std::vector<float> in_order_of_courses(std::span<const accumulated_receivers> receivers,
-                                       std::span<const float> visibility, std::size_t courses);
+// The same in the order of the segments, and 0 for those that face away.
+std::vector<float> in_order_of_segments(std::span<const accumulated_receivers> receivers,
+                                        std::span<const float> visibility, std::size_t segments);
 
 // The maps of a light at rest for receivers at rest, which ask all of them at one place: the depths of a texel are one
 // after the other.

@@ -50,7 +50,7 @@ report_row trapezoid_row(const motion_sizes& size)
             const view_ray ray = ray_through(scenery.light.open, (glm::dvec2(x, y) + 0.5) / double(resolution));
             const glm::dvec3 point = ray.origin - ray.origin.y / ray.direction.y * ray.direction;
             const glm::vec3 p(point), up(0, 1, 0);
-            seen.courses.push_back({0, 1, 1, nobody, p, p, up, up});
+            seen.segments.push_back({0, 1, 1, nobody, p, p, up, up});
             expected.push_back(static_cast<float>(trapezoid_visibility(point)));
         }
     return row_of(scenery, seen, expected, size);
@@ -60,7 +60,7 @@ report_row lit_ramp_row(const motion_sizes& size)
 {
     const moving_stage scenery = lit_ramp(double(size.width) / size.height);
     const seen_motion seen = camera_segments(scenery.world, scenery.eye, size.width, size.height, depth_tolerance);
-    return row_of(scenery, seen, std::vector<float>(seen.courses.size(), 1.f), size);
+    return row_of(scenery, seen, std::vector<float>(seen.segments.size(), 1.f), size);
 }
 
 } // namespace

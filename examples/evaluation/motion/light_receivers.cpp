@@ -28,7 +28,7 @@ end end_of(const camera& light, int resolution, double radius, const glm::vec3& 
     return {glm::vec4(place), light.perspective() ? light.position - p : -light.forward};
 }
 
-light_receiver receiver_of(const seen_course& c, const moving_camera& light, int resolution, double radius)
+light_receiver receiver_of(const seen_segment& c, const moving_camera& light, int resolution, double radius)
 {
     const end open = end_of(light.at(double(c.t0)), resolution, radius, c.p0, c.n0);
     const end close = end_of(light.at(double(c.t1)), resolution, radius, c.p1, c.n1);
@@ -50,9 +50,9 @@ light_receiver receiver_of(const seen_course& c, const moving_camera& light, int
 std::vector<light_receiver> light_receivers_of(const seen_motion& seen, const moving_camera& light, int resolution,
                                                double radius)
 {
-    std::vector<light_receiver> result(seen.courses.size());
+    std::vector<light_receiver> result(seen.segments.size());
     tbb::parallel_for(std::size_t(0), result.size(),
-                      [&](std::size_t i) { result[i] = receiver_of(seen.courses[i], light, resolution, radius); });
+                      [&](std::size_t i) { result[i] = receiver_of(seen.segments[i], light, resolution, radius); });
     return result;
 }
 

@@ -1,4 +1,4 @@
-// What a camera sees of motion, as the light's shadow map sees it: for each course the way of its point over the map,
+// What a camera sees of motion, as the light's shadow map sees it: for each segment the way of its point over the map,
 // and when it faces the light.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace gnomon::evaluation {
 
-// Times of the course itself, from 0 to 1, at which it faces the light; the depths of the path are biased.
+// Times of the segment itself, from 0 to 1, at which it faces the light; the depths of the path are biased.
 struct light_receiver {
     receiver_path<float> path;
     edge_intervals<float> facing;
@@ -23,7 +23,7 @@ struct light_receiver {
 // either side.
 inline constexpr double motion_bias_radius = 1.5;
 
-// The receiver of each course, with a bias for so many texels around its point.
+// The receiver of each segment, with a bias for so many texels around its point.
 std::vector<light_receiver> light_receivers_of(const renderer::seen_motion& seen, const renderer::moving_camera& light,
                                                int resolution, double radius = motion_bias_radius);
 

@@ -30,13 +30,13 @@ struct outcome {
     std::string method, format;
     double bytes_per_texel, build_ms, ns_per_receiver;
     const seen_motion* seen;
-    std::vector<float> visibility; // per course
+    std::vector<float> visibility; // per segment
     int lanes = 1;
     std::optional<double> acne_unbiased{};
 };
 
 // Courses as receivers, with the depth bias and without.
-struct course_receivers {
+struct segment_receivers {
     std::vector<light_receiver> biased, unbiased;
 };
 
@@ -89,17 +89,17 @@ class motion_comparison {
         add_stochastic(covered_ranges(exact));
         const range_shadow_map resolved = resolved_ranges(world, light, resolution);
         add_stochastic(resolved);
-        add_courses(resolved, "at rest", resting_visibility);
-        add_courses(resolved, "sampled", sampled_visibility);
-        add_courses(resolved, "semi-analytic", semi_analytic_visibility);
-        add_courses(resolved, "analytic", light_visibility);
-        add_courses(with_totals(caster_ranges(world, light, resolution)), "analytic", light_visibility);
+        add_segments(resolved, "at rest", resting_visibility);
+        add_segments(resolved, "sampled", sampled_visibility);
+        add_segments(resolved, "semi-analytic", semi_analytic_visibility);
+        add_segments(resolved, "analytic", light_visibility);
+        add_segments(with_totals(caster_ranges(world, light, resolution)), "analytic", light_visibility);
         for (const int capacity : {4, 8, 16})
-            add_courses(interval_lists(exact, capacity), "analytic", light_visibility);
+            add_segments(interval_lists(exact, capacity), "analytic", light_visibility);
         if (listed_.surfaces) {
             add_surfaces(exact, resolved);
             add_unpictured(
-                by_courses(joined_ranges(world, light, resolution), by_triangles_, "analytic", light_visibility));
+                by_segments(joined_ranges(world, light, resolution), by_triangles_, "analytic", light_visibility));
         }
         if (listed_.cover_first) add_cover_first(cover_first_ranges(exact));
     }
@@ -124,7 +124,7 @@ class motion_comparison {
         std::vector<float> visibility;
         const double spent = least_seconds([&] { accumulated_visibility(maps, receivers, visibility); });
         add({fmt::format("accumulation of {}", count), "32 bit depth", 4.0 * count, 1e3 * build, per_receiver(spent),
-             &seen, in_order_of_courses(receivers, visibility, seen.courses.size()), int(accumulation_pack::size)});
+             &seen, in_order_of_segments(receivers, visibility, seen.segments.size()), int(accumulation_pack::size)});
     }
 
     // Hong & Oh: at one time per camera sample.
@@ -155,8 +155,8 @@ class motion_comparison {
             stochastic(map, [&](const light_receiver& r, float t) { return cover_first_visibility_at(map, r, t); }));
     }
 
-    outcome by_courses(const range_shadow_map& map, const course_receivers& receivers, std::string_view how,
-                       shadow_test test) const
+    outcome by_segments(const range_shadow_map& map, const segment_receivers& receivers, std::string_view how,
+                        shadow_test test) const
     {
         std::vector<float> visibility(receivers.biased.size());
         const auto look_up = [&](const std::vector<light_receiver>& some) {
@@ -179,9 +179,9 @@ class motion_comparison {
                 acne};
     }
 
-    void add_courses(const range_shadow_map& map, std::string_view how, shadow_test test)
+    void add_segments(const range_shadow_map& map, std::string_view how, shadow_test test)
     {
-        add(by_courses(map, by_triangles_, how, test));
+        add(by_segments(map, by_triangles_, how, test));
     }
 
     // Rows of maps in which triangles that cannot shadow one another share an id.
@@ -189,10 +189,10 @@ class motion_comparison {
     {
         const std::vector<std::uint32_t> ids = surface_ids(stage_.world);
         facts_["surfaces"] = std::set(ids.begin(), ids.end()).size();
-        course_receivers by_surfaces = by_triangles_;
+        segment_receivers by_surfaces = by_triangles_;
         set_ids(by_surfaces.biased, ids), set_ids(by_surfaces.unbiased, ids);
         const auto add_one = [&](const range_shadow_map& map) {
-            add_unpictured(by_courses(map, by_surfaces, "analytic", light_visibility));
+            add_unpictured(by_segments(map, by_surfaces, "analytic", light_visibility));
         };
         add_one(with_ids(resolved, ids));
         const range_shadow_map renamed = with_ids(exact, ids);
@@ -251,7 +251,7 @@ class motion_comparison {
     std::filesystem::path folder_;
     reference_picture reference_;
     seen_motion analytic_, stochastic_;
-    course_receivers by_triangles_; // of what analytic_ sees
+    segment_receivers by_triangles_; // of what analytic_ sees
     std::vector<light_receiver> stochastic_receivers_;
     std::vector<std::size_t> pixels_; // that see a surface at some time
     nlohmann::ordered_json facts_;

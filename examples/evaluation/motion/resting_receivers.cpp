@@ -38,7 +38,7 @@ float tent_time(float share) { return share < 0.5f ? std::sqrt(0.5f * share) : 1
 struct resting_points {
     std::string_view where;
     seen_motion seen;
-    std::vector<receiver_course> courses;
+    std::vector<receiver_motion> motions;
     std::vector<std::size_t> referred; // the receivers that the reference is of
     std::vector<float> reference, tent_reference;
 };
@@ -47,18 +47,18 @@ resting_points points(std::string_view where, int side, const tracer& rays, cons
 {
     const glm::vec3 up(0, 1, 0);
     resting_points result{where, {side, side, {0}, {}}, {}, {}, {}, {}};
-    std::vector<receiver_course> referred;
+    std::vector<receiver_motion> referred;
     std::mt19937 bits(1);
     for (int i = 0; i < side * side; ++i) {
         const glm::vec2 share = (glm::vec2(i % side, i / side) + 0.5f) / float(side);
         const float height = where == "ground" ? 0 : 0.5f + 4 * float(bits() >> 8) * 0x1p-24f;
         const glm::vec3 p(8 * share.x - 4, height, 8 * share.y - 4);
-        result.seen.courses.push_back({0, 1, 1, nobody, p, p, up, up});
-        result.seen.first.push_back(std::uint32_t(result.seen.courses.size()));
-        result.courses.push_back({{p, up}, {p, up}});
+        result.seen.segments.push_back({0, 1, 1, nobody, p, p, up, up});
+        result.seen.first.push_back(std::uint32_t(result.seen.segments.size()));
+        result.motions.push_back({{p, up}, {p, up}});
         if (i % side % 4 != 0 || i / side % 4 != 0) continue;
         result.referred.push_back(std::size_t(i));
-        referred.push_back(result.courses.back());
+        referred.push_back(result.motions.back());
     }
     result.reference.resize(referred.size());
     rays.mean_visibility(light, referred, samples, result.reference);
@@ -76,7 +76,7 @@ class resting_comparison {
             points_.push_back(points(where, side, rays_, scenery_.light, size.reference_samples));
         points_[0].tent_reference.resize(points_[0].referred.size());
         std::vector<receiver> asked;
-        for (const std::size_t i : points_[0].referred) asked.push_back(points_[0].courses[i].open);
+        for (const std::size_t i : points_[0].referred) asked.push_back(points_[0].motions[i].open);
         tent_rays(asked, size.reference_samples, points_[0].tent_reference);
     }
 
@@ -124,8 +124,8 @@ class resting_comparison {
 
     void add_rays(const resting_points& at, int count)
     {
-        std::vector<float> found(at.courses.size());
-        const double spent = least_seconds([&] { rays_.mean_visibility(scenery_.light, at.courses, count, found); });
+        std::vector<float> found(at.motions.size());
+        const double spent = least_seconds([&] { rays_.mean_visibility(scenery_.light, at.motions, count, found); });
         add(at, {fmt::format("{} rays", count), "Embree", 0, 0, spent}, found);
     }
 
@@ -204,7 +204,7 @@ class resting_comparison {
              1, true},
             found);
         std::vector<receiver> asked;
-        for (const receiver_course& c : at.courses) asked.push_back(c.open);
+        for (const receiver_motion& c : at.motions) asked.push_back(c.open);
         const double traced = least_seconds([&] { tent_rays(asked, 16, found); });
         add(at, {"16 rays, tent shutter", "Embree", 0, 0, traced, 1, true}, found);
     }

@@ -26,7 +26,7 @@ template <class Visibility> float while_facing(const light_receiver& r, const Vi
                     1.f);
 }
 
-// In closed form where it is at time t, with its own course of depth.
+// In closed form where it is at time t, with its own line of depth.
 float path_visibility_in_place(const range_map<float>& map, receiver_path<float> path, float t)
 {
     const texel_position<float> at = receiver_path_at(path, t);

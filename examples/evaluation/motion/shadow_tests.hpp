@@ -1,6 +1,6 @@
 // How a receiver asks a shadow map of ranges: at one time, by samples in time, at rest, or in closed form; each with
 // the four texels around it, bilinearly weighed. All give the visibility of the light, 1 lit and 0 in shadow, over the
-// course's own time.
+// segment's own time.
 #pragma once
 
 #include "light_receivers.hpp"
@@ -8,7 +8,7 @@
 
 namespace gnomon::evaluation {
 
-// At one time in the course's. What lies outside of the map is lit.
+// At one time in the segment's. What lies outside of the map is lit.
 float visibility_at(const range_map<float>& map, const light_receiver& r, float t);
 
 // The same where the map has covers: a list is asked where there is none.

@@ -56,7 +56,7 @@ class wide_comparison {
 
   private:
     struct looked_up {
-        std::vector<float> visibility; // per course
+        std::vector<float> visibility; // per segment
         double seconds;
     };
 
@@ -67,7 +67,7 @@ class wide_comparison {
         const auto receivers = accumulated_receivers_of(at_times, stage_.light, maps);
         std::vector<float> visibility;
         const double spent = measure([&] { accumulated_visibility(maps, receivers, visibility, look_ups); });
-        return {in_order_of_courses(receivers, visibility, at_times.courses.size()), spent};
+        return {in_order_of_segments(receivers, visibility, at_times.segments.size()), spent};
     }
 
     void add_accumulation(int count)

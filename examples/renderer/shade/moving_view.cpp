@@ -21,8 +21,8 @@ class surfaces {
         : world_(world), eye_(eye), size_(width, height), numbers_(world.open)
     {}
 
-    // The courses of a pixel without their weights.
-    seen_course at(std::size_t pixel, const depth_time_range<float>& r) const
+    // The segments of a pixel without their weights.
+    seen_segment at(std::size_t pixel, const depth_time_range<float>& r) const
     {
         const auto width = static_cast<std::size_t>(size_.x);
         const view_ray ray = ray_through(
@@ -77,14 +77,14 @@ seen_motion camera_segments(const moving_scene& world, const camera& eye, int wi
     const surfaces of(world, eye, width, height);
     const range_map<float> map = lists.map();
     const auto list = [&](std::size_t pixel) { return map(pixel % map.width, pixel / map.width); };
-    seen_motion result{width, height, {0}, std::vector<seen_course>(lists.ranges.size())};
+    seen_motion result{width, height, {0}, std::vector<seen_segment>(lists.ranges.size())};
     for (std::size_t pixel = 0; pixel < map.width * map.height; ++pixel)
         result.first.push_back(result.first.back() + std::uint32_t(list(pixel).size()));
     tbb::parallel_for(std::size_t(0), map.width * map.height, [&](std::size_t pixel) {
         std::size_t i = result.first[pixel];
         for (const depth_time_range<float>& r : list(pixel)) {
-            result.courses[i] = of.at(pixel, r);
-            result.courses[i++].weight = range_duration(r);
+            result.segments[i] = of.at(pixel, r);
+            result.segments[i++].weight = range_duration(r);
         }
     });
     return result;
@@ -98,10 +98,10 @@ seen_motion stochastic_visibility(const moving_scene& world, const camera& eye, 
     seen_motion result{width, height, {0}, {}};
     for (std::size_t i = 0; i < instants.size(); ++i) {
         if (instants[i].z0 < 1) {
-            result.courses.push_back(of.at(i / each, instants[i]));
-            result.courses.back().weight = 1 / static_cast<float>(samples);
+            result.segments.push_back(of.at(i / each, instants[i]));
+            result.segments.back().weight = 1 / static_cast<float>(samples);
         }
-        if (i % each == each - 1) result.first.push_back(static_cast<std::uint32_t>(result.courses.size()));
+        if (i % each == each - 1) result.first.push_back(static_cast<std::uint32_t>(result.segments.size()));
     }
     return result;
 }
@@ -115,7 +115,7 @@ picture shade(const moving_scene& world, const moving_camera& light, const seen_
         float background = 1;
         glm::vec3 sum(0);
         for (std::size_t i = seen.first[pixel]; i < seen.first[pixel + 1]; ++i) {
-            const seen_course& c = seen.courses[i];
+            const seen_segment& c = seen.segments[i];
             const glm::vec3& albedo = world.open.meshes[numbers[c.triangle].mesh].albedo;
             const auto seen_at = [&](float t, const glm::vec3& p, const glm::vec3& n) {
                 return radiance(albedo, n, visibility[i] * sunlight(light.at(double(t)), p, n));
@@ -134,8 +134,8 @@ image<float> mean_visibility(const seen_motion& seen, std::span<const float> vis
     for (std::size_t pixel = 0; pixel < result.pixels.size(); ++pixel) {
         float sum = 0, weight = 0;
         for (std::size_t i = seen.first[pixel]; i < seen.first[pixel + 1]; ++i) {
-            sum += seen.courses[i].weight * visibility[i];
-            weight += seen.courses[i].weight;
+            sum += seen.segments[i].weight * visibility[i];
+            weight += seen.segments[i].weight;
         }
         if (weight > 0) result.pixels[pixel] = sum / weight;
     }

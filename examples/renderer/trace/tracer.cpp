@@ -51,7 +51,7 @@ glm::vec3 unit(const glm::vec3& v)
     return length > 0 ? v / length : v;
 }
 
-receiver between(const receiver_course& moving, float t)
+receiver between(const receiver_motion& moving, float t)
 {
     return {glm::mix(moving.open.position, moving.closing.position, t),
             unit(glm::mix(moving.open.normal, moving.closing.normal, t))};
@@ -231,7 +231,7 @@ void tracer::visibility(const moving_camera& light, std::span<const receiver> re
     });
 }
 
-void tracer::mean_visibility(const moving_camera& light, std::span<const receiver_course> receivers, int samples,
+void tracer::mean_visibility(const moving_camera& light, std::span<const receiver_motion> receivers, int samples,
                              std::span<float> result) const
 {
     check_room(receivers.size(), result.size());
@@ -239,7 +239,7 @@ void tracer::mean_visibility(const moving_camera& light, std::span<const receive
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, receivers.size(), 64), [&](const auto& range) {
         alignas(64) RTCRay16 rays{};
         for (std::size_t r = range.begin(); r < range.end(); ++r) {
-            const receiver_course& at = receivers[r];
+            const receiver_motion& at = receivers[r];
             const bool one_is_all = at.open == at.closing && state_->always_alike(at.open, light);
             const int times = one_is_all ? 1 : samples;
             int lit = 0;
@@ -268,7 +268,7 @@ hit tracer::first_hit(const view_ray& ray, float time) const
     return state_->met(query, 0, ray.direction);
 }
 
-receiver_course tracer::receiver_of(const hit& seen, float time_of_hit) const
+receiver_motion tracer::receiver_of(const hit& seen, float time_of_hit) const
 {
     const auto mesh = static_cast<std::size_t>(seen.mesh);
     const glm::vec3 then = state_->triangle(mesh, seen.triangle, time_of_hit).normal();

@@ -1,4 +1,4 @@
-// The reference: hard shadows by ray tracing with Embree, at rest and while the shutter is open.
+// The reference: hard shadows by ray tracing with Embree, of a static scene and while the shutter is open.
 #pragma once
 
 #include "renderer/output/image.hpp"
@@ -22,14 +22,14 @@ struct receiver {
     friend bool operator==(const receiver&, const receiver&) = default;
 };
 
-// A receiver that goes along a straight line while the shutter is open; its normal goes over from one to the other.
-struct receiver_course {
+// A receiver that moves along a straight line while the shutter is open; its normal is interpolated.
+struct receiver_motion {
     receiver open, closing;
 };
 
-// What a ray meets first: a point of a triangle, the weights of whose corners sum to one.
+// The first point on a ray: a point of a triangle, by weights of its corners, which sum to 1.
 struct hit {
-    int mesh = -1; // index into scene::meshes, -1 where there is nothing
+    int mesh = -1; // index into scene::meshes, -1 if the ray meets nothing
     std::uint32_t triangle = 0;
     glm::vec3 weights{0};
     glm::vec3 position{0};
@@ -38,10 +38,10 @@ struct hit {
     bool valid() const { return mesh >= 0; }
 };
 
-// The means of what a pixel sees while the shutter is open.
+// Means over the time for which the shutter is open, for each pixel.
 struct reference_picture {
-    image<float> visibility; // of the light, over the times at which there is a surface; 1 where there never is
-    image<float> coverage;   // the share of these times
+    image<float> visibility; // of the light, over the times at which the pixel sees a surface; 1 if it never does
+    image<float> coverage;   // fraction of the time at which the pixel sees a surface
     picture colour;          // over all times, shaded by the triangles' own normals
 };
 
@@ -53,31 +53,31 @@ class tracer {
     tracer(tracer&&) noexcept;
     tracer& operator=(tracer&&) noexcept;
 
-    // 1 where the receiver sees the light, 0 where something lies in between. A ray starts off the surface, so that it
-    // does not meet it again. Parallel over receivers. The shutter has just opened.
+    // 1 for a receiver that sees the light when the shutter opens, 0 for one that does not. A ray starts off its surface,
+    // so that it does not meet that surface again. Parallel over receivers.
     void visibility(const camera& light, std::span<const receiver> receivers, std::span<float> result) const;
 
-    // The same at a time in [0, 1] for each receiver.
+    // The visibility of each receiver at a time of its own, in [0, 1].
     void visibility(const moving_camera& light, std::span<const receiver> receivers, std::span<const float> times,
                     std::span<float> result) const;
 
-    // The share of `samples` times, one in each of as many equal parts of [0, 1], at which a receiver sees the light.
-    // Where in its part a moment lies depends on the index of the receiver and on nothing else. While it faces away
-    // from the light, a receiver does not see it. Parallel over receivers.
-    void mean_visibility(const moving_camera& light, std::span<const receiver_course> receivers, int samples,
+    // The fraction of `samples` times, one in each of as many equal parts of [0, 1], at which a receiver sees the light.
+    // A time within its part depends on the index of the receiver alone. A receiver that faces away from the light does
+    // not see it. Parallel over receivers.
+    void mean_visibility(const moving_camera& light, std::span<const receiver_motion> receivers, int samples,
                          std::span<float> result) const;
 
-    // What a ray meets first at a time in [0, 1].
+    // The first point on a ray at a time in [0, 1].
     hit first_hit(const view_ray& ray, float time) const;
 
-    // The place of a hit's point on its triangle at a time in [0, 1], and the normal on the side that the hit has seen.
-    receiver_course receiver_of(const hit& seen, float time_of_hit) const;
+    // The path of the point of a triangle that a ray has met, at shutter open and close; normals on the side of the hit.
+    receiver_motion receiver_of(const hit& seen, float time_of_hit) const;
 
-    // How far along the normal a ray starts: a few roundings of the scene's diagonal.
+    // Distance along the normal at which a ray starts: a few roundings of the scene's diagonal.
     float offset() const;
 
-    // What a camera at rest sees through the centre of each pixel at `samples` times, one in each of as many equal
-    // parts of [0, 1], chosen by the index of the pixel. Parallel over pixels.
+    // What a static camera sees through the centre of each pixel at `samples` times, one in each of as many equal parts
+    // of [0, 1], chosen by the index of the pixel. Parallel over pixels.
     reference_picture photograph(const moving_camera& light, const camera& eye, int width, int height,
                                  int samples) const;
 
