@@ -69,6 +69,14 @@ def code_words(text):
     return Counter(re.findall(r"\b[A-Za-z_]\w*", re.sub(r"//.*", "", text)))
 
 
+def with_includes(text, folder):
+    """A prelude's text with what it shares with others in the places of the includes."""
+    def included(name):
+        return with_includes(parsed(PRELUDE, folder / name[1])["rest"], folder).strip() + "\n"
+
+    return re.sub(r'^#include "(.*)"\n', included, text, flags=re.MULTILINE)
+
+
 def fold(text):
     """The text with each branch on a number that the language fixes replaced by the part that it takes."""
     def taken(found):
@@ -108,7 +116,7 @@ class Prelude:
         file = parsed(PRELUDE, path)
         prelude = Prelude(file["comment"], file["guard"])
         prelude.macros = {name: (None, value) for name, value in SAME.findall((path.parent.parent / "portable.h").read_text())}
-        for block in blocks(file["rest"]):
+        for block in blocks(with_includes(file["rest"], path.parent)):
             code = re.sub(r"^//.*\n", "", block, flags=re.MULTILINE)
             if code.startswith("#if") and "#define GNOMON_" in code:
                 prelude.frame.append(block) # on this word the compiler decides: it stays a macro, for as long as the package

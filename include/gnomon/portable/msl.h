@@ -3,6 +3,8 @@
 #ifndef GNOMON_PORTABLE_MSL_H
 #define GNOMON_PORTABLE_MSL_H
 
+#include "no_templates.h"
+
 #include <metal_stdlib>
 
 #define Real float
@@ -10,19 +12,8 @@
 #define GNOMON_NAMESPACE_END }
 #define GNOMON_KERNEL inline
 #define GNOMON_STRUCT(name) struct name
-#define GNOMON_T(name) name
-#define GNOMON_LIST_KERNEL inline
-#define GNOMON_LIST_STRUCT(name) struct name
-#define GNOMON_LIST_T(name) name
-#define GNOMON_CAPACITY GNOMON_RANGE_CAPACITY
-#define GNOMON_MASK bool
-#define GNOMON_SETTING Real
 #define GNOMON_CONSTANT(name, value) constant constexpr float name = float(value)
-#define GNOMON_LITERAL(name) name
 #define GNOMON_FUSED true
-#define GNOMON_DIGITS 24
-#define GNOMON_SPLITTER gnomon_splitter
-#define GNOMON_PIVOT_FLOOR gnomon_pivot_floor
 
 namespace gnomon {
 

@@ -11,6 +11,8 @@
 #error "gnomon: -cl-fast-relaxed-math voids the treatment of NaN and the exact products; build without it"
 #endif
 
+#include "no_templates.h"
+
 // OpenCL C has no conversion Real(x). A macro with the name of the type supplies it, and is not expanded where
 // no parenthesis follows.
 typedef float Real;
@@ -20,20 +22,9 @@ typedef float Real;
 #define GNOMON_KERNEL static inline
 // clang-format off
 #define GNOMON_STRUCT(name) typedef struct name name; struct name
-#define GNOMON_T(name) name
-#define GNOMON_LIST_KERNEL static inline
-#define GNOMON_LIST_STRUCT(name) typedef struct name name; struct name
 // clang-format on
-#define GNOMON_LIST_T(name) name
-#define GNOMON_CAPACITY GNOMON_RANGE_CAPACITY
-#define GNOMON_MASK bool
-#define GNOMON_SETTING Real
 #define GNOMON_CONSTANT(name, value) __constant float name = (float)(value)
-#define GNOMON_LITERAL(name) name
 #define GNOMON_FUSED true
-#define GNOMON_DIGITS 24
-#define GNOMON_SPLITTER gnomon_splitter
-#define GNOMON_PIVOT_FLOOR gnomon_pivot_floor
 
 __constant float gnomon_splitter = 4097.0f;
 __constant float gnomon_pivot_floor = 9.31322574615478515625e-10f; // 2^-30
