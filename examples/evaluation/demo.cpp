@@ -1,11 +1,10 @@
 // The program behind ./run demo.
-#include "evaluation/core/drivers.hpp"
+#include "evaluation/core/driver.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -13,16 +12,6 @@
 #include <vector>
 
 namespace {
-
-struct driver {
-    const char* name;
-    void (*run)(const gnomon::evaluation::settings&);
-};
-
-constexpr std::array drivers{driver{"hard_shadows", gnomon::evaluation::hard_shadows},
-                             driver{"vulkan_shadows", gnomon::evaluation::vulkan_shadows},
-                             driver{"bounds", gnomon::evaluation::bounds},
-                             driver{"motion_analytic", gnomon::evaluation::motion_analytic}};
 
 // The words of the command line, the last one first, as CLI11 wants them. It takes the next word for the value of
 // "--name=", so that an empty value is given as a word of its own.
@@ -43,16 +32,17 @@ std::vector<std::string> words_of(int argc, char** argv)
 
 int main(int argc, char** argv)
 try {
-    using gnomon::evaluation::settings;
+    using namespace gnomon::evaluation;
     settings how;
     std::vector<std::string> names;
-    std::string model, animation, out = how.out.string();
-    std::array<double, 2> shutter{0, 1. / 24};
+    std::string out = how.out.string(), model;
     bool full = false, tiny = false;
 
     CLI::App app("Renders shadows by every method of Gnomon; with no argument all drivers run.", "gnomon_demo");
+    const std::vector<const driver*> drivers = registry_of<driver>().all();
     std::vector<std::string> known;
-    for (const driver& d : drivers) known.emplace_back(d.name);
+    for (const driver* d : drivers)
+        if (d->of == subject::own) known.push_back(d->id);
     app.add_option("NAME", names, "drivers to run")->check(CLI::IsMember(known));
     app.add_flag("--full", full, "four camera samples per pixel");
     app.add_flag("--tiny", tiny, "a quarter of the size, for tests")->excludes("--full");
@@ -60,12 +50,12 @@ try {
     CLI::Option* still =
         app.add_option("--model", model, "OBJ, PLY, glTF or similar, put on a ground plane and shaded by every method");
     const CLI::Option* moving =
-        app.add_option("--animation", animation,
+        app.add_option("--animation", how.model.animation,
                        "the model in motion, by its animation NAME; '' is the first that it has")
             ->type_name("NAME")
             ->needs(still);
     const CLI::Option* exposed =
-        app.add_option("--shutter", shutter,
+        app.add_option("--shutter", how.model.shutter,
                        "the model in motion, from T0 to T1 seconds after its animation starts; "
                        "a frame of film, 0 to 1/24, where it is not given")
             ->type_name("T0,T1")
@@ -84,10 +74,15 @@ try {
     how.out = out;
     std::filesystem::create_directories(how.out / "gallery");
 
-    if (moving->count() > 0 || exposed->count() > 0) gnomon::evaluation::animated_model(how, model, animation, shutter);
-    else if (still->count() > 0) gnomon::evaluation::model(how, model);
-    for (const driver& d : drivers)
-        if (names.empty() ? still->count() == 0 : std::count(names.begin(), names.end(), d.name) > 0) d.run(how);
+    how.model.file = model;
+    const auto is_asked_for = [&](const driver& d) {
+        const bool in_motion = moving->count() > 0 || exposed->count() > 0, from_file = still->count() > 0;
+        if (d.of == subject::animation) return in_motion;
+        if (d.of == subject::model) return from_file && !in_motion;
+        return names.empty() ? !from_file : std::ranges::count(names, d.id) > 0;
+    };
+    for (const driver* d : drivers)
+        if (is_asked_for(*d)) d->run(how);
     return 0;
 } catch (const std::exception& error) {
     fmt::print(stderr, "demo: {}\n", error.what());

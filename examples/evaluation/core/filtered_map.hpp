@@ -43,10 +43,12 @@ template <class Format> class filtered_map {
         build_mips<Format>(mips);
     }
 
-    auto fetch(const look_up& place) const
+    std::size_t bytes() const { return texels_.size() * sizeof(texel); }
+
+    auto fetch(const map_receiver& where) const
     {
-        return trilinear<Format>({texels_, width_, height_}, place.u * static_cast<float>(width_),
-                                 place.v * static_cast<float>(height_), place.level);
+        return trilinear<Format>({texels_, width_, height_}, where.u * static_cast<float>(width_),
+                                 where.v * static_cast<float>(height_), where.level);
     }
 
   private:

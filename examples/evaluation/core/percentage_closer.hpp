@@ -3,8 +3,8 @@
 // weight per sample. What a filterable map differs from it by is reconstruction error alone.
 #pragma once
 
+#include "depth_map.hpp"
 #include "receivers.hpp"
-#include "renderer/output/image.hpp"
 
 #include <gnomon/filters/percentage_closer.h>
 
@@ -16,8 +16,6 @@
 #include <vector>
 
 namespace gnomon::evaluation {
-
-using depth_map = renderer::image<std::array<float, 4>>;
 
 // Weights of the base level's texels first, first + 1, ... along one axis.
 template <class Real> struct footprint {
@@ -45,20 +43,20 @@ void set_footprint(footprint<Real>& result, float coordinate, int level, int res
     }
 }
 
-// The weighted share of samples that are closer to the light than z_f.
+// The weighted share of samples that are closer to the light than the receiver.
 template <class Real>
-Real percentage_closer_intensity(const depth_map& depths, const look_up& place, float z_f, std::span<const float> taps)
+Real percentage_closer_intensity(const depth_map& depths, const map_receiver& where, std::span<const float> taps)
 {
     thread_local footprint<Real> columns, rows;
     const int coarsest = static_cast<int>(std::log2(depths.width));
-    const double level = std::min(static_cast<double>(place.level), double(coarsest)), fine = std::floor(level);
-    auto state = percentage_closer_begin(Real(z_f));
+    const double level = std::min(static_cast<double>(where.level), double(coarsest)), fine = std::floor(level);
+    auto state = percentage_closer_begin(Real(where.depth));
     for (const int k : {0, 1}) {
         const Real share = Real(0.25 * (k == 0 ? 1 - (level - fine) : level - fine));
         if (!(share > 0)) continue;
         const int l = static_cast<int>(fine) + k;
-        set_footprint(columns, place.u, l, depths.width, taps);
-        set_footprint(rows, place.v, l, depths.height, taps);
+        set_footprint(columns, where.u, l, depths.width, taps);
+        set_footprint(rows, where.v, l, depths.height, taps);
         for (std::size_t j = 0; j < rows.weights.size(); ++j) {
             const auto* samples = &depths(columns.first, rows.first + static_cast<int>(j));
             for (std::size_t i = 0; i < columns.weights.size(); ++i)

@@ -1,6 +1,6 @@
 // After Figure 2 of Peters et al. 2017: one depth distribution, the sharp bounds that its moments set for every
 // receiver, and some of the distributions that touch them.
-#include "evaluation/core/drivers.hpp"
+#include "evaluation/core/driver.hpp"
 #include "renderer/output/file.hpp"
 
 #include <gnomon/filters/variance.h>
@@ -110,8 +110,7 @@ json facts_of(int count, const auto& moments)
     return facts;
 }
 
-} // namespace
-
+// Bounds and representations of one depth distribution from 2, 4 and 6 moments, after the paper's Figure 2.
 void bounds(const settings& how)
 {
     progress("bounds", "one depth distribution, bounds from 2, 4 and 6 moments");
@@ -125,5 +124,9 @@ void bounds(const settings& how)
                        facts_of(6, six_moments{hankel6_from_moments(b)})}}};
     renderer::write_file(how.out / "gallery" / "bounds" / "facts.json", facts.dump(1));
 }
+
+const registered<driver> entry{driver{.id = "bounds", .label = "Bounds from moments", .order = 30, .run = bounds}};
+
+} // namespace
 
 } // namespace gnomon::evaluation

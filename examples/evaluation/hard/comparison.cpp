@@ -1,16 +1,16 @@
 #include "comparison.hpp"
 
+#include "evaluation/core/method.hpp"
 #include "evaluation/core/percentage_closer.hpp"
 #include "evaluation/core/receivers.hpp"
 #include "evaluation/core/report.hpp"
 #include "evaluation/core/timing.hpp"
-#include "evaluation/methods/methods.hpp"
 #include "renderer/output/file.hpp"
 #include "renderer/raster/rasterizer.hpp"
 #include "renderer/shade/shading.hpp"
 #include "renderer/trace/tracer.hpp"
 
-#include <gnomon/simd/xsimd.hpp>
+#include <gnomon/passes/blur.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,9 +19,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -38,82 +38,47 @@ const auto taps = gaussian_weights();
 
 constexpr float error_scale = 0.5f; // visibility at which error colours saturate
 
-// The least time of at least three runs, and of as many as fit into 0.15 s.
-double ns_per_receiver(std::size_t count, auto&& run)
+// Nanoseconds per receiver: the least time of at least three runs, and of as many as fit into 0.15 s.
+double nanoseconds(const timed_run& timed, std::span<float> result)
 {
     double least = std::numeric_limits<double>::infinity(), spent = 0;
     for (int i = 0; i < 3 || spent < 0.15; ++i) {
-        const double time = seconds(run);
+        const double time = seconds([&] { timed.run(result); });
         least = std::min(least, time);
         spent += time;
     }
-    return 1e9 * least / double(std::max<std::size_t>(count, 1));
+    return 1e9 * least / double(std::max<std::size_t>(timed.receivers, 1));
 }
 
 struct timing {
     int lanes;
-    double ns_per_receiver;
+    double ns_kernel, ns_look_up;
 };
 
 struct outcome {
-    std::string method, format;
-    double bytes_per_texel, build_ms;
+    const method& of;
+    double build_ms, map_bytes;
     std::vector<float> visibility, unbiased; // per receiver, and without depth bias
     std::vector<timing> timings;
 };
 
-using pack = xsimd::batch<float>;
-
-// A pack of receivers at a time, as on a GPU. The bits are those of one at a time; what is left over is not timed.
-template <method M>
-double pack_ns_per_receiver(const std::vector<typename M::fetched>& fetched, const std::vector<float>& depths)
+outcome outcome_of(const shadow_method& m, const depth_map& depths, const map_receivers& where)
 {
-    using moments = typename M::template moments_of<pack>;
-    struct group {
-        moments filtered;
-        pack depth;
+    outcome result{m, 0, 0, {}, {}, {}};
+    std::unique_ptr<shadow_map> map;
+    result.build_ms = 1e3 * seconds([&] { map = m.build(depths, taps); });
+    result.map_bytes = double(map->bytes());
+    std::vector<float> intensities(where.size());
+    for (const timed_look_up& t : map->timed(where.biased))
+        result.timings.push_back({t.lanes, nanoseconds(t.kernel, intensities), nanoseconds(t.look_up, intensities)});
+    const auto visibility = [&](std::span<const map_receiver> some) {
+        map->intensities(some, intensities);
+        std::vector<float> visible(intensities.size());
+        std::ranges::transform(intensities, visible.begin(), [](float intensity) { return 1 - intensity; });
+        return visible;
     };
-    std::vector<group> groups(fetched.size() / pack::size);
-    for (std::size_t i = 0; i < groups.size(); ++i) {
-        alignas(pack) std::array<std::array<float, pack::size>, sizeof(moments) / sizeof(pack)> lanes;
-        for (std::size_t lane = 0; lane < pack::size; ++lane) {
-            const auto channels = std::bit_cast<std::array<float, lanes.size()>>(fetched[i * pack::size + lane]);
-            for (std::size_t k = 0; k < lanes.size(); ++k) lanes[k][lane] = channels[k];
-        }
-        groups[i].filtered = std::bit_cast<moments>(lanes);
-        groups[i].depth = pack::load_unaligned(&depths[i * pack::size]);
-    }
-    std::vector<pack> results(groups.size());
-    return ns_per_receiver(groups.size() * pack::size, [&] {
-        for (std::size_t i = 0; i < groups.size(); ++i) results[i] = M::intensity(groups[i].filtered, groups[i].depth);
-    });
-}
-
-template <method M> outcome outcome_of(const depth_map& depths, const receivers& where)
-{
-    outcome result{std::string(M::name), std::string(M::format), double(M::bytes_per_texel), 0, {}, {}, {}};
-    std::optional<typename M::map> map;
-    result.build_ms = 1e3 * seconds([&] { map.emplace(typename M::map{depths, taps}); });
-
-    std::vector<typename M::fetched> fetched(where.size());
-    tbb::parallel_for(std::size_t(0), where.size(),
-                      [&](std::size_t i) { fetched[i] = M::fetch(*map, where.places[i]); });
-
-    result.visibility.resize(where.size());
-    const double ns = ns_per_receiver(where.size(), [&] {
-        for (std::size_t i = 0; i < where.size(); ++i) {
-            result.visibility[i] = 1 - M::intensity(fetched[i], where.depths[i]);
-            asm volatile("" ::: "memory"); // one at a time, whatever the compiler could do with some methods' loops
-        }
-    });
-    result.timings.push_back({1, ns});
-    if constexpr (packable<M>)
-        result.timings.push_back({int(pack::size), pack_ns_per_receiver<M>(fetched, where.depths)});
-
-    result.unbiased.resize(where.size());
-    tbb::parallel_for(std::size_t(0), where.size(), [&](std::size_t i) {
-        result.unbiased[i] = 1 - M::intensity(fetched[i], where.unbiased_depths[i]);
-    });
+    result.visibility = visibility(where.biased);
+    result.unbiased = visibility(where.unbiased);
     return result;
 }
 
@@ -127,14 +92,14 @@ class comparison {
         tracer rays(stage_.world);
         depths_ = rasterize_depth<4>(stage_.world, stage_.light, how.map_resolution, how.map_resolution);
         seen_ = rasterize_surfaces(stage_.world, stage_.eye, columns, rows);
-        where_ = receivers_of(seen_, stage_.light, how.map_resolution);
+        where_ = map_receivers_of(seen_, stage_.light, how.map_resolution);
         const image<float> traced = traced_visibility(rays, stage_.light, seen_);
         for (const std::size_t pixel : where_.pixels) traced_.push_back(traced.pixels[pixel]);
         traced_image_ = image_of(traced_);
 
         progress(name_, "reference: percentage-closer filtering with the same weights");
-        filtered_ = filtered_visibility(where_.depths);
-        filtered_unbiased_ = filtered_visibility(where_.unbiased_depths);
+        filtered_ = filtered_visibility(where_.biased);
+        filtered_unbiased_ = filtered_visibility(where_.unbiased);
         filtered_image_ = image_of(filtered_);
 
         const int gap = 4, magnification = 4;
@@ -171,7 +136,7 @@ class comparison {
             [&] { write_png(folder_ / (file + ".png"), figure(shaded(estimate))); },
             [&] { write_png(folder_ / (file + "-filtered.png"), figure(error(estimate, filtered_image_))); },
             [&] { write_png(folder_ / (file + "-traced.png"), figure(error(estimate, traced_image_))); });
-        facts_["methods"].push_back({{"method", o.method}, {"format", o.format}, {"file", file}});
+        facts_["methods"].push_back({{"method", o.of.label}, {"format", o.of.format.label}, {"file", file}});
         add_rows(o);
     }
 
@@ -182,15 +147,14 @@ class comparison {
     }
 
     const depth_map& depths() const { return depths_; }
-    const receivers& where() const { return where_; }
+    const map_receivers& where() const { return where_; }
 
   private:
-    std::vector<float> filtered_visibility(const std::vector<float>& receiver_depths) const
+    std::vector<float> filtered_visibility(const std::vector<map_receiver>& some) const
     {
         std::vector<float> result(where_.size());
         tbb::parallel_for(std::size_t(0), where_.size(), [&](std::size_t i) {
-            result[i] = 1 - static_cast<float>(percentage_closer_intensity<double>(depths_, where_.places[i],
-                                                                                   receiver_depths[i], taps));
+            result[i] = 1 - static_cast<float>(percentage_closer_intensity<double>(depths_, some[i], taps));
         });
         return result;
     }
@@ -249,17 +213,16 @@ class comparison {
             unbiased.push_back(o.unbiased[i]);
             filtered_unbiased.push_back(filtered_unbiased_[i]);
         }
-        report_row row{.scene = scene,
-                       .method = o.method,
-                       .format = o.format,
-                       .reference = {},
-                       .receivers = static_cast<long long>(estimate.size()),
-                       .bytes_per_texel = o.bytes_per_texel,
-                       .errors = {},
-                       .build_ms = o.build_ms};
+        report_row row = row_of(o.of);
+        row.scene = scene;
+        row.method = o.of.label; // as the gallery reads rows
+        row.receivers = static_cast<long long>(estimate.size());
+        row.map_bytes = o.map_bytes;
+        row.build_ms = o.build_ms;
         for (const timing& t : o.timings) {
             row.lanes = t.lanes;
-            row.ns_per_receiver = t.ns_per_receiver;
+            row.ns_kernel = t.ns_kernel;
+            row.ns_per_receiver = t.ns_look_up;
             row.reference = "filtered";
             row.errors = compare(estimate, filtered);
             row.acne_unbiased = compare(unbiased, filtered_unbiased).acne;
@@ -277,7 +240,7 @@ class comparison {
     std::filesystem::path folder_;
     depth_map depths_;
     image<surface> seen_;
-    receivers where_;
+    map_receivers where_;
     std::vector<float> filtered_, filtered_unbiased_, traced_; // visibility per receiver
     image<float> filtered_image_, traced_image_;
     std::vector<rectangle> insets_;
@@ -290,10 +253,11 @@ class comparison {
 void compare_methods(const std::string& name, const stage& scenery, const settings& how)
 {
     comparison c(name, scenery, how);
-    for_each_method([&]<method M>() {
-        progress(name, M::name);
-        c.add(outcome_of<M>(c.depths(), c.where()));
-    });
+    for (const method* m : methods_in_order())
+        if (const auto* one = dynamic_cast<const shadow_method*>(m)) {
+            progress(name, one->label);
+            c.add(outcome_of(*one, c.depths(), c.where()));
+        }
     c.finish();
 }
 

@@ -1,7 +1,7 @@
 // One stage, shaded with every method and compared with two references.
 #pragma once
 
-#include "evaluation/core/drivers.hpp"
+#include "evaluation/core/driver.hpp"
 #include "renderer/scene/stage.hpp"
 
 #include <string>

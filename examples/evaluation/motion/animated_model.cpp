@@ -1,4 +1,4 @@
-#include "evaluation/core/drivers.hpp"
+#include "evaluation/core/driver.hpp"
 #include "motion_comparison.hpp"
 #include "renderer/import/model.hpp"
 #include "renderer/output/file.hpp"
@@ -6,9 +6,14 @@
 
 #include <string>
 
-void gnomon::evaluation::animated_model(const settings& how, const std::filesystem::path& file,
-                                        std::string_view animation, const std::array<double, 2>& shutter)
+namespace gnomon::evaluation {
+
+namespace {
+
+// A model from a file on a ground plane, from one time of an animation to another, by every kind of shadow map of ranges.
+void animated_model(const settings& how)
 {
+    const auto& [file, animation, shutter] = how.model;
     const motion_sizes size = motion_sizes_of(how);
     const std::filesystem::path folder = how.out / "gallery" / "animated_model";
     const renderer::moving_stage scenery = renderer::animated_model_stage(
@@ -20,5 +25,15 @@ void gnomon::evaluation::animated_model(const settings& how, const std::filesyst
     facts["shutter"] = shutter;
     facts["scenes"].push_back(found.facts);
     renderer::write_file(folder / "facts.json", facts.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
-    renderer::merge_report(how.out / "report.json", found.rows);
+    merge_report(how.out / "report.json", found.rows);
 }
+
+const registered<driver> entry{driver{.id = "animated_model",
+                                      .label = "A model in motion",
+                                      .order = 80,
+                                      .run = animated_model,
+                                      .of = subject::animation}};
+
+} // namespace
+
+} // namespace gnomon::evaluation

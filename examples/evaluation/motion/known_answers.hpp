@@ -7,6 +7,6 @@ namespace gnomon::evaluation {
 
 // A row each with reference "closed-form": the trapezoid at receivers that project to texel centres, and the lit ramp
 // at all that a camera sees.
-std::vector<renderer::report_row> known_answers(const motion_sizes& size);
+std::vector<report_row> known_answers(const motion_sizes& size);
 
 } // namespace gnomon::evaluation

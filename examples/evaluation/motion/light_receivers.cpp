@@ -1,6 +1,6 @@
 #include "light_receivers.hpp"
 
-#include "evaluation/core/receivers.hpp"
+#include "renderer/shade/receivers.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>

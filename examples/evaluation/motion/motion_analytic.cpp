@@ -13,7 +13,7 @@
 #endif
 
 #include "cube_curves.hpp"
-#include "evaluation/core/drivers.hpp"
+#include "evaluation/core/driver.hpp"
 #include "known_answers.hpp"
 #include "mesh_costs.hpp"
 #include "motion_comparison.hpp"
@@ -65,7 +65,7 @@ class parts {
 motion_results answers(const motion_sizes& size)
 {
     motion_results result{nlohmann::json::array(), known_answers(size)};
-    for (const renderer::report_row& row : result.rows)
+    for (const report_row& row : result.rows)
         result.facts.push_back({{"scene", row.scene},
                                 {"method", row.method},
                                 {"receivers", row.receivers},
@@ -88,11 +88,7 @@ void keep_memory()
 #endif
 }
 
-} // namespace
-
-} // namespace gnomon::evaluation
-
-void gnomon::evaluation::motion_analytic(const settings& how)
+void motion_analytic(const settings& how)
 {
     keep_memory();
     const motion_sizes size = motion_sizes_of(how);
@@ -138,7 +134,7 @@ void gnomon::evaluation::motion_analytic(const settings& how)
         });
     facts["memory"] = {
         {"resolution", size.map_resolution}, {"longest", longest_way}, {"rows", nlohmann::json::array()}};
-    std::vector<renderer::report_row> rows;
+    std::vector<report_row> rows;
     facts["parts_at_once"] = parts_at_once(size);
     const std::vector<motion_results> found = all.run(parts_at_once(size));
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -150,5 +146,12 @@ void gnomon::evaluation::motion_analytic(const settings& how)
         rows.insert(rows.end(), found[i].rows.begin(), found[i].rows.end());
     }
     renderer::write_file(folder / "facts.json", facts.dump(1));
-    renderer::merge_report(how.out / "report.json", rows);
+    merge_report(how.out / "report.json", rows);
 }
+
+const registered<driver> entry{
+    driver{.id = "motion_analytic", .label = "Shadows in motion", .order = 60, .run = motion_analytic}};
+
+} // namespace
+
+} // namespace gnomon::evaluation

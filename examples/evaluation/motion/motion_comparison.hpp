@@ -1,7 +1,7 @@
 // One moving stage by every method, beside the mean of ray tracing at many times.
 #pragma once
 
-#include "evaluation/core/drivers.hpp"
+#include "evaluation/core/driver.hpp"
 #include "evaluation/core/report.hpp"
 #include "renderer/scene/moving_scene.hpp"
 
@@ -26,7 +26,7 @@ motion_sizes motion_sizes_of(const settings& how);
 
 struct motion_results {
     nlohmann::ordered_json facts; // of the scene, for the gallery
-    std::vector<renderer::report_row> rows;
+    std::vector<report_row> rows;
 };
 
 // Leaves pictures in the folder.

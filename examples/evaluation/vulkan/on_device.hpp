@@ -2,46 +2,48 @@
 // format comes from the library's type of it.
 #pragma once
 
-#include "evaluation/methods/methods.hpp"
+#include "evaluation/core/method.hpp"
 #include "evaluation/vulkan/shaders/method_id.h"
 #include "renderer.hpp"
 
+#include <gnomon/storage/filters_formats.hpp>
+
 #include <array>
 #include <bit>
-#include <tuple>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace gnomon::evaluation {
 
-template <method M> extern const device_method on_device;
-
-template <>
-inline const device_method on_device<vsm_32>{
-    VSM_32, {vk::Format::eR16G16Unorm}, {variance_unorm16::settings<float>().minimum_variance}};
-template <>
-inline const device_method on_device<evsm_64>{
-    EVSM_64,
-    {vk::Format::eR16G16B16A16Sfloat},
-    std::bit_cast<std::array<float, 3>>(exponential_variance_half::settings<float>())};
-template <>
-inline const device_method on_device<evsm_128>{
-    EVSM_128,
-    {vk::Format::eR32G32B32A32Sfloat},
-    std::bit_cast<std::array<float, 3>>(exponential_variance_float::settings<float>())};
-template <> inline const device_method on_device<msm_64>{MSM_64, {vk::Format::eR16G16B16A16Unorm}};
-template <> inline const device_method on_device<msm_128>{MSM_128, {vk::Format::eR32G32B32A32Sfloat}};
-template <>
-inline const device_method on_device<msm6_60>{
-    MSM6_60, {vk::Format::eA2B10G10R10UnormPack32, vk::Format::eA2B10G10R10UnormPack32}};
-template <>
-inline const device_method on_device<msm6_96>{MSM6_96, {vk::Format::eR16G16B16A16Unorm, vk::Format::eR16G16Unorm}};
-template <>
-inline const device_method on_device<msm6_192>{MSM6_192, {vk::Format::eR32G32B32A32Sfloat, vk::Format::eR32G32Sfloat}};
-
-// Calls each.template operator()<M>() for every one of them.
-template <class Each> void for_each_device_method(Each each)
+// The methods of the registry that have a device form.
+inline std::vector<const filterable_method*> device_methods()
 {
-    [&]<method... M>(std::tuple<M...>*) { (each.template operator()<M>(), ...); }
-    (static_cast<std::tuple<vsm_32, evsm_64, evsm_128, msm_64, msm_128, msm6_60, msm6_96, msm6_192>*>(nullptr));
+    std::vector<const filterable_method*> result;
+    for (const method* m : methods_in_order())
+        if (const auto* one = dynamic_cast<const filterable_method*>(m); one && one->device) result.push_back(one);
+    return result;
+}
+
+inline const device_method& on_device(const filterable_method& m)
+{
+    using format = vk::Format;
+    static const std::map<std::string, device_method> known{
+        {"vsm_unorm16", {VSM_32, {format::eR16G16Unorm}, {variance_unorm16::settings<float>().minimum_variance}}},
+        {"evsm_half",
+         {EVSM_64,
+          {format::eR16G16B16A16Sfloat},
+          std::bit_cast<std::array<float, 3>>(exponential_variance_half::settings<float>())}},
+        {"evsm_float",
+         {EVSM_128,
+          {format::eR32G32B32A32Sfloat},
+          std::bit_cast<std::array<float, 3>>(exponential_variance_float::settings<float>())}},
+        {"msm4_unorm16", {MSM_64, {format::eR16G16B16A16Unorm}}},
+        {"msm4_float", {MSM_128, {format::eR32G32B32A32Sfloat}}},
+        {"msm6_unorm10", {MSM6_60, {format::eA2B10G10R10UnormPack32, format::eA2B10G10R10UnormPack32}}},
+        {"msm6_unorm16", {MSM6_96, {format::eR16G16B16A16Unorm, format::eR16G16Unorm}}},
+        {"msm6_float", {MSM6_192, {format::eR32G32B32A32Sfloat, format::eR32G32Sfloat}}}};
+    return known.at(m.id);
 }
 
 } // namespace gnomon::evaluation

@@ -1,6 +1,6 @@
 #include "renderer.hpp"
 
-#include "evaluation/core/receivers.hpp"
+#include "renderer/shade/receivers.hpp"
 #include "renderer/shade/shading.hpp"
 #include "renderer/vulkan/scene.hpp"
 #include "spirv.hpp"

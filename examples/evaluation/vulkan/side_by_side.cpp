@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -38,10 +39,21 @@ device_comparison::device_comparison(const vulkan::device& gpu, const stage& sce
       depths_(rasterize_depth<4>(scenery.world, scenery.light, how.map_resolution, how.map_resolution)),
       seen_(rasterize_surfaces(scenery.world, scenery.eye, how.width * how.supersampling,
                                how.height * how.supersampling)),
-      where_(receivers_of(seen_, scenery.light, how.map_resolution)),
+      where_(map_receivers_of(seen_, scenery.light, how.map_resolution)),
       renderer_(gpu, scenery, {std::uint32_t(seen_.width), std::uint32_t(seen_.height)}, how.map_resolution, taps_,
                 how.hlsl ? shading_language::hlsl : shading_language::glsl)
 {}
+
+side_by_side device_comparison::render(const filterable_method& m) const
+{
+    const std::unique_ptr<shadow_map> map = m.build(depths_, taps_);
+    side_by_side result{{seen_.width, seen_.height, 1}, renderer_.render(on_device(m)), {}};
+    std::vector<float> intensities(where_.size());
+    map->intensities(where_.biased, intensities);
+    for (std::size_t i = 0; i < where_.size(); ++i) result.host.pixels[where_.pixels[i]] = 1 - intensities[i];
+    result.difference = difference(result.device.visibility, result.host);
+    return result;
+}
 
 difference_statistics device_comparison::difference(const image<float>& device, const image<float>& host) const
 {

@@ -10,13 +10,11 @@
 // or of a shadow.
 #pragma once
 
-#include "evaluation/core/drivers.hpp"
+#include "evaluation/core/driver.hpp"
 #include "evaluation/core/report.hpp"
 #include "on_device.hpp"
 
 #include <gnomon/passes/blur.hpp>
-
-#include <tbb/parallel_for.h>
 
 #include <cstddef>
 #include <vector>
@@ -25,7 +23,7 @@ namespace gnomon::evaluation {
 
 // Of the device's visibilities against the CPU's.
 struct difference_statistics {
-    renderer::error_statistics errors;
+    error_statistics errors;
     double median, p99, p999;     // of the absolute difference
     double beyond, beyond_inside; // shares of receivers beyond the tolerance: of all, and away from edges
 };
@@ -40,31 +38,21 @@ class device_comparison {
   public:
     device_comparison(const renderer::vulkan::device& gpu, const renderer::stage& scenery, const settings& how);
 
-    template <method M> bool possible() const { return renderer_.supports(on_device<M>); }
-
-    template <method M> side_by_side render() const
-    {
-        const typename M::map map{depths_, taps_};
-        side_by_side result{{seen_.width, seen_.height, 1}, renderer_.render(on_device<M>), {}};
-        tbb::parallel_for(std::size_t(0), where_.size(), [&](std::size_t i) {
-            result.host.pixels[where_.pixels[i]] = 1 - M::intensity(M::fetch(map, where_.places[i]), where_.depths[i]);
-        });
-        result.difference = difference(result.device.visibility, result.host);
-        return result;
-    }
+    bool possible(const filterable_method& m) const { return renderer_.supports(on_device(m)); }
+    side_by_side render(const filterable_method& m) const;
 
     difference_statistics difference(const renderer::image<float>& device, const renderer::image<float>& host) const;
 
     float tolerance() const { return tolerance_; }
     const renderer::image<renderer::surface>& seen() const { return seen_; }
-    const receivers& where() const { return where_; }
+    const map_receivers& where() const { return where_; }
 
   private:
     std::array<float, 9> taps_ = gaussian_weights();
     float tolerance_;
     depth_map depths_;
     renderer::image<renderer::surface> seen_;
-    receivers where_;
+    map_receivers where_;
     shadow_renderer renderer_;
 };
 

@@ -20,17 +20,16 @@ constexpr const char* driver_name = "vulkan_shadows";
 constexpr float error_scale = 0.05f; // visibility at which error colours saturate
 
 // What the CPU builds of a map is resolve, blur and mip levels too.
-template <method M>
-report_row row_of(const std::string& scene, const std::string& device, const side_by_side& both, std::size_t receivers)
+report_row row_of(const filterable_method& m, const std::string& scene, const std::string& device,
+                  const side_by_side& both, std::size_t receivers)
 {
-    report_row row{.scene = scene,
-                   .method = std::string(M::name),
-                   .format = std::string(M::format),
-                   .reference = "cpu",
-                   .receivers = static_cast<long long>(receivers),
-                   .bytes_per_texel = double(M::bytes_per_texel),
-                   .errors = both.difference.errors,
-                   .device = device};
+    report_row row = evaluation::row_of(m);
+    row.scene = scene;
+    row.method = m.label; // as the gallery reads rows
+    row.reference = "cpu";
+    row.receivers = static_cast<long long>(receivers);
+    row.errors = both.difference.errors;
+    row.device = device;
     for (const device_pass& pass : both.device.passes) {
         row.passes.emplace_back(pass.name, pass.milliseconds);
         if (pass.name == "lighting") row.ns_per_receiver = 1e6 * pass.milliseconds / double(receivers);
@@ -56,11 +55,13 @@ void compare_on(const vulkan::device& gpu, const settings& how)
                                  {"error_scale", error_scale},
                                  {"methods", nlohmann::json::array()}};
     std::vector<report_row> rows;
-    for_each_device_method([&]<method M>() {
-        if (!comparison.possible<M>())
-            return progress(driver_name, fmt::format("{}: skipped, the device lacks its format", M::name));
-        progress(driver_name, M::name);
-        const side_by_side both = comparison.render<M>();
+    for (const filterable_method* m : device_methods()) {
+        if (!comparison.possible(*m)) {
+            progress(driver_name, fmt::format("{}: skipped, the device lacks its format", m->label));
+            continue;
+        }
+        progress(driver_name, m->label);
+        const side_by_side both = comparison.render(*m);
         const std::string file = fmt::format("method{:02}", rows.size());
         const auto write = [&](const char* kind, const picture& whole) {
             write_png(folder / (file + kind + ".png"), reduced(whole, how.supersampling));
@@ -71,10 +72,10 @@ void compare_on(const vulkan::device& gpu, const settings& how)
             [&] { write("-difference", error_picture(both.device.visibility, both.host, error_scale)); });
 
         std::vector<std::string> images;
-        for (const vk::Format format : on_device<M>.images) images.push_back(vk::to_string(format));
+        for (const vk::Format format : on_device(*m).images) images.push_back(vk::to_string(format));
         const difference_statistics& d = both.difference;
-        facts["methods"].push_back({{"method", M::name},
-                                    {"format", M::format},
+        facts["methods"].push_back({{"method", m->label},
+                                    {"format", m->format.label},
                                     {"images", images},
                                     {"file", file},
                                     {"mean", d.errors.mean_abs},
@@ -87,14 +88,13 @@ void compare_on(const vulkan::device& gpu, const settings& how)
                                     {"passes", nlohmann::ordered_json::object()}});
         for (const device_pass& pass : both.device.passes)
             facts["methods"].back()["passes"][pass.name] = pass.milliseconds;
-        rows.push_back(row_of<M>(scenery.world.name, gpu.name(), both, comparison.where().size()));
-    });
+        rows.push_back(row_of(*m, scenery.world.name, gpu.name(), both, comparison.where().size()));
+    }
     write_file(folder / "facts.json", facts.dump(1));
     merge_report(how.out / "report.json", rows);
 }
 
-} // namespace
-
+// The scene of hard_shadows by shaders on a Vulkan device, compared with the same methods on the CPU.
 void vulkan_shadows(const settings& how)
 {
     std::optional<vulkan::device> gpu;
@@ -105,5 +105,10 @@ void vulkan_shadows(const settings& how)
     }
     compare_on(*gpu, how);
 }
+
+const registered<driver> entry{
+    driver{.id = "vulkan_shadows", .label = "The same shadows on Vulkan", .order = 20, .run = vulkan_shadows}};
+
+} // namespace
 
 } // namespace gnomon::evaluation

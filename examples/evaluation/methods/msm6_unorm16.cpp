@@ -1,0 +1,17 @@
+// Moment shadow maps of six moments in 96 bits.
+#include "filterable.hpp"
+
+#include <gnomon/storage/moments_formats.hpp>
+
+namespace gnomon::evaluation {
+
+namespace {
+
+const registered<filterable<moments6_unorm16>> entry{
+    method_facts{.id = "msm6_unorm16", .family = "msm6", .label = "MSM6 96 bit", .order = 20},
+    device_form{
+        {"R16G16B16A16Unorm", "R16G16Unorm"}, "moments6_unorm16_encode", "moments6_unorm16_filtered_intensity"}};
+
+} // namespace
+
+} // namespace gnomon::evaluation
