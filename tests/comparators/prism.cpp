@@ -1,5 +1,5 @@
-// Prisms piece by piece: crossings and closed surfaces on a lattice, where arithmetic is exact, fragments against
-// extended precision, pairs by the rules, hostile input.
+// Prisms part by part: crossings and closed surfaces on a lattice, where arithmetic is exact; fragments against
+// extended precision; pairs by the rules of the paper; hostile input.
 #include "motion/triangle/coverage_check.hpp"
 #include "support/effort.hpp"
 #include "support/moving_triangles.hpp"
@@ -25,19 +25,19 @@ moving_vertex<double> lattice_vertex(bit_source& bits, std::size_t size)
     return {any(), any(), 0.25, 1, any(), any(), -0.5, 1};
 }
 
-/// A point between two, in extended precision.
+/// The point at a fraction of the way between two, in extended precision.
 exact between(double a, double b, exact s) { return exact(a) + s * (exact(b) - exact(a)); }
 
 } // namespace
 
-TEST_CASE("an edge crosses itself where both of its places do")
+TEST_CASE("a side has a crossing if and only if the edge at open crosses the edge at close")
 {
     bit_source bits(1);
     std::int64_t crossings = 0;
     for (std::int64_t i = 0; i < effort(100'000); ++i) {
         const auto a = lattice_vertex(bits, 8), b = lattice_vertex(bits, 8);
         const prism_side<double> side = prism_side_make(a, b, 1.0), swapped = prism_side_make(b, a, 1.0);
-        // Each edge's ends on different sides of the other, by whole numbers.
+        // The ends of each edge are on different sides of the other, in whole numbers.
         const auto turn = [](double px, double py, double qx, double qy, double rx, double ry) {
             return (qx - px) * (ry - py) - (qy - py) * (rx - px);
         };
@@ -68,7 +68,7 @@ TEST_CASE("an edge crosses itself where both of its places do")
     CHECK(20 * crossings > effort(100'000));
 }
 
-TEST_CASE("a crossing has the mean depth of what crosses")
+TEST_CASE("a crossing has the mean depth of the edges that cross")
 {
     // From (-1, 0) to (1, 0) at open, depth -1 to 0 along it; from (0.5, -3) to (0.5, 1) at close, depth 0 to 1.
     const moving_vertex<double> a{-1, 0, -1, 1, 0.5, -3, 0, 1}, b{1, 0, 0, 1, 0.5, 1, 1, 1};
@@ -80,9 +80,9 @@ TEST_CASE("a crossing has the mean depth of what crosses")
     CHECK(side.centre.inverse_w == 1);
 }
 
-TEST_CASE("a crossing in perspective: as deep as the edges are there in space, with the mean 1 / w")
+TEST_CASE("a crossing in perspective has the mean depth of the edges in space and the mean 1 / w")
 {
-    // Distances 1 to 4 and 2 to 4; on the screen as above. In space the edges are 3/7 and 3/5 of the way there.
+    // Distances 1 to 4 and 2 to 4; on the screen as above. In space the crossing is at 3/7 and 3/5 of the edges.
     const moving_vertex<double> a{-1, 0, -1, 1, 1, -6, 0, 2}, b{4, 0, 0, 4, 2, 4, 1, 4};
     const prism_side<double> linear = prism_side_make(a, b, 0.0), divided = prism_side_make(a, b, 1.0);
     for (const auto& side : {linear, divided}) {
@@ -91,13 +91,13 @@ TEST_CASE("a crossing in perspective: as deep as the edges are there in space, w
         CHECK(side.centre.y == 0);
         CHECK(side.centre.inverse_w == ((0.25 * 1 + 0.75 * 0.25) + (0.25 * 0.5 + 0.75 * 0.25)) / 2);
     }
-    // At open weights 1/4 : 3/16, at close 1/8 : 3/16.
+    // Weights 1/4 : 3/16 at open, 1/8 : 3/16 at close.
     CHECK(linear.centre.z == doctest::Approx((-4 / 7.0 + 3 / 5.0) / 2).epsilon(1e-15));
     CHECK(divided.centre.z == (-0.25 + 0.75 * 0.25) / 2);
 }
 
-// Whole and quarter numbers: every edge function is exact.
-TEST_CASE("a closed surface has an even number of fragments, on its edges and vertices too")
+// Coordinates are multiples of 1/4, so every edge function is exact.
+TEST_CASE("a closed surface has an even number of fragments, also on its edges and vertices")
 {
     bit_source bits(2);
     std::array<std::int64_t, 15> counts{};
@@ -117,7 +117,7 @@ TEST_CASE("a closed surface has an even number of fragments, on its edges and ve
     CHECK(on_edge > 0);
 }
 
-TEST_CASE("triangles of a prism: its corners in turn, two a side where it crosses")
+TEST_CASE("the triangles of a prism have its corners in turn, and two of a side with a crossing are points")
 {
     bit_source bits(3);
     for (std::int64_t i = 0; i < effort(20'000); ++i) {
@@ -150,8 +150,8 @@ TEST_CASE("triangles of a prism: its corners in turn, two a side where it crosse
     }
 }
 
-// The bounds that prism_fragment_at states.
-TEST_CASE_TEMPLATE("fragments: time and depth are those of the plane in space, whatever the winding", T, float, double)
+// The errors are those that prism_fragment_at states.
+TEST_CASE_TEMPLATE("fragments have the time and depth of the plane in space, for either winding", T, float, double)
 {
     bit_source bits(4);
     std::int64_t covered = 0, asked = 0;
@@ -181,7 +181,7 @@ TEST_CASE_TEMPLATE("fragments: time and depth are those of the plane in space, w
         if (front || back) REQUIRE(f.covered == 1);
         if (least < -tolerance && most > tolerance) REQUIRE(f.covered == 0);
         if (f.covered == 0) continue;
-        // Rounding alone may put the sample inside; then it is within the tolerance of the triangle.
+        // If only rounding puts the sample inside, the sample is within the tolerance of the triangle.
         const auto require_mean = [&](T found, T prism_vertex<T>::*of, bool weighted, exact least_value, exact unit) {
             exact mean = 0, weight = 0, most_weight = 0;
             for (const std::size_t k : {0u, 1u, 2u}) {
@@ -196,7 +196,7 @@ TEST_CASE_TEMPLATE("fragments: time and depth are those of the plane in space, w
         require_mean(f.time, &prism_vertex<T>::t, true, 0, 1);
         require_mean(f.depth, &prism_vertex<T>::z, divided == 0, -1, largest);
         if (p[0].t == p[1].t && p[1].t == p[2].t) REQUIRE(f.time == p[0].t);
-        // The other winding is the same, and a neighbour across an edge has the sample on its other side.
+        // The other winding covers the sample as well, and a neighbour across an edge has the sample on the other side.
         REQUIRE(prism_fragment_at(prism_triangle<T>{v.b, v.a, v.c}, seen.s_x, seen.s_y, divided).covered == 1);
         const T side = prism_edge_side(v.a, v.b, prism_edge(v.a, v.b, seen.s_x, seen.s_y));
         REQUIRE(prism_edge_side(v.b, v.a, prism_edge(v.b, v.a, seen.s_x, seen.s_y)) == -side);
@@ -204,8 +204,7 @@ TEST_CASE_TEMPLATE("fragments: time and depth are those of the plane in space, w
     CHECK(2 * covered > asked);
 }
 
-TEST_CASE_TEMPLATE("pairs: two, four by depth, and the numbers that the paper is silent on, in any order", T, float,
-                   double)
+TEST_CASE_TEMPLATE("pairs form ranges by the rules, for any number of fragments in any order", T, float, double)
 {
     using fragments = std::vector<prism_fragment<T>>;
     const auto paired = [](fragments list) {
@@ -246,14 +245,14 @@ TEST_CASE_TEMPLATE("pairs: two, four by depth, and the numbers that the paper is
     }
 }
 
-TEST_CASE("what a map of prisms takes")
+TEST_CASE("a map of prisms has the size of Hong and Oh's Equation 2")
 {
     CHECK(prism_map_bytes(2.0, 0.0, 0.0) == 32);
     CHECK(prism_map_bytes(0.0, 2.0, 0.0) == 48);
     CHECK(prism_map_bytes(3.0, 1.0, 1024.0 * 768) == 3 * 16 + 24 + 2 * 1024 * 768 * 4);
 }
 
-TEST_CASE_TEMPLATE("anything in: fragments and ranges within their limits", T, float, double)
+TEST_CASE_TEMPLATE("for any input, fragments and ranges are within their limits", T, float, double)
 {
     hostile_source<T> hostile(8);
     bit_source bits(9);

@@ -1,4 +1,4 @@
-// Ranges of prisms against exact coverage: equal for translations, and how wrong for each kind of motion, as a table.
+// Ranges of prisms against exact coverage: equal for translations; for other motions a table of their errors.
 #include "motion/triangle/coverage_check.hpp"
 #include "support/effort.hpp"
 #include "support/moving_triangles.hpp"
@@ -18,7 +18,7 @@ using namespace gnomon::test;
 
 namespace {
 
-/// The time during which just one of two says that the triangle is there.
+/// The time during which the triangle is present by exactly one of exact coverage and ranges.
 double disagreement(const coverage_intervals<double>& front, const coverage_intervals<double>& back,
                     const prism_ranges<double>& ranges)
 {
@@ -45,7 +45,7 @@ double disagreement(const coverage_intervals<double>& front, const coverage_inte
 
 enum class motion { translation, scaling, turned30, turned90, free, along_z, shifted };
 
-/// The sample is anywhere within the bounds of the motion.
+/// A random motion, with a sample anywhere within its bounds.
 moving_scene draw_motion(motion how, bit_source& bits)
 {
     std::array<detail::point, 3> q, r;
@@ -118,9 +118,9 @@ shares measure(motion how, std::int64_t count)
 
 } // namespace
 
-// Sides are planes and the time is affine on them: equal but for what slivers make of rounding. Depth at a sample is
-// linear in time where it is linear in view distance; z / w is right at the ends.
-TEST_CASE("translations, in perspective, too: the ranges are the exact ones, with their depths")
+// The sides are planes and time is affine on them, so the ranges differ only by the rounding of slivers. Depth at a
+// sample is linear in time if it is linear in view distance; z / w is right at the ends.
+TEST_CASE("for translations, also in perspective, prisms give the exact ranges and depths")
 {
     for (const motion how : {motion::translation, motion::shifted}) {
         bit_source bits(6);
@@ -152,8 +152,8 @@ TEST_CASE("translations, in perspective, too: the ranges are the exact ones, wit
     }
 }
 
-// Of all triangles, less than half of which the sample sees at all.
-TEST_CASE("how wrong prisms are, by motion")
+// Shares of all triangles, less than half of which cover the sample at any time.
+TEST_CASE("prisms are exact for motions with plane sides, and wrong for over 5% of rotations and deformations")
 {
     const std::array<std::string, 7> names{
         "translation",           "scaling by 2",           "rotation by 30 degrees",    "rotation by 90 degrees",
@@ -166,7 +166,7 @@ TEST_CASE("how wrong prisms are, by motion")
         const auto percent = [](std::int64_t part, std::int64_t whole) {
             return std::to_string(100 * double(part) / double(whole)) + "%";
         };
-        MESSAGE(names[k] << ": wrong by more than 5% of the shutter " << percent(s.wrong, count) << ", at most by "
+        MESSAGE(names[k] << ": wrong for more than 5% of the shutter: " << percent(s.wrong, count) << ", at most by "
                          << s.worst << "; two ranges " << percent(s.two, count)
                          << "; fragments of which there are not two or four " << percent(s.unpaired, s.fragments));
         CHECK(10'000 * s.odd <= count); // the surface is closed

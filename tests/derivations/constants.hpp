@@ -1,4 +1,4 @@
-// What the library stores, derived: the sparse quantization transforms, the bias vectors and the bias weights.
+// The constants of the library, derived: sparse quantization transforms, bias vectors and bias weights.
 #pragma once
 
 #include "bias.hpp"
@@ -9,57 +9,61 @@
 
 namespace gnomon::derivation {
 
-/// Moments b_0 to b_m of depths in [0, 1] to those of depths in [-1, 1]: z -> 2 z - 1 in equation (2).
-Matrix<Real> signed_depth(int m);
+/// The matrix that maps moments b_0 to b_m of depths in [0, 1] to those of depths in [-1, 1] (Peters et al. 2017, Eq. 2
+/// with 2 z - 1).
+small_matrix<wide_real> signed_depth(int m);
 
-/// Theta4* (equation 3), b1 and b3 apart from b2 and b4. The last row may be any mean of b2 and b4: all have this
-/// determinant, and the paper's is the symmetric one.
-Transform<Decimal50> odd4();
-Transform<Decimal50> even4();
+/// The odd and the even part of Theta4* (Eq. 3). The last row may be any mean of b2 and b4 without a change of the
+/// determinant; the paper's row is the symmetric one.
+affine_transform<decimal50> odd4();
+affine_transform<decimal50> even4();
 
-/// The parts of Theta6*. The odd one is half the Chebyshev polynomial T5 and two rows without a short closed form, to
-/// 20 digits. The even one, in s = 2 z^2 - 1, is the square beside the odd part of Theta4*, hence closed.
-Transform<Decimal50> odd6();
-Transform<Decimal50> even6();
+/// The odd and the even part of Theta6*. The odd part has half the Chebyshev polynomial T5 and two rows without a
+/// short closed form, to 20 digits. The even part, in s = 2 z^2 - 1, is the square beside the odd part of Theta4*
+/// and hence closed.
+affine_transform<decimal50> odd6();
+affine_transform<decimal50> even6();
 
-/// The parts of Theta6* as printed in section 5.4.3, transposed as they are meant.
-Transform<Decimal50> printed_odd6();
-Transform<Decimal50> printed_even6();
+/// The parts of Theta6* as printed in Sec. 5.4.3, with the transposes that the paper intends.
+affine_transform<decimal50> printed_odd6();
+affine_transform<decimal50> printed_even6();
 
 /// The whole transform of b_1 to b_m from its odd and its even part, in the paper's order of rows: alternating for
 /// m = 4, the odd part first for m = 6.
-Transform<Decimal50> join(const Transform<Decimal50>& odd, const Transform<Decimal50>& even);
+affine_transform<decimal50> join(const affine_transform<decimal50>& odd, const affine_transform<decimal50>& even);
 
-/// With the entries rounded to double, as the library stores them.
-Transform<Decimal50> rounded(const Transform<Decimal50>& transform);
+/// The transform with its entries rounded to double, as the library stores them.
+affine_transform<decimal50> rounded(const affine_transform<decimal50>& transform);
 
 /// The largest entry of M^-1 M - 1, both matrices rounded to double.
-double inverse_residual(const Transform<Decimal50>& transform);
+double inverse_residual(const affine_transform<decimal50>& transform);
 
 /// A bias vector b_1 to b_m with its distances to the boundary of conv b(R) in stored space.
-struct BiasVector {
-    Vector<double> moments;
+struct bias_vector {
+    small_vector<double> moments;
     double maximum_norm, euclidean;
 };
 
-struct BiasVectors {
+/// The bias vectors for one way to store moments.
+struct bias_vector_set {
     std::string stored;
-    Matrix<Real> transform;
-    BiasVector printed, farthest_euclidean, farthest;
+    small_matrix<wide_real> transform;
+    bias_vector printed, farthest_euclidean, farthest;
 };
 
 /// For b1..b4, Theta4*, b1..b6 and Theta6*.
-std::vector<BiasVectors> bias_vectors();
+std::vector<bias_vector_set> bias_vectors();
 
-/// A storage format: the most that one rounding of a stored vector moves a channel, the stored space's distances, and
-/// the bias weight of the paper (0 where it has none).
-struct Format {
+/// A storage format: the largest error of a channel by one rounding, the distances in stored space, and the bias weight
+/// of the paper, or 0 if the paper has none.
+struct storage_format {
     std::string name;
     double rounding, distance_printed, distance, paper_weight;
 
     [[nodiscard]] double weight() const { return rounding / distance; }
 };
 
-std::vector<Format> formats(const std::vector<BiasVectors>& vectors);
+/// The formats of the library, with distances from the bias vectors.
+std::vector<storage_format> formats(const std::vector<bias_vector_set>& vectors);
 
 } // namespace gnomon::derivation

@@ -1,6 +1,6 @@
-// Prints the coefficients in numerics/{exp,log,trigonometry}.h: minimax polynomials by the Remez exchange in 100
-// digits. Each line is a kernel polynomial p in x that minimises max |w(x) (f(x) - p(x))|, w making that the relative
-// error.
+// Prints the coefficients of numerics/exp.h and numerics/trigonometry.h: minimax polynomials by the Remez
+// exchange in 100 digits. Each polynomial p in x minimises max |w(x) (f(x) - p(x))|, where the weight w makes
+// that the relative error.
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include <cstdio>
@@ -12,7 +12,7 @@ using function = std::function<number(number)>;
 
 namespace {
 
-// Gaussian elimination with row pivoting; the last column is the right side.
+// The solution of a linear system by Gaussian elimination with row pivoting. The last column is the right side.
 std::vector<number> solve(std::vector<std::vector<number>> rows)
 {
     const std::size_t n = rows.size();
@@ -82,14 +82,14 @@ int main()
 {
     const number pi = boost::math::constants::pi<number>();
     const number tiny("1e-30");
-    // Not symmetric: no node may fall on 0, where the weight vanishes.
+    // The interval is not symmetric, so that no node is 0, where the weight vanishes.
     for (const std::size_t n : {5u, 10u}) {
         print_minimax(
             "exp x = 1 + x + x^2 p(x)", n, number("-0.347"), number("0.348"),
             [](number x) { return number((exp(x) - 1 - x) / (x * x)); },
             [](number x) { return number(x * x * exp(-x)); });
     }
-    // Odd and even functions: p in x = y^2, from a hair above 0.
+    // For odd and even functions p is a polynomial in x = y^2, from slightly above 0.
     for (const std::size_t n : {3u, 7u}) {
         const number y = (sqrt(number(2)) - 1) / (sqrt(number(2)) + 1);
         print_minimax(

@@ -15,18 +15,19 @@ template <typename Scalar> Scalar power(const Scalar& base, int exponent)
     return result;
 }
 
-/// 1 and the monomials of a depth: what a row is multiplied with.
-template <typename Scalar> Vector<Scalar> monomials(const Exponents& exponents, const Scalar& z)
+/// The vector of 1 and the monomials of a depth, whose product with a row is the value of the row.
+template <typename Scalar> small_vector<Scalar> monomials(const exponent_list& exponents, const Scalar& z)
 {
-    Vector<Scalar> values(1 + std::ssize(exponents));
+    small_vector<Scalar> values(1 + std::ssize(exponents));
     values[0] = 1;
     for (int i = 1; const int e : exponents) values[i++] = power(z, e);
     return values;
 }
 
-/// The depth in [-1, 1] where sign * row is greatest: every local maximum on a grid, improved by Newton's iteration on
-/// the derivative.
-template <typename Scalar> Scalar extremal_depth(const Exponents& exponents, const Vector<Scalar>& row, int sign)
+/// The depth in [-1, 1] where sign * row is greatest: every local maximum on a grid, improved by Newton's iteration
+/// on the derivative.
+template <typename Scalar>
+Scalar extremal_depth(const exponent_list& exponents, const small_vector<Scalar>& row, int sign)
 {
     constexpr int intervals = 48;
     const auto value = [&](const Scalar& z) { return Scalar(sign * row.dot(monomials<Scalar>(exponents, z))); };
@@ -55,7 +56,8 @@ template <typename Scalar> Scalar extremal_depth(const Exponents& exponents, con
 }
 
 /// The most violated bound of a row's values: sign * f(z) <= 1 or 0.
-template <typename Scalar> HalfSpace<Scalar> bound(const Exponents& exponents, const Vector<Scalar>& row, int sign)
+template <typename Scalar>
+half_space<Scalar> bound(const exponent_list& exponents, const small_vector<Scalar>& row, int sign)
 {
     const Scalar z = extremal_depth(exponents, row, sign);
     return {monomials<Scalar>(exponents, z) * Scalar(sign), Scalar(sign > 0 ? 1 : 0)};
@@ -64,26 +66,27 @@ template <typename Scalar> HalfSpace<Scalar> bound(const Exponents& exponents, c
 } // namespace
 
 template <typename Scalar>
-Vector<Scalar> best_row(const Exponents& exponents, const Vector<Scalar>& objective, const Scalar& tolerance)
+small_vector<Scalar> best_row(const exponent_list& exponents, const small_vector<Scalar>& objective,
+                              const Scalar& tolerance)
 {
-    Vector<Scalar> lifted(objective.size() + 1);
+    small_vector<Scalar> lifted(objective.size() + 1);
     lifted << Scalar(0), objective;
-    const auto most_violated = [&](const Vector<Scalar>& row) {
+    const auto most_violated = [&](const small_vector<Scalar>& row) {
         const auto above = bound(exponents, row, 1), below = bound(exponents, row, -1);
         return above.violation(row) > below.violation(row) ? above : below;
     };
     return maximize<Scalar>(lifted, most_violated, tolerance);
 }
 
-template <typename Scalar> void climb(Transform<Scalar>& transform, const Scalar& tolerance)
+template <typename Scalar> void climb(affine_transform<Scalar>& transform, const Scalar& tolerance)
 {
     const int n = transform.size();
     transform.offset.resize(n);
     for (Scalar gain = 0; gain < 1 - tolerance || gain > 1 + tolerance;) {
         gain = 1;
         for (int i = 0; i < n; ++i) {
-            const Vector<Scalar> gradient = transform.matrix.inverse().col(i); // of the determinant's logarithm
-            const Vector<Scalar> row = best_row(transform.exponents, gradient, tolerance);
+            const small_vector<Scalar> gradient = transform.matrix.inverse().col(i); // of the determinant's logarithm
+            const small_vector<Scalar> row = best_row(transform.exponents, gradient, tolerance);
             gain *= gradient.dot(row.tail(n));
             transform.matrix.row(i) = row.tail(n).transpose();
             transform.offset[i] = row[0];
@@ -91,27 +94,27 @@ template <typename Scalar> void climb(Transform<Scalar>& transform, const Scalar
     }
 }
 
-template Vector<long double> best_row(const Exponents&, const Vector<long double>&, const long double&);
-template Vector<Decimal50> best_row(const Exponents&, const Vector<Decimal50>&, const Decimal50&);
-template void climb(Transform<Decimal50>&, const Decimal50&);
+template small_vector<long double> best_row(const exponent_list&, const small_vector<long double>&, const long double&);
+template small_vector<decimal50> best_row(const exponent_list&, const small_vector<decimal50>&, const decimal50&);
+template void climb(affine_transform<decimal50>&, const decimal50&);
 
-double stationarity(const Transform<Decimal50>& transform)
+double stationarity(const affine_transform<decimal50>& transform)
 {
-    const Matrix<Decimal50> gradients = transform.matrix.inverse();
-    Decimal50 gain = 0;
+    const small_matrix<decimal50> gradients = transform.matrix.inverse();
+    decimal50 gain = 0;
     for (int i = 0; i < transform.size(); ++i) {
-        const Vector<Decimal50> gradient = gradients.col(i);
-        const Vector<Decimal50> row = best_row(transform.exponents, gradient, Decimal50(1e-40));
-        gain = std::max<Decimal50>(gain, gradient.dot(row.tail(transform.size())) - 1);
+        const small_vector<decimal50> gradient = gradients.col(i);
+        const small_vector<decimal50> row = best_row(transform.exponents, gradient, decimal50(1e-40));
+        gain = std::max<decimal50>(gain, gradient.dot(row.tail(transform.size())) - 1);
     }
     return static_cast<double>(gain);
 }
 
-double range_violation(const Transform<Decimal50>& transform)
+double range_violation(const affine_transform<decimal50>& transform)
 {
-    Decimal50 violation = 0;
+    decimal50 violation = 0;
     for (int i = 0; i < transform.size(); ++i) {
-        Vector<Decimal50> row(transform.size() + 1);
+        small_vector<decimal50> row(transform.size() + 1);
         row << transform.offset[i], transform.matrix.row(i).transpose();
         for (const int sign : {-1, 1})
             violation = std::max(violation, bound(transform.exponents, row, sign).violation(row));
@@ -119,25 +122,25 @@ double range_violation(const Transform<Decimal50>& transform)
     return static_cast<double>(violation);
 }
 
-double entropy_gain(const Exponents& exponents, double determinant)
+double entropy_gain(const exponent_list& exponents, double determinant)
 {
     return std::log2(determinant) +
            static_cast<double>(std::count_if(exponents.begin(), exponents.end(), [](int e) { return e % 2 == 1; }));
 }
 
-double entropy_gain(const Transform<Decimal50>& transform)
+double entropy_gain(const affine_transform<decimal50>& transform)
 {
     return entropy_gain(transform.exponents, static_cast<double>(transform.determinant()));
 }
 
-SearchResult random_climbs(const Exponents& exponents, int starts, unsigned seed)
+search_result random_climbs(const exponent_list& exponents, int starts, unsigned seed)
 {
     const auto n = std::ssize(exponents);
     std::mt19937 generator(seed);
     std::normal_distribution<long double> normal;
     std::vector<double> determinants;
     for (int start = 0; start < starts; ++start) {
-        Transform<long double> t{exponents, Matrix<long double>(n, n), {}};
+        affine_transform<long double> t{exponents, small_matrix<long double>(n, n), {}};
         for (long double& entry : t.matrix.reshaped()) entry = normal(generator);
         try {
             climb(t, 1e-11L);

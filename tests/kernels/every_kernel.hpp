@@ -1,5 +1,5 @@
-// Every kernel of kernels.txt on inputs of every kind, for T and for packs of it: what should lie in [0, 1] does, for
-// ten million hostile inputs, and packs give the bits of the scalar.
+// Every kernel of kernels.txt on inputs of every kind, in T and in packs of T: promised results are in [0, 1] for ten
+// million hostile inputs, and packs give the bits of the scalar.
 #pragma once
 
 #include "kernels.hpp"
@@ -21,7 +21,7 @@ struct kernel_shape {
     bool unit;
 };
 
-/// The row that holds result i, for a message.
+/// A text of the row that holds result i, for messages.
 template <class T>
 std::string row_text(const kernel_shape& k, const std::vector<T>& in, const std::vector<T>& out, std::size_t i)
 {
@@ -40,7 +40,7 @@ std::string row_text(const kernel_shape& k, const std::vector<T>& in, const std:
     return text;
 }
 
-/// What is wrong first, or nothing. run.operator()<Real>(blocks, in, out) calls the kernel for Real.
+/// The first mistake of a kernel, or an empty text. run.operator()<Real>(blocks, in, out) calls the kernel for Real.
 template <class T, class Run> std::string first_mistake(const kernel_shape& k, Run run)
 {
     constexpr std::size_t blocks = 64;

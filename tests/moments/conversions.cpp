@@ -1,7 +1,8 @@
-// Depth conventions, moments of one depth, linear combinations of moments, and the quantization transforms with their
-// inverses.
+// Depth conventions, moments of one depth, linear combinations of moments, and the quantization transforms
+// with their inverses.
 #include "support/effort.hpp"
 #include "support/hostile.hpp"
+#include "support/rounding.hpp"
 
 #include <gnomon/moments/moments.h>
 #include <gnomon/moments/quantization.h>
@@ -20,14 +21,12 @@ namespace {
 
 using exact = long double;
 
-template <class T> constexpr double u = double(std::numeric_limits<T>::epsilon()) / 2;
-
 template <class T> std::array<T, 4> numbers(const moments4<T>& b) { return {b.b1, b.b2, b.b3, b.b4}; }
 template <class T> std::array<T, 6> numbers(const moments6<T>& b) { return {b.b1, b.b2, b.b3, b.b4, b.b5, b.b6}; }
 template <class T> moments4<T> moments(const std::array<T, 4>& b) { return {b[0], b[1], b[2], b[3]}; }
 template <class T> moments6<T> moments(const std::array<T, 6>& b) { return {b[0], b[1], b[2], b[3], b[4], b[5]}; }
 
-/// z^1, ..., z^n in long double: exact enough for float and double.
+/// The powers z^1 to z^n in long double.
 template <std::size_t n> std::array<exact, n> powers(exact z)
 {
     std::array<exact, n> b{};
@@ -36,7 +35,7 @@ template <std::size_t n> std::array<exact, n> powers(exact z)
     return b;
 }
 
-/// The matrix of an affine map of moments, entry by entry, and its absolute values.
+/// The matrix of an affine map of moments.
 template <std::size_t n, class Map> std::array<std::array<double, n>, n> matrix(Map map)
 {
     std::array<std::array<double, n>, n> a{};
@@ -50,7 +49,7 @@ template <std::size_t n, class Map> std::array<std::array<double, n>, n> matrix(
     return a;
 }
 
-/// Transform and inverse, rounded to T on the way: each output is a sum of at most n + 1 rounded terms of T, twice.
+/// Checks a transform and its inverse in T. Each output is a sum of at most n + 1 rounded terms, for each of the two.
 template <class T, std::size_t n, class Forward, class Back> void check_transform(Forward forward, Back back)
 {
     const auto a = matrix<n>(forward), inverse = matrix<n>(back);
@@ -75,7 +74,7 @@ template <class T, std::size_t n, class Forward, class Back> void check_transfor
             REQUIRE(std::abs(double(returned[i] - b[i])) <= roundings * there_and_back[i]);
         }
     }
-    // Each channel uses its whole range: between two of these depths a channel's extreme changes by less than 1e-6.
+    // Each channel attains 0 and 1: between two of these depths an extreme changes by less than 1e-6.
     for (std::size_t i = 0; i < n; ++i) {
         CHECK(least[i] < 1e-6);
         CHECK(most[i] > 1 - 1e-6);
@@ -84,7 +83,7 @@ template <class T, std::size_t n, class Forward, class Back> void check_transfor
 
 } // namespace
 
-TEST_CASE_TEMPLATE("signed depth from other conventions", T, float, double)
+TEST_CASE_TEMPLATE("signed depth from other conventions is exact at the planes and right in between", T, float, double)
 {
     CHECK(depth_from_unit(T(0)) == T(-1));
     CHECK(depth_from_unit(T(1)) == T(1));
@@ -97,8 +96,8 @@ TEST_CASE_TEMPLATE("signed depth from other conventions", T, float, double)
         const T z = T(bits.uniform(0, 1));
         REQUIRE(depth_from_unit(z) == T(2 * exact(z) - 1));
         REQUIRE(depth_from_reversed(z) == T(1 - 2 * exact(z)));
-        // Two differences that add up to the range, their difference, the range and the quotient: 4 roundings of at
-        // most 1.
+        // Two differences that add up to the range, their difference, the range and the quotient: 4 roundings of
+        // at most 1.
         const T near_distance = T(bits.uniform(0.01, 1)), far_distance = T(bits.uniform(2, 5000));
         const T view = near_distance + T(bits.uniform(0, 1)) * (far_distance - near_distance);
         const exact want = 2 * (exact(view) - exact(near_distance)) / (exact(far_distance) - exact(near_distance)) - 1;
@@ -106,9 +105,10 @@ TEST_CASE_TEMPLATE("signed depth from other conventions", T, float, double)
     }
 }
 
-TEST_CASE_TEMPLATE("moments of a depth, and of mixtures", T, float, double)
+TEST_CASE_TEMPLATE("moments of a depth and of mixtures are off by their roundings only, four and six alike", T, float,
+                   double)
 {
-    // Roundings on the way to z, z^2, z^3, z^4, z^5, z^6.
+    // The roundings in z, z^2, ..., z^6.
     constexpr std::array<int, 6> roundings = {0, 1, 2, 3, 4, 5};
     bit_source bits(2);
     for (std::int64_t i = 0; i < effort(100'000); ++i) {
@@ -134,7 +134,7 @@ TEST_CASE_TEMPLATE("moments of a depth, and of mixtures", T, float, double)
     }
 }
 
-TEST_CASE_TEMPLATE("moments of signed depth from moments of unit depth", T, float, double)
+TEST_CASE_TEMPLATE("moments of unit depth convert to moments of signed depth", T, float, double)
 {
     // The coefficients of (2 c - 1)^4 sum to 81, each term is rounded up to four times and its input once.
     bit_source bits(3);
@@ -151,7 +151,7 @@ TEST_CASE_TEMPLATE("moments of signed depth from moments of unit depth", T, floa
     }
 }
 
-TEST_CASE_TEMPLATE("theta4 and theta6: into [0, 1], all of it, and back", T, float, double)
+TEST_CASE_TEMPLATE("theta4 and theta6 map onto [0, 1], and their inverses map back", T, float, double)
 {
     check_transform<T, 4>([](auto b) { return theta4(b); }, [](auto c) { return theta4_inverse(c); });
     check_transform<T, 6>([](auto b) { return theta6(b); }, [](auto c) { return theta6_inverse(c); });

@@ -1,6 +1,5 @@
-// What the bounds promise, by properties. Depths and weights are multiples of powers of two, few enough bits that six
-// moments are exact in double: bounds then hold without excuse, for degenerate distributions and with receivers on a
-// depth too.
+// Properties of the bounds. Depths and weights are multiples of powers of two with so few bits that six moments are
+// exact in double. Bounds then hold for degenerate distributions and for receivers on a depth as well.
 #include "support/effort.hpp"
 
 #include <gnomon/moments/hamburger4.h>
@@ -25,7 +24,7 @@ namespace {
 constexpr int depth_steps = 64;
 constexpr int weight_steps = 256;
 
-/// Depths in 1/64 and weights in 1/256: b6 needs 36 + 8 bits.
+/// A distribution with depths in multiples of 1/64 and weights in multiples of 1/256: b6 needs 36 + 8 bits.
 struct dyadic {
     std::vector<int> depths, weights;
 
@@ -46,7 +45,7 @@ struct dyadic {
             if (depth(i) < z_f || (inclusive && depth(i) <= z_f)) sum += weights[i];
         return sum / weight_steps;
     }
-    /// How many different depths have a weight.
+    /// The number of different depths with a weight.
     [[nodiscard]] std::size_t support() const
     {
         std::set<int> different;
@@ -54,7 +53,7 @@ struct dyadic {
             if (weights[i] > 0) different.insert(depths[i]);
         return different.size();
     }
-    /// Nearer to a depth, yet not on it, than canonical nodes can be told apart.
+    /// True if z_f is beside a depth, but so near that their canonical nodes cannot be told apart.
     [[nodiscard]] bool touches(double z_f) const
     {
         return std::any_of(depths.begin(), depths.end(), [&](int z) {
@@ -97,7 +96,7 @@ template <> struct rc::Arbitrary<dyadic> {
             const auto size = std::size_t(count);
             return gen::apply(
                 [](std::vector<int> depths, std::vector<int> cuts) {
-                    // Cuts of the unit interval are weights that sum to 1; a weight may be 0.
+                    // The distances of cuts of the unit interval are weights that sum to 1; a weight may be 0.
                     std::sort(cuts.begin(), cuts.end());
                     cuts.push_back(weight_steps);
                     std::adjacent_difference(cuts.begin(), cuts.end(), cuts.begin());
@@ -120,21 +119,21 @@ hankel6<double> factor6(const std::array<double, 7>& b)
     return hankel6_constant_bias(moments6<double>{b[1], b[2], b[3], b[4], b[5], b[6]}, 0, 0, 0, 0);
 }
 
-// Pivots are 0, then raised to F = 2^-66, or at least 2^-34 = (1/256)^2 (1/64)^3 or so. P_k at a node is off by about
-// 2^-53, which changes its weight by 2^-106 / F = 2^-40, or moves a root beyond a node by sqrt(F) = 2^-33 of the
-// distance between two: 1e-9 in all.
+// A pivot is 0, and then at the floor F = 2^-66, or at least about 2^-34 = (1/256)^2 (1/64)^3. P_k at a node is off by
+// about 2^-53, which changes the weight of the node by 2^-106 / F = 2^-40, or moves a root beyond a node by sqrt(F) =
+// 2^-33 of the distance between two nodes: 1e-9 in all.
 constexpr double tolerance = 1e-9;
 
-// The floor has no scale, and other numbers of moments or another depth range meet another one. It shows by F /
-// P_3(z_f)^2: where z_f is 0.37 of a step from three depths 1/64 apart, by 2^-27 for each node.
+// The floor does not scale with the depth range, and differs for another number of moments. Its effect is F /
+// P_3(z_f)^2. For z_f at 0.37 of a step from three depths 1/64 apart, that is 2^-27 for each node.
 constexpr double floor_shows = 3e-8;
 
-// All nodes at once: the two that the cubic's deflation leaves may lie together, where the square root of rounding
-// shows.
+// For all nodes at once. Two nodes that the deflation of the cubic leaves may lie close together, where their error is
+// the square root of rounding.
 constexpr double node_tolerance = 1e-6;
 
-// Where m / 2 depths are determined by their moments, the last node is the business of the pivot's floor and of
-// rounding, and takes its neighbours' accuracy; with fewer depths, two nodes are.
+// If the distribution has m / 2 depths, the moments determine them. The last node then depends only on the floor of the
+// pivot and on rounding, and reduces the accuracy of its neighbours. With fewer depths there are two such nodes.
 constexpr double determined_tolerance = 1e-3;
 
 struct node {
@@ -149,8 +148,9 @@ std::vector<node> nodes(const distribution4<double>& d)
     return {{d.depth0, d.weight0}, {d.depth1, d.weight1}, {d.depth2, d.weight2}, {d.depth3, d.weight3}};
 }
 
-/// The canonical distribution attains both bounds, is one, and has the moments. Its nodes away from [-1, 1] have next
-/// to no weight, but their depths to the power of m; what is left of the moments' accuracy is relative to that.
+/// Checks that the canonical distribution is a distribution, attains both bounds and has the moments. Nodes far
+/// outside [-1, 1] have almost no weight, but their depth enters with the power m, so the accuracy of moments is
+/// relative to that.
 template <int m>
 void check_canonical(const dyadic& d, double z_f, const hamburger_bounds<double>& bounds,
                      const std::vector<node>& canonical)
@@ -177,7 +177,7 @@ void check_canonical(const dyadic& d, double z_f, const hamburger_bounds<double>
     RC_ASSERT(std::abs(total - 1) <= 4 * std::numeric_limits<double>::epsilon());
     RC_ASSERT(std::abs(canonical.front().weight - bounds.weight) <= accuracy);
     RC_ASSERT(std::abs(lower - bounds.lower) <= accuracy);
-    // A node that runs to infinity stops at 1024 or so, where it is missed by the two highest moments only.
+    // A node that would be at infinity is clamped to about 1024, which affects only the two highest moments.
     const std::size_t known = farthest < 512 ? m : m - 2;
     for (std::size_t j = 1; j <= known; ++j) RC_ASSERT(std::abs(moments[j] - b[j]) <= accuracy * scale[j]);
 }
@@ -224,7 +224,7 @@ TEST_CASE("bounds hold, canonical distributions attain them, six moments are nev
     }));
 }
 
-TEST_CASE("bounds move with the scene")
+TEST_CASE("bounds are monotone in the receiver, symmetric, and independent of the depth range")
 {
     CHECK(rc::check("lower and upper never fall as the receiver recedes", [](const dyadic& d) {
         const auto b = d.moments();
@@ -239,7 +239,7 @@ TEST_CASE("bounds move with the scene")
             four = next4, six = next6;
         }
     }));
-    CHECK(rc::check("seen from the other side, below is above", [](const dyadic& d) {
+    CHECK(rc::check("mirrored depths exchange and complement the bounds", [](const dyadic& d) {
         const auto b = d.moments(), mirrored = d.mirrored().moments();
         for (const double z_f : d.receivers()) {
             RC_ASSERT(std::abs(hamburger4_bounds(factor4(b), z_f).lower -
@@ -248,7 +248,7 @@ TEST_CASE("bounds move with the scene")
                                (1 - hamburger6_bounds(factor6(mirrored), -z_f).upper)) <= tolerance);
         }
     }));
-    CHECK(rc::check("another depth range, the same shadow", [](dyadic d) {
+    CHECK(rc::check("a change of depth range does not change the lower bound", [](dyadic d) {
         const int shift = *rc::gen::inRange(-depth_steps / 2, depth_steps / 2 + 1);
         for (int& z : d.depths) z -= z & 1;
         dyadic moved = d;

@@ -1,8 +1,9 @@
-// The error rows of hamburger4.h and hamburger6.h: both bounds against the moment problem solved in 120 digits, over
-// all families of distributions, with receivers on, near and between their depths. Storage formats are held against the
-// kernel in double, which the first rows vouch for. honest_six.cpp climbs for the maxima of six moments.
+// The stated errors of hamburger4.h and hamburger6.h: both bounds against the moment problem solved in 120 digits, over
+// all families of distributions, with receivers on, near and between their depths. Storage formats are compared with
+// the kernel in double, which the first rows check. honest_six.cpp climbs for the maxima of six moments.
 #include "support/distributions.hpp"
 #include "support/effort.hpp"
+#include "support/moments_of.hpp"
 #include "support/oracle.hpp"
 #include "support/statistics.hpp"
 
@@ -26,18 +27,8 @@ struct bounds {
     double lower, upper;
 };
 
-template <class T> moments4<T> rounded(const high_moments<4>& b) { return {T(b[1]), T(b[2]), T(b[3]), T(b[4])}; }
-template <class T> moments6<T> rounded(const high_moments<6>& b)
-{
-    return {T(b[1]), T(b[2]), T(b[3]), T(b[4]), T(b[5]), T(b[6])};
-}
 template <class T> high_moments<4> exactly(const moments4<T>& b) { return {1, b.b1, b.b2, b.b3, b.b4}; }
 template <class T> high_moments<6> exactly(const moments6<T>& b) { return {1, b.b1, b.b2, b.b3, b.b4, b.b5, b.b6}; }
-template <class To, class T> moments4<To> as(const moments4<T>& b) { return {To(b.b1), To(b.b2), To(b.b3), To(b.b4)}; }
-template <class To, class T> moments6<To> as(const moments6<T>& b)
-{
-    return {To(b.b1), To(b.b2), To(b.b3), To(b.b4), To(b.b5), To(b.b6)};
-}
 
 template <class T> bounds bounds_at(const hankel4<T>& h, T z_f)
 {
@@ -52,7 +43,7 @@ template <class T> bounds bounds_at(const hankel6<T>& h, T z_f)
     return {double(r.lower), double(r.upper)};
 }
 
-/// The 120-digit solution for (1 - alpha) b + alpha b*; none where b, rounded, is indefinite.
+/// The bounds in 120 digits for the moments (1 - alpha) b + alpha b*; none if they are indefinite.
 template <std::size_t m> auto solved(const std::array<double, m / 2>& bias, double alpha)
 {
     return [=](const auto& b, auto z_f) -> std::optional<bounds> {
@@ -62,13 +53,14 @@ template <std::size_t m> auto solved(const std::array<double, m / 2>& bias, doub
     };
 }
 
-/// The same kernel, instantiated for double.
-template <class Factor> auto in_double(Factor factor)
+/// The bounds by the kernel in double.
+template <class Factor> auto bounds_in_double(Factor factor)
 {
-    return [=](const auto& b, auto z_f) { return std::optional(bounds_at(factor(as<double>(b)), double(z_f))); };
+    return [=](const auto& b, auto z_f) { return std::optional(bounds_at(factor(in_double(b)), double(z_f))); };
 }
 
-/// Compares over families with at least fewest_points depths; stored() maps rounded moments to what the format holds.
+/// Compares over families with at least fewest_points depths. stored() maps rounded moments to the channels
+/// of a format.
 template <class T, std::size_t m, class Stored, class Factor, class Reference>
 void check(const std::string& name, int fewest_points, Stored stored, Factor factor, Reference reference)
 {
@@ -95,11 +87,11 @@ void check(const std::string& name, int fewest_points, Stored stored, Factor fac
     CHECK(measured.maximum <= stated.maximum);
 }
 
-const auto as_they_are = [](const auto& b) { return b; };
+const auto unchanged = [](const auto& b) { return b; };
 
 template <int bits> float snapped(float x) { return unorm_decode<bits>(unorm_encode<bits>(x)); }
 
-/// Channels of a UNORM texel with one surface's or one filter region's moments.
+/// The channels of a UNORM texel that holds the moments.
 template <int bits> moments4<float> texel(const moments4<float>& b)
 {
     const moments4<float> c = theta4(b);
@@ -115,48 +107,48 @@ template <int bits> constexpr auto texels = [](const auto& b) { return texel<bit
 
 } // namespace
 
-TEST_CASE("hamburger4, double, against 120 digits")
+TEST_CASE("four moments in double have their stated errors against 120 digits")
 {
     const auto factor = [](auto b) { return hankel4_constant_bias(b, 0, 0, 0); };
-    check<double, 4>("double, no bias, three depths and more", 3, as_they_are, factor, solved<4>({}, 0));
+    check<double, 4>("double, no bias, three depths and more", 3, unchanged, factor, solved<4>({}, 0));
 }
 
-TEST_CASE("hamburger4, float, against 120 digits")
+TEST_CASE("four moments in float have their stated errors against 120 digits")
 {
     const auto factor = [](auto b) { return hankel4_constant_bias(b, 0.375f, 0.375f, 3e-7f); };
-    check<float, 4>("float, hankel4_constant_bias at 3e-7", 1, as_they_are, factor,
+    check<float, 4>("float, hankel4_constant_bias at 3e-7", 1, unchanged, factor,
                     solved<4>({0.375, 0.375}, double(3e-7f)));
 }
 
-TEST_CASE("hamburger4, float, against double")
+TEST_CASE("four moments in float have their stated errors against double, in every format")
 {
     const auto row = [](const char* name, auto stored, auto factor) {
-        check<float, 4>(name, 1, stored, factor, in_double(factor));
+        check<float, 4>(name, 1, stored, factor, bounds_in_double(factor));
     };
     const auto half = [](const auto& b) { return moments4_half::decode(moments4_half::encode(b)); };
-    row("float, hankel4_from_float", as_they_are, [](auto b) { return hankel4_from_float(b); });
-    row("float, hankel4_from_float_filtered", as_they_are, [](auto b) { return hankel4_from_float_filtered(b); });
+    row("float, hankel4_from_float", unchanged, [](auto b) { return hankel4_from_float(b); });
+    row("float, hankel4_from_float_filtered", unchanged, [](auto b) { return hankel4_from_float_filtered(b); });
     row("float, hankel4_from_half", half, [](auto b) { return hankel4_from_half(b); });
     row("float, hankel4_from_half_filtered", half, [](auto b) { return hankel4_from_half_filtered(b); });
     row("float, hankel4_from_unorm16", texels<16>, [](auto c) { return hankel4_from_unorm16(c); });
     row("float, hankel4_from_unorm16_filtered", texels<16>, [](auto c) { return hankel4_from_unorm16_filtered(c); });
 }
 
-TEST_CASE("hamburger6, double, against 120 digits")
+TEST_CASE("six moments in double have their stated errors against 120 digits")
 {
     const auto factor = [](auto b) { return hankel6_constant_bias(b, 0, 0, 0, 0); };
-    check<double, 6>("double, no bias, four depths and more", 4, as_they_are, factor, solved<6>({}, 0));
+    check<double, 6>("double, no bias, four depths and more", 4, unchanged, factor, solved<6>({}, 0));
 }
 
-TEST_CASE("hamburger6, float, against 120 digits")
+TEST_CASE("six moments in float have their stated errors against 120 digits")
 {
     const float b2 = float(bias6_raw_b2), b4 = float(bias6_raw_b4), b6 = float(bias6_raw_b6);
     const auto factor = [=](auto b) { return hankel6_constant_bias(b, b2, b4, b6, 5e-6f); };
-    check<float, 6>("float, hankel6_constant_bias at 5e-6", 1, as_they_are, factor,
+    check<float, 6>("float, hankel6_constant_bias at 5e-6", 1, unchanged, factor,
                     solved<6>({double(b2), double(b4), double(b6)}, double(5e-6f)));
 }
 
-TEST_CASE("hamburger6, float, against double")
+TEST_CASE("six moments in float have their stated errors against double, in every format")
 {
     const auto from_float = [](auto b) { return hankel6_from_float(b); };
     const auto from_unorm16 = [](auto b) { return hankel6_from_unorm16(b); };
@@ -164,12 +156,13 @@ TEST_CASE("hamburger6, float, against double")
     const auto float_filtered = [](auto b) { return hankel6_from_float_filtered(b); };
     const auto unorm16_filtered = [](auto b) { return hankel6_from_unorm16_filtered(b); };
     const auto unorm10_filtered = [](auto b) { return hankel6_from_unorm10_filtered(b); };
-    check<float, 6>("float, hankel6_from_float", 1, as_they_are, from_float, in_double(from_float));
-    check<float, 6>("float, hankel6_from_float_filtered", 1, as_they_are, float_filtered, in_double(float_filtered));
-    check<float, 6>("float, hankel6_from_unorm16", 1, texels<16>, from_unorm16, in_double(from_unorm16));
+    check<float, 6>("float, hankel6_from_float", 1, unchanged, from_float, bounds_in_double(from_float));
+    check<float, 6>("float, hankel6_from_float_filtered", 1, unchanged, float_filtered,
+                    bounds_in_double(float_filtered));
+    check<float, 6>("float, hankel6_from_unorm16", 1, texels<16>, from_unorm16, bounds_in_double(from_unorm16));
     check<float, 6>("float, hankel6_from_unorm16_filtered", 1, texels<16>, unorm16_filtered,
-                    in_double(unorm16_filtered));
-    check<float, 6>("float, hankel6_from_unorm10", 1, texels<10>, from_unorm10, in_double(from_unorm10));
+                    bounds_in_double(unorm16_filtered));
+    check<float, 6>("float, hankel6_from_unorm10", 1, texels<10>, from_unorm10, bounds_in_double(from_unorm10));
     check<float, 6>("float, hankel6_from_unorm10_filtered", 1, texels<10>, unorm10_filtered,
-                    in_double(unorm10_filtered));
+                    bounds_in_double(unorm10_filtered));
 }

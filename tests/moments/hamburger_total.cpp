@@ -1,6 +1,6 @@
-// The contract on bad input, and the promise of the same bits: any numbers at all go through every route of the moment
-// kernels, for every kind of Real. Results are in range, no NaN comes out, a NaN that goes in is answered by lit; and
-// packs, and a Real without fused multiply-add, give the bits of the scalar.
+// The contract on bad input, and equal bits for every Real: any numbers go through every route of the moment kernels.
+// Results are in range and never NaN, and a NaN input gives lit. Packs, and a Real without fused multiply-add, give the
+// bits of the scalar.
 #include "support/effort.hpp"
 #include "support/hostile.hpp"
 #include "support/reals.hpp"
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t block = 1024;
 
-/// Inputs or results of a block, one array per number.
+/// The inputs or results of a block, one array per number.
 template <class T, std::size_t count> using columns = std::array<std::array<T, block>, count>;
 
 template <class Real, class Route>
@@ -33,7 +33,7 @@ void run(const Route& route, const columns<lane_t<Real>, route_inputs>& in, auto
     }
 }
 
-/// True where row i of the results is what the contract allows.
+/// True if the contract allows row i of the results.
 template <class Route, class T> bool allowed(const columns<T, route_inputs>& in, const auto& out, std::size_t i)
 {
     bool ok = true, unknown = Route::intensities > 0 && std::isnan(in[6][i]);
@@ -50,7 +50,7 @@ template <class Route, class T> bool allowed(const columns<T, route_inputs>& in,
     return ok && (Route::depths == 0 || std::abs(sum - 1) <= 4 * std::numeric_limits<T>::epsilon());
 }
 
-/// Where products split without fused multiply-add are exact (two_product.h): away from overflow and underflow.
+/// True if products without fused multiply-add are exact in row i (two_product.h), away from overflow and underflow.
 template <class T> bool split_is_exact(const columns<T, route_inputs>& in, std::size_t i)
 {
     return std::all_of(in.begin(), in.end(), [&](const auto& column) {
@@ -66,7 +66,7 @@ bool same_row(const auto& a, const auto& b, std::size_t i)
     return true;
 }
 
-/// A message that reproduces the case.
+/// A message to reproduce the case.
 template <class Route, class T>
 std::string describe(const Route& route, const columns<T, route_inputs>& in, const auto& out, std::size_t i)
 {
@@ -80,8 +80,8 @@ std::string describe(const Route& route, const columns<T, route_inputs>& in, con
 
 } // namespace
 
-// The widest pack takes all inputs and the other Reals every sixteenth block: they are tied to it bit by bit.
-TEST_CASE_TEMPLATE("moment kernels are total, and the same for every Real", T, float, double)
+// The widest pack runs on all inputs. The other Reals run on every sixteenth block, where their bits must be equal.
+TEST_CASE_TEMPLATE("moment kernels are total, with the same bits for every Real", T, float, double)
 {
     using widest = xsimd::batch<T>;
     const std::int64_t blocks = effort(10'000'000) / std::int64_t(block) + 1;
@@ -115,7 +115,8 @@ TEST_CASE_TEMPLATE("moment kernels are total, and the same for every Real", T, f
     }
 }
 
-TEST_CASE_TEMPLATE("from bounds to an intensity", T, float, double)
+TEST_CASE_TEMPLATE("bounds give intensities between lower and upper, and over-darkening scales and clamps", T, float,
+                   double)
 {
     const hamburger_bounds<T> half{T(0.25), T(0.75), T(0.5)};
     CHECK(bounds_intensity(half, T(1)) == T(0.25));
@@ -125,7 +126,7 @@ TEST_CASE_TEMPLATE("from bounds to an intensity", T, float, double)
     CHECK(over_darken(T(0.99), T(0.98)) == T(1));
 }
 
-TEST_CASE_TEMPLATE("four moments far from any distribution: pivots as stated, and the receiver's own node", T, float,
+TEST_CASE_TEMPLATE("four moments far from any distribution have positive pivots and a node at the receiver", T, float,
                    double)
 {
     bit_source bits(9);
@@ -138,7 +139,7 @@ TEST_CASE_TEMPLATE("four moments far from any distribution: pivots as stated, an
         const T z_f = T(bits.uniform(-1, 1));
         CHECK(hamburger4_distribution(near, z_f).depth0 == z_f);
     }
-    const T lower =
-        hamburger4_lower(hankel4_from_moments(moments4<T>{0, T(1e30), 0, T(1e30)}), T(0.5)); // beyond: NaN in float
+    const T lower = hamburger4_lower(hankel4_from_moments(moments4<T>{0, T(1e30), 0, T(1e30)}),
+                                     T(0.5)); // overflows to NaN in float
     CHECK((lower >= 0 && lower <= 1));
 }

@@ -1,7 +1,7 @@
-// Four moments never darken: whatever a distribution on [-1, 1] and wherever the receiver,
-//     intensity <= Z(z < z_f) + the stated weight of the format and of the way to the intensity
-// after one rounding in storage, and after two filter passes that round there again. Searched by a hill climber, as are
-// the largest errors that hamburger4.h and storage/moments4.h state.
+// Four moments never darken: for any distribution on [-1, 1] and any receiver,
+//     intensity <= Z(z < z_f) + the stated weight of the format and of the route to the intensity
+// after one rounding in storage, and after two filter passes that round to the format again. A hill climber searches
+// for the largest darkness, and for the largest errors that hamburger4.h and storage/moments4.h state.
 #include "evaluation/methods/raised_pivots4.hpp"
 #include "support/climber.hpp"
 #include "support/contacts.hpp"
@@ -22,12 +22,12 @@ namespace {
 
 using moments = moments4<float>;
 
-/// What the map of a format holds of a distribution.
+/// The channels of a distribution, rounded to the format.
 template <class Format> moments stored(const distribution& d) { return Format::decode(Format::encode(moments4_of(d))); }
 
 constexpr std::int64_t evaluations = 200'000;
 
-/// The largest intensity - Z(z < z_f) after one rounding; the search ends beyond enough.
+/// The largest intensity - Z(z < z_f) after one rounding. The search ends above `enough`.
 template <class Format, class Intensity>
 double darkest_once(std::int64_t count, Intensity intensity, double enough = HUGE_VAL)
 {
@@ -41,7 +41,7 @@ double darkest_once(std::int64_t count, Intensity intensity, double enough = HUG
         .score;
 }
 
-/// The same after two filter passes.
+/// The largest intensity - Z(z < z_f) after two filter passes.
 template <class Format, class Intensity> double darkest_filtered(std::int64_t count, Intensity intensity)
 {
     return climb(contact_dimensions, count, 2,
@@ -52,9 +52,9 @@ template <class Format, class Intensity> double darkest_filtered(std::int64_t co
         .score;
 }
 
-template <class Format> void report(const char* way, double darkness, double weight)
+template <class Format> void report(const char* route, double darkness, double weight)
 {
-    std::printf("%s, %s: darkness %.3g of %.3g\n", std::string(Format::name).c_str(), way, darkness, weight);
+    std::printf("%s, %s: darkness %.3g of %.3g\n", std::string(Format::name).c_str(), route, darkness, weight);
     CHECK(darkness <= weight);
 }
 
@@ -75,8 +75,10 @@ TEST_CASE_TEMPLATE("a lit surface is never darkened", Format, moments4_unorm16, 
                    Format::filtered_bias_weight + stored4_arithmetic_weight);
 }
 
-// Where noise misplaces nodes, a certificate proves little: a lit speck in a shadow that the constant bias still has.
-TEST_CASE_TEMPLATE("contact shadows have no specks", Format, moments4_unorm16, moments4_half, moments4_float)
+// A certificate with nodes that noise has misplaced proves little and would be a lit speck in a shadow. The constant
+// bias has no such specks.
+TEST_CASE_TEMPLATE("certified contact shadows have no lit specks", Format, moments4_unorm16, moments4_half,
+                   moments4_float)
 {
     bit_source bits(5);
     int specks = 0;
@@ -92,7 +94,7 @@ TEST_CASE_TEMPLATE("contact shadows have no specks", Format, moments4_unorm16, m
     CHECK(specks == 0);
 }
 
-TEST_CASE_TEMPLATE("the climber finds what darkens: raised pivots", Format, moments4_unorm16, moments4_half,
+TEST_CASE_TEMPLATE("the climber finds that raised pivots darken", Format, moments4_unorm16, moments4_half,
                    moments4_float)
 {
     const auto darkening = [](moments c, float z_f) {
@@ -103,10 +105,8 @@ TEST_CASE_TEMPLATE("the climber finds what darkens: raised pivots", Format, mome
 
 namespace {
 
-moments4<double> in_double(const moments& b) { return {double(b.b1), double(b.b2), double(b.b3), double(b.b4)}; }
-
-/// Holds the largest error that a search finds, of float against double over distributions as Format stores them, to
-/// the row of the header; error(channels, z_f), where both are of float.
+/// Checks the row of the header against the largest error(channels, z_f) that a search finds over distributions in
+/// Format, where error compares float with double.
 template <class Format, class Error> void climb_error(const char* header, const std::string& name, Error error)
 {
     const summit top = climb(sight_dimensions, evaluations, 3, [&](const std::vector<double>& place) {
@@ -127,7 +127,7 @@ template <class Format, class Factor> void climb_bounds(const std::string& name,
     });
 }
 
-/// Certificates, also over the families for the quantiles of their rows.
+/// Checks the row of a certificate, with its quantiles over the families.
 template <class Format, class Intensity> void check_certified(const std::string& name, Intensity intensity)
 {
     const auto error = [&](const moments& c, float z_f) {
@@ -148,7 +148,7 @@ template <class Format, class Intensity> void check_certified(const std::string&
 
 } // namespace
 
-TEST_CASE("stated errors of four moments in float, by climbing")
+TEST_CASE("four moments in float have their stated errors where a climb finds the largest")
 {
     climb_bounds<moments4_float>("hankel4_from_float", [](auto b) { return hankel4_from_float(b); });
     climb_bounds<moments4_float>("hankel4_from_float_filtered", [](auto b) { return hankel4_from_float_filtered(b); });
@@ -170,8 +170,8 @@ TEST_CASE("stated errors of four moments in float, by climbing")
 
 namespace {
 
-/// Two depths in contact with the receiver on the second, as issue reports have them: what raised pivots show, and what
-/// is true.
+/// Two depths in contact, the receiver on the second, and the intensity that raised pivots show there, which is far
+/// above the truth, the weight of the first.
 struct finding {
     double first, weight, second, shows;
 };
@@ -189,7 +189,7 @@ template <class Format> void check_finding(const finding& f)
 
 } // namespace
 
-TEST_CASE("where raised pivots were seen to darken, nothing does")
+TEST_CASE("no route of the library darkens the contacts that raised pivots darken")
 {
     check_finding<moments4_unorm16>({-0.731, 0.125, -0.711, 0.889});
     check_finding<moments4_half>({-0.821, 0.25, -0.741, 0.648});

@@ -1,7 +1,7 @@
-// Six moments never darken: whatever a distribution on [-1, 1] and wherever the receiver,
-//     intensity <= Z(z < z_f) + the format's weight
-// after one rounding in storage, and after two filter passes that round there again. Searched by a hill climber, as are
-// the largest errors that hamburger6.h states.
+// Six moments never darken: for any distribution on [-1, 1] and any receiver,
+//     intensity <= Z(z < z_f) + the weight of the format
+// after one rounding in storage, and after two filter passes that round to the format again. A hill climber searches
+// for the largest darkness, and for the largest errors that hamburger6.h states.
 #include "evaluation/methods/raised_pivots6.hpp"
 #include "support/climber.hpp"
 #include "support/contacts.hpp"
@@ -21,16 +21,10 @@ using namespace gnomon::test;
 
 namespace {
 
-/// What the map of a format holds of a distribution, exact moments rounded.
+/// The channels of a distribution, rounded to the format.
 template <class Format> moments6<float> stored(const distribution& d)
 {
-    std::array<double, 6> b{};
-    for (std::size_t i = 0; i < d.depths.size(); ++i) {
-        double p = d.weights[i];
-        for (double& moment : b) moment += p *= d.depths[i];
-    }
-    return Format::decode(
-        Format::encode({float(b[0]), float(b[1]), float(b[2]), float(b[3]), float(b[4]), float(b[5])}));
+    return Format::decode(Format::encode(moments6_of(d)));
 }
 
 template <class Format> struct stored_once {
@@ -38,7 +32,7 @@ template <class Format> struct stored_once {
     static constexpr auto what = "one rounding";
     static constexpr std::size_t dimensions = sight_dimensions;
 
-    /// intensity - Z(z < z_f)
+    /// The excess intensity - Z(z < z_f).
     template <class Factor> static double darkness(const std::vector<double>& place, Factor factor)
     {
         const sight s = sight_at(place);
@@ -87,12 +81,8 @@ struct unorm10_filtered : filtered_twice<moments6_unorm10> {
 
 constexpr std::int64_t evaluations = 200'000;
 
-moments6<double> in_double(const moments6<float>& b)
-{
-    return {double(b.b1), double(b.b2), double(b.b3), double(b.b4), double(b.b5), double(b.b6)};
-}
-
-/// The largest difference of a bound in float from the same in double, over distributions as Format stores them.
+/// Checks the row of the header against the largest difference of a bound in float from the bound in double that a
+/// search finds over distributions in Format.
 template <class Format, class Factor> void climb_error(const std::string& name, Factor factor)
 {
     const summit top = climb(sight_dimensions, evaluations, 3, [&](const std::vector<double>& place) {
@@ -120,7 +110,7 @@ TEST_CASE_TEMPLATE("a lit surface is never darkened", Preset, float_once, float_
     CHECK(top.score <= Preset::weight);
 }
 
-TEST_CASE("the climber finds what darkens: raised pivots, and a weight for one rounding after three")
+TEST_CASE("the climber finds that raised pivots darken, and the weight for one rounding after three")
 {
     const auto raised = [](auto b) { return bench::hankel6_raised(b, float(bench::raised6_float_noise)); };
     const auto float_unfiltered = [](auto b) { return hankel6_from_float(b); };
@@ -129,7 +119,7 @@ TEST_CASE("the climber finds what darkens: raised pivots, and a weight for one r
         return climb(preset.dimensions, 2000 * evaluations, 2,
                      [&](const std::vector<double>& place) {
                          const double darkness = preset.darkness(place, factor);
-                         return darkness > 0.05 ? HUGE_VAL : darkness; // and no farther
+                         return darkness > 0.05 ? HUGE_VAL : darkness; // enough
                      })
             .score;
     };
@@ -138,9 +128,9 @@ TEST_CASE("the climber finds what darkens: raised pivots, and a weight for one r
     CHECK(darkest(unorm10_filtered(), unorm10_unfiltered) > 0.05);
 }
 
-// Depths in 1/64 and weights in 1/256, whose six moments are exact in double. Pivots are 0, then raised to 2^-66, or at
-// least 2^-34; see hamburger_bounds.cpp, whose tolerance this is.
-TEST_CASE("exact moments in double: both bounds hold within 1e-9")
+// Depths are multiples of 1/64 and weights of 1/256, so six moments are exact in double. The tolerance is
+// that of hamburger_bounds.cpp.
+TEST_CASE("from exact moments in double, both bounds hold within 1e-9")
 {
     const summit top = climb(16, 10 * evaluations, 4, [](const std::vector<double>& x) {
         const std::size_t count = 1 + std::min<std::size_t>(std::size_t(6 * x[0]), 5);
@@ -168,14 +158,14 @@ TEST_CASE("exact moments in double: both bounds hold within 1e-9")
     });
     std::printf("exact moments in double: outside by %.3g\n", top.score);
     CHECK(top.score <= 1e-9);
-    // Depths -1/2 (weight 1/4) and 1, the receiver 2^-32 behind the first: 0.923 once.
+    // Depths -1/2 (weight 1/4) and 1, the receiver 2^-32 behind the first: a case for the Taylor shift in hamburger6.h.
     const auto pair =
         hankel6_constant_bias(moments6<double>{0.625, 0.8125, 0.71875, 0.765625, 0.7421875, 0.75390625}, 0, 0, 0, 0);
     CHECK(hamburger6_lower(pair, -0.5 + 0x1p-32) <= 0.25 + 1e-9);
 }
 
-// Low words up to the size of the high ones, as a bias makes them.
-TEST_CASE("hankel6_minor: its stated error, by climbing")
+// Low words may be as large as high words, as after a bias.
+TEST_CASE("hankel6_minor has its stated error where a climb finds the largest")
 {
     using high = boost::multiprecision::cpp_bin_float_50;
     const summit top = climb(8, evaluations / 4, 5, [](const std::vector<double>& x) {
@@ -204,7 +194,7 @@ TEST_CASE("hankel6_minor: its stated error, by climbing")
     CHECK(top.score > 0.1);
 }
 
-TEST_CASE("stated maxima of six moments in float, by climbing")
+TEST_CASE("six moments in float have their stated errors where a climb finds the largest")
 {
     climb_error<moments6_float>("float, hankel6_constant_bias at 5e-6", [](auto b) {
         using T = decltype(b.b1);

@@ -1,5 +1,6 @@
-// Certificates that know more of the depths than their moments: honest as they are, and worth what the second table of
-// docs/decisions/2-bias.md says, the mean of Z(z < z_f) - result over the receivers of leak_four.cpp, 4 x 16 UNORM.
+// Certificates that know the least and greatest depth of a region beside its moments never darken. The second table
+// of docs/decisions/2-bias.md states their gain: the mean of Z(z < z_f) - result over the receivers of leak_four.cpp,
+// 4 x 16 UNORM.
 #include "support/climber.hpp"
 #include "support/contacts.hpp"
 #include "support/documented.hpp"
@@ -25,7 +26,7 @@ struct interval {
     float least, greatest;
 };
 
-/// What a map of least and greatest depths holds: nothing but that depths are in [-1, 1], codes of 8 bits, floats.
+/// The knowledge of the depths: only that they are in [-1, 1], or least and greatest depth as 8-bit codes or as floats.
 enum knowledge { signed_depth, eight_bits, exact };
 
 template <class Depths> interval known(knowledge k, const Depths& depths)
@@ -62,7 +63,8 @@ float filtered_within(const moments4_half&, const moments& b, interval i, float 
 
 } // namespace
 
-TEST_CASE_TEMPLATE("a lit surface is never darkened by knowing its region", Format, moments4_unorm16, moments4_half)
+TEST_CASE_TEMPLATE("a certificate with the depths of its region never darkens a lit surface", Format, moments4_unorm16,
+                   moments4_half)
 {
     for (const knowledge k : {signed_depth, eight_bits, exact}) {
         const summit once = climb(sight_dimensions, 100'000, 1, [&](const std::vector<double>& place) {
@@ -84,7 +86,7 @@ TEST_CASE_TEMPLATE("a lit surface is never darkened by knowing its region", Form
     }
 }
 
-TEST_CASE("knowing the region leaks less")
+TEST_CASE("the more is known of the depths of a region, the less light leaks, by the stated amounts")
 {
     const std::array<const char*, 4> rows = {"nothing", "depths are in [-1, 1]", "least and greatest, 8 bits",
                                              "least and greatest, exact"};
@@ -118,9 +120,9 @@ TEST_CASE("knowing the region leaks less")
     }
 }
 
-// Dither makes errors of storage independent, so that a filter in float averages them. No bound holds then; noise of a
-// quarter of a code, half of what one rounding asks for, is enough for all but few. The rows say what that is worth.
-TEST_CASE("dither on store, filtered in float")
+// Dither makes the errors of storage independent, so that a filter in float averages them. No bound holds then. Noise
+// of a quarter of a code, half of that of one rounding, suffices for all but few receivers. The rows state the gain.
+TEST_CASE("dither on store and filtering in float leak less, by the stated amounts")
 {
     constexpr int count = 4000;
     bit_source bits(11);

@@ -1,10 +1,9 @@
-// How much four moments leak, and whether they darken, by every way to an intensity: the table of
-// docs/decisions/2-bias.md is checked here. Leak is the mean of max(0, ideal bound - result), where the ideal bound is
-// sharp for the distribution itself; darkness is the largest result - Z(z < z_f). All families, one rounding in
-// storage,
-//     receivers of the family   anywhere, on a depth or near one (distributions.hpp)
-//     on a depth                the commonest lit receiver
-//     anywhere                  in [-1, 1]
+// Leak and darkness of four moments by every route to an intensity: the table of docs/decisions/2-bias.md. Leak is the
+// mean of max(0, ideal bound - result), where the ideal bound is sharp for the distribution itself. Darkness is the
+// largest result - Z(z < z_f). All families, one rounding in storage, and receivers
+//     of the family   anywhere, on a depth or near one (distributions.hpp)
+//     on a depth      the commonest lit receiver
+//     anywhere        in [-1, 1]
 #include "evaluation/methods/raised_pivots4.hpp"
 #include "support/distributions.hpp"
 #include "support/documented.hpp"
@@ -25,7 +24,8 @@ namespace {
 
 using moments = moments4<float>;
 
-/// Half a code of each channel; r of bias.h; the paper's vector and weight, of which it has none for half floats.
+/// A format: half a code of each channel, b* and r of bias.h, and the vector and weight of the paper, which has no
+/// weight for half floats.
 struct storage {
     const char* name;
     double delta, bias, distance, paper_bias, paper_weight;
@@ -43,7 +43,7 @@ constexpr storage storage_of(const moments4_float&)
     return {"4 x float", 0x1p-25, bias4_raw_b2, 0.10147, bias4_raw_paper_b2, 3e-7};
 }
 
-/// The most that errors of half a code make of p.
+/// The largest change of E[p] by errors of half a code.
 double norm_of(const moments4_unorm16& f, const quartic& p)
 {
     const double odd = p[1] + 0.75 * p[3];
@@ -58,10 +58,10 @@ template <class Format> double norm_of(const Format& f, const quartic& p)
 moments raw(const moments4_unorm16&, const moments& c) { return theta4_inverse(c); }
 template <class Format> moments raw(const Format&, const moments& b) { return b; }
 
-enum way { limit, certified, constant, paper, raised_pivots };
-constexpr std::size_t ways = 5;
+enum route { limit, certified, constant, paper, raised_pivots };
+constexpr std::size_t routes = 5;
 
-template <class Format> double shown(way w, const Format& f, const moments& c, double z_f)
+template <class Format> double shown(route w, const Format& f, const moments& c, double z_f)
 {
     const storage s = storage_of(f);
     const float z = float(z_f);
@@ -90,7 +90,7 @@ struct view {
 };
 constexpr std::array<const char*, 3> receivers = {"of the family", "on a depth", "anywhere"};
 
-/// Views of each kind of receiver.
+/// The views for each kind of receiver.
 const std::array<std::vector<view>, 3>& views()
 {
     static const std::array<std::vector<view>, 3> all = [] {
@@ -112,7 +112,7 @@ const std::array<std::vector<view>, 3>& views()
 }
 
 struct scores {
-    std::array<double, ways> leak{}, darkness{};
+    std::array<double, routes> leak{}, darkness{};
 };
 
 template <class Format> scores score(const Format& f, const std::vector<view>& list)
@@ -121,8 +121,8 @@ template <class Format> scores score(const Format& f, const std::vector<view>& l
     for (const view& v : list) {
         const auto b = exact_moments<4>(v.d);
         const moments c = Format::decode(Format::encode({float(b[1]), float(b[2]), float(b[3]), float(b[4])}));
-        for (std::size_t w = 0; w < ways; ++w) {
-            const double result = shown(way(w), f, c, v.z_f);
+        for (std::size_t w = 0; w < routes; ++w) {
+            const double result = shown(route(w), f, c, v.z_f);
             r.leak[w] += std::max(0.0, v.ideal - result) / double(list.size());
             r.darkness[w] = std::max(r.darkness[w], result - v.d.below(v.z_f));
         }
@@ -132,8 +132,9 @@ template <class Format> scores score(const Format& f, const std::vector<view>& l
 
 } // namespace
 
-TEST_CASE_TEMPLATE("certificates leak little more than honesty asks for", Format, moments4_unorm16, moments4_half,
-                   moments4_float)
+TEST_CASE_TEMPLATE(
+    "certificates leak at most 10% more than the honest limit, less than a constant bias, and darken nothing", Format,
+    moments4_unorm16, moments4_half, moments4_float)
 {
     const Format f;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -149,9 +150,9 @@ TEST_CASE_TEMPLATE("certificates leak little more than honesty asks for", Format
         if (effort(300) < 300) continue;
         const std::vector<double> stated =
             documented("docs/decisions/2-bias.md", std::string(storage_of(f).name) + " | " + receivers[k]);
-        CHECK(stated.size() == ways + 1);
-        if (stated.size() != ways + 1) continue;
-        for (std::size_t w = 0; w < ways; ++w) CHECK(stated[w] == doctest::Approx(s.leak[w]).epsilon(0.02));
-        CHECK(stated[ways] == doctest::Approx(std::max(s.darkness[raised_pivots], 0.0)).epsilon(0.06));
+        CHECK(stated.size() == routes + 1);
+        if (stated.size() != routes + 1) continue;
+        for (std::size_t w = 0; w < routes; ++w) CHECK(stated[w] == doctest::Approx(s.leak[w]).epsilon(0.02));
+        CHECK(stated[routes] == doctest::Approx(std::max(s.darkness[raised_pivots], 0.0)).epsilon(0.06));
     }
 }

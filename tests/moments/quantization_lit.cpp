@@ -1,6 +1,6 @@
-// No acne: whatever a storage format rounds, a receiver on or in front of a single surface stays lit, up to the most
-// that the format is stated to darken. Constant and tilted planes, single texels and regions filtered by two passes
-// that round in the storage format again.
+// No acne: in every storage format a receiver on or in front of a single surface stays lit, up to the stated darkening.
+// Surfaces are constant and tilted planes, seen by single texels and by regions after two filter passes that round to
+// the format again.
 #include "support/effort.hpp"
 #include "support/hostile.hpp"
 
@@ -25,7 +25,7 @@ moments6<float> scale(const moments6<float>& b, float w) { return moments6_scale
 moments4<float> add(const moments4<float>& sum, const moments4<float>& b, float w) { return moments4_add(sum, b, w); }
 moments6<float> add(const moments6<float>& sum, const moments6<float>& b, float w) { return moments6_add(sum, b, w); }
 
-/// A Gaussian of nine taps, normalised in float.
+/// The nine taps of a Gaussian, normalised in float.
 std::array<float, 9> gaussian()
 {
     std::array<float, 9> taps{};
@@ -40,7 +40,8 @@ template <class Format> typename Format::texel surface(float z)
     return Format::encode(moments_of_depth(static_cast<typename Format::moments*>(nullptr), z));
 }
 
-template <class Format> typename Format::texel filtered(const std::array<typename Format::texel, 9>& row)
+/// The texel that one pass makes of nine.
+template <class Format> typename Format::texel filtered_line(const std::array<typename Format::texel, 9>& row)
 {
     static const std::array<float, 9> taps = gaussian();
     auto sum = scale(Format::decode(row[0]), taps[0]);
@@ -48,16 +49,16 @@ template <class Format> typename Format::texel filtered(const std::array<typenam
     return Format::encode_channels(sum);
 }
 
-/// The plane z + i x + j y over 9x9 texels, after both passes.
+/// The texel of a plane z + i x + j y over 9x9 texels after both passes.
 template <class Format> typename Format::texel filtered_plane(float z, float x, float y)
 {
     std::array<typename Format::texel, 9> row, column;
     for (int j = -4; j <= 4; ++j) {
         for (int i = -4; i <= 4; ++i)
             row[std::size_t(i + 4)] = surface<Format>(std::clamp(z + float(i) * x + float(j) * y, -1.0f, 1.0f));
-        column[std::size_t(j + 4)] = filtered<Format>(row);
+        column[std::size_t(j + 4)] = filtered_line<Format>(row);
     }
-    return filtered<Format>(column);
+    return filtered_line<Format>(column);
 }
 
 struct acne {
@@ -78,12 +79,12 @@ struct acne {
 
 } // namespace
 
-TEST_CASE_TEMPLATE("a single surface is lit", Format, moments4_unorm16, moments4_half, moments4_float, moments6_unorm10,
-                   moments6_unorm16, moments6_float)
+TEST_CASE_TEMPLATE("a receiver on or before a single surface is lit in every format", Format, moments4_unorm16,
+                   moments4_half, moments4_float, moments6_unorm10, moments6_unorm16, moments6_float)
 {
     bit_source bits(7);
     acne single, constant, tilted;
-    // More often where formats were seen at their worst: at the ends and near z^2 = 1/2.
+    // Denser where the formats darken most: at the ends and near z^2 = 1/2.
     const auto depth = [&] {
         if (bits.chance(0.2)) return (bits.chance(0.5) ? 1.0f : -1.0f) * float(bits.uniform(0.705, 0.709));
         return bits.chance(0.05) ? (bits.chance(0.5) ? -1.0f : 1.0f) : float(bits.uniform(-1, 1));

@@ -1,5 +1,5 @@
-// Algorithm 2: two depths from three moments, against the two depths that the moments came from, and against the
-// moments.
+// Algorithm 2: two depths from three moments, against the two depths that the moments came from, and
+// against the moments.
 #include "support/climber.hpp"
 #include "support/distributions.hpp"
 #include "support/effort.hpp"
@@ -34,10 +34,10 @@ std::array<exact, 4> moments_of(const distribution& d)
 
 } // namespace
 
-// Moments rounded by u have the two depths z1 < z2, s apart, and weights w1, w2 to within about u / (w1 w2 s^2) times a
-// small factor: V = w1 w2 s^2 divides errors of b1 b2 - b3, of at most 3 u, and the weights follow by dividing through
-// s.
-TEST_CASE_TEMPLATE("two depths come back", T, float, double)
+// Let the depths be z1 < z2, a distance s apart, with weights w1 and w2. Rounding of the moments by u moves them by
+// about u / (w1 w2 s^2) times a small factor: V = w1 w2 s^2 divides the error of b1 b2 - b3, at most 3 u. The weights
+// follow by division by s.
+TEST_CASE_TEMPLATE("two depths are recovered from their moments", T, float, double)
 {
     const T least_variance = std::is_same_v<T, float> ? T(two_point_least_variance) : T(0x1p-48);
     distribution_source source(3);
@@ -56,9 +56,8 @@ TEST_CASE_TEMPLATE("two depths come back", T, float, double)
     }
 }
 
-// What the distribution is for: it has the given moments, whatever depths they came from. Depths may lie far apart;
-// errors are relative to the largest of the terms that make a moment.
-TEST_CASE_TEMPLATE("the moments come back, from every family", T, float, double)
+// Depths may lie far apart, so errors are relative to the largest of the terms that make a moment.
+TEST_CASE_TEMPLATE("the distribution has the given moments, for every family", T, float, double)
 {
     const T least_variance = std::is_same_v<T, float> ? T(two_point_least_variance) : T(0x1p-48);
     distribution_source source(4);
@@ -69,7 +68,8 @@ TEST_CASE_TEMPLATE("the moments come back, from every family", T, float, double)
             REQUIRE(r.depth1 <= r.depth2);
             const double variance = double(b[2] - b[1] * b[1]);
             if (r.depth1 == r.depth2) {
-                // One depth stands for a variance that rounding of b2 and b1^2 may have moved across the limit.
+                // A single depth is also right for a variance that rounding of b2 and b1^2 may have moved
+                // over the limit.
                 REQUIRE(variance <= double(least_variance) + 2 * double(std::numeric_limits<T>::epsilon()));
                 REQUIRE(r.depth1 == T(b[1]));
                 REQUIRE(r.weight1 + r.weight2 == T(1));
@@ -84,7 +84,7 @@ TEST_CASE_TEMPLATE("the moments come back, from every family", T, float, double)
         }
 }
 
-TEST_CASE_TEMPLATE("no variance, one depth; no information, the far plane", T, float, double)
+TEST_CASE_TEMPLATE("without variance the result is one depth, for NaN the far plane", T, float, double)
 {
     const T nan = std::numeric_limits<T>::quiet_NaN();
     for (const T z : {T(-1), T(0), T(0.25), T(1)}) {
@@ -98,8 +98,8 @@ TEST_CASE_TEMPLATE("no variance, one depth; no information, the far plane", T, f
     CHECK(two_point_distribution(T(0), T(0.5), nan, T(0)).weight1 <= T(1));
 }
 
-// Three roundings, of b2 and twice of b1, make 3 2^-25 at most.
-TEST_CASE("a single depth in moments stored as floats stays below two_point_least_variance")
+// Three roundings, of b2 and twice of b1, amount to at most 3 2^-25.
+TEST_CASE("the variance of a single depth in moments stored as floats is below two_point_least_variance")
 {
     const summit found = climb(1, 100'000, 1, [](const std::vector<double>& p) {
         const double z = 2 * p[0] - 1;
@@ -111,9 +111,9 @@ TEST_CASE("a single depth in moments stored as floats stays below two_point_leas
     CHECK(found.score > 0x2p-25);
 }
 
-// Whatever goes in: depths in order and in [-8193, 8193], weights in [0, 1] whose sum rounds to 1. The climb is for the
-// farthest depth; its places are bit patterns, in the order of the numbers.
-TEST_CASE_TEMPLATE("any bit pattern: two depths within 8193 of 0", T, float, double)
+// For any input, depths are ordered and in [-8193, 8193], and weights are in [0, 1] with a sum that rounds to 1. The
+// climb searches for the farthest depth; its places are bit patterns in the order of the numbers.
+TEST_CASE_TEMPLATE("for any bit pattern, the two depths are within 8193 of 0", T, float, double)
 {
     using word = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
     const T least_variance = std::is_same_v<T, float> ? T(two_point_least_variance) : T(0x1p-48);
@@ -131,13 +131,13 @@ TEST_CASE_TEMPLATE("any bit pattern: two depths within 8193 of 0", T, float, dou
         return farthest(two_point_distribution(pattern(p[0]), pattern(p[1]), pattern(p[2]), pattern(p[3])));
     });
     CHECK(any.score <= 8193);
-    CHECK(any.score > 2000); // the search gets there
+    CHECK(any.score > 2000); // the search reaches far depths
     const summit near = climb(3, 300'000, 2, [&](const std::vector<double>& p) {
         return farthest(two_point_distribution(T(8 * p[0] - 4), T(std::exp2(60 * p[1] - 25)),
                                                T(std::exp2(70 * p[2] - 35)), least_variance));
     });
     CHECK(near.score <= 8193);
     CHECK(near.score > 4096);
-    // Depths of 10000 once.
+    // A case whose depths would be 10000.
     CHECK(farthest(two_point_distribution(T(0), T(6e7), T(2.4e11), least_variance)) <= 8193);
 }

@@ -1,5 +1,5 @@
-// Largest errors of short differences of products, where a search finds them. Built with numerics_exact.cpp, so also
-// with contraction and without fused multiply-add.
+// The largest errors of differences of products that a search finds. Built like exact.cpp, so also with contraction and
+// without fused multiply-add.
 #include "support/climber.hpp"
 #include "support/reals.hpp"
 
@@ -16,7 +16,7 @@ using namespace gnomon::test;
 
 namespace {
 
-/// Holds sums of products of two double words within 2^20 of 1 exactly.
+/// A type that holds sums of products of double words between 2^-20 and 2^20 exactly.
 using exact =
     boost::multiprecision::number<boost::multiprecision::cpp_bin_float<512, boost::multiprecision::digit_base_2>,
                                   boost::multiprecision::et_off>;
@@ -27,21 +27,21 @@ template <class T> const exact u = ldexp(exact(1), -digits<T>);
 constexpr std::int64_t evaluations = 30'000;
 template <class T> exact sum(const double_word<T>& x) { return exact(x.high) + exact(x.low); }
 
-/// Both signs, every exponent within the range.
+/// A number of either sign with magnitude between 2^-exponent and 2^exponent.
 template <class T> T number(double p, int exponent)
 {
     const double x = std::exp2(exponent * (2 * std::abs(2 * p - 1) - 1));
     return T(p < 0.5 ? -x : x);
 }
 
-/// x, or x but for anything from a rounding to all of it, by p.
+/// x, or x with a relative change between 2^-p of T and 1, depending on p.
 template <class T> T close_to(T x, double p)
 {
     const double distance = 4 * std::abs(p - 0.5) - 1;
     return distance < 0 ? x : x + x * T((p < 0.5 ? -1 : 1) * std::exp2(-digits<T> * distance));
 }
 
-/// The error in units of scale; nothing where scale is 0.
+/// The error in units of scale; 0 if scale is 0.
 double ratio(const exact& error, const exact& scale) { return scale == 0 ? 0 : double(exact(abs(error) / scale)); }
 
 template <class F> void check_summit(double limit, std::size_t dimensions, std::int64_t count, F f)
@@ -53,7 +53,7 @@ template <class F> void check_summit(double limit, std::size_t dimensions, std::
 
 } // namespace
 
-TEST_CASE_TEMPLATE("c - a b: 2 u^2 as a double word, 2 roundings as a number", T, float, double)
+TEST_CASE_TEMPLATE("c - a b is off by at most 2 u^2 as a double word, 2 roundings as a number", T, float, double)
 {
     struct terms {
         T c, a, b;
@@ -76,14 +76,15 @@ TEST_CASE_TEMPLATE("c - a b: 2 u^2 as a double word, 2 roundings as a number", T
         return ratio(
             error, abs(exact(t.c)) >= abs(t.product) ? square * t.scale : u<T> * abs(t.product) / 2 + square * t.scale);
     });
-    // 2 u, and squares of u.
+    // 2 u and terms in u^2.
     check_summit(2 + 8 * double(u<T>), 4, evaluations, [&](const place& p) {
         const terms t(p);
         return ratio(exact(subtract_product_rounded(t.c, t.a, t.b)) - t.difference, u<T> * t.difference);
     });
 }
 
-TEST_CASE_TEMPLATE("two_difference_ordered out of order is off by a rounding of the larger", T, float, double)
+TEST_CASE_TEMPLATE("two_difference_ordered out of order is off by at most a rounding of the larger operand", T, float,
+                   double)
 {
     check_summit(1 + 4 * double(u<T>), 2, evaluations, [&](const place& p) {
         const T b = number<T>(p[0], 1), a = T(b * T(2 * p[1] - 1));
@@ -92,7 +93,8 @@ TEST_CASE_TEMPLATE("two_difference_ordered out of order is off by a rounding of 
 }
 
 // Low words of up to 16 u of their high ones.
-TEST_CASE_TEMPLATE("minors of double words: 2^8 u^2, as a number two roundings more", T, float, double)
+TEST_CASE_TEMPLATE("minors of double words are off by at most 2^8 u^2, determinants by two roundings more", T, float,
+                   double)
 {
     const exact square = u<T> * u<T>;
     const auto word = [](T high, double p) { return double_word<T>{high, T(high * T(16 * (2 * p - 1)) * T(u<T>))}; };
@@ -112,7 +114,7 @@ TEST_CASE_TEMPLATE("minors of double words: 2^8 u^2, as a number two roundings m
     });
 }
 
-TEST_CASE_TEMPLATE("two_product below its domain: two of the smallest denormals", T, float, double)
+TEST_CASE_TEMPLATE("two_product below its domain is off by at most two of the smallest denormals", T, float, double)
 {
     constexpr int domain = std::is_same_v<T, float> ? 100 : 900, range = std::is_same_v<T, float> ? 50 : 175;
     const exact least = std::numeric_limits<T>::denorm_min();

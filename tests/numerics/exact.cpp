@@ -1,6 +1,6 @@
-// Error-free transformations and short differences of products, against exact integers: a float is a 24-bit and a
-// double a 53-bit integer times a power of two. Built three times: as the library is used, with contraction allowed,
-// which must change no promise, and without fused multiply-add, where the split route has to give the same bits.
+// Error-free transformations and differences of products against exact arithmetic. Built three times: as users build
+// the library, with contraction, which must not change any stated error, and without fused multiply-add, where
+// splitting must give the same bits.
 #include "support/effort.hpp"
 #include "support/hostile.hpp"
 #include "support/reals.hpp"
@@ -20,20 +20,20 @@ using namespace gnomon::test;
 
 namespace {
 
-/// Wide enough to hold sums and products of two numbers of the domain without rounding.
+/// A type that holds sums and products of two numbers of the domain exactly.
 using exact =
     boost::multiprecision::number<boost::multiprecision::cpp_bin_float<4096, boost::multiprecision::digit_base_2>,
                                   boost::multiprecision::et_off>;
 
 template <class T> exact sum(const double_word<T>& x) { return exact(x.high) + exact(x.low); }
 
-/// Numbers of both signs whose magnitudes have every exponent between the two.
+/// A source of numbers of both signs with every exponent from lowest to highest.
 template <class T> class magnitudes {
   public:
     magnitudes(std::uint64_t seed, int lowest, int highest) : bits_(seed), lowest_(lowest), highest_(highest) {}
     T operator()()
     {
-        // Short and long fractions: ties and cancellation need the short ones.
+        // Fractions of few and of many bits: few bits give ties and cancellation.
         const int digits = 1 + int(bits_.below(std::numeric_limits<T>::digits));
         const auto fraction = std::uint64_t{1} << (digits - 1) | (bits_() >> (64 - digits) >> 1);
         const int exponent = lowest_ + int(bits_.below(std::size_t(highest_ - lowest_ + 1)));
@@ -50,7 +50,7 @@ template <class T> class magnitudes {
 template <class T> constexpr int domain = std::is_same_v<T, float> ? 100 : 900;
 template <class T> const exact unit = ldexp(exact(1), -std::numeric_limits<T>::digits);
 
-/// value rounded to nearest by integers alone.
+/// value rounded to nearest.
 template <class T> T nearest(const exact& value) { return value.template convert_to<T>(); }
 
 } // namespace
@@ -80,7 +80,7 @@ TEST_CASE_TEMPLATE("two_product is exact, rounds to nearest, and splits to the s
         REQUIRE(p.low == two_product(plain<T>(a), plain<T>(b)).low.value);
         REQUIRE(p.low == std::fma(a, b, -p.high));
     }
-    // The domain's corners: both factors at an end, and their product at the other.
+    // The corners of the domain: both factors at one end, or their product at the other.
     for (const int high : {0, domain<T>}) {
         magnitudes<T> first(3, high, high), second(4, -domain<T>, -high + (high == 0 ? domain<T> - 1 : 0));
         for (std::int64_t i = 0; i < effort(10'000); ++i) {
@@ -93,7 +93,7 @@ TEST_CASE_TEMPLATE("two_product is exact, rounds to nearest, and splits to the s
     CHECK(two_product(T(0), T(-3)).low == 0);
 }
 
-TEST_CASE_TEMPLATE("two_difference is exact in any order, two_difference_ordered in the right one", T, float, double)
+TEST_CASE_TEMPLATE("two_difference is exact in any order, two_difference_ordered for |a| >= |b|", T, float, double)
 {
     constexpr int e = domain<T>;
     for (const int spread : {e, 30, 2}) {
@@ -111,8 +111,8 @@ TEST_CASE_TEMPLATE("two_difference is exact in any order, two_difference_ordered
     }
 }
 
-// c close to a b is where a difference needs its error-free parts.
-TEST_CASE_TEMPLATE("differences with products under cancellation", T, float, double)
+// Error-free parts matter if c is close to a b.
+TEST_CASE_TEMPLATE("differences with products keep their stated errors under cancellation", T, float, double)
 {
     magnitudes<T> draw(6, -20, 20);
     for (std::int64_t i = 0; i < effort(10'000); ++i) {
@@ -127,9 +127,10 @@ TEST_CASE_TEMPLATE("differences with products under cancellation", T, float, dou
     }
 }
 
-TEST_CASE_TEMPLATE("double_word_minor", T, float, double)
+TEST_CASE_TEMPLATE("double_word_minor is off by at most 2^-40 of its products in float, 2^-98 in double", T, float,
+                   double)
 {
-    // 2^-40 in float, where u = 2^-24: 2^8 u^2.
+    // 2^8 u^2: 2^-40 in float.
     const exact bound = ldexp(exact(1), -40 - 2 * (std::numeric_limits<T>::digits - 24));
     magnitudes<T> draw(7, -12, 12);
     const auto word = [&] {

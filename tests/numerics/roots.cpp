@@ -1,8 +1,9 @@
-// Roots of quadratics and of cubics with three real roots, against Newton's method in 50 digits on the same, rounded
-// coefficients.
+// Roots of quadratics, and of cubics with three real roots, against Newton's method in 50 digits on the
+// same rounded coefficients.
 #include "support/climber.hpp"
 #include "support/effort.hpp"
 #include "support/hostile.hpp"
+#include "support/rounding.hpp"
 
 #include <gnomon/numerics/cubic.h>
 #include <gnomon/numerics/quadratic.h>
@@ -22,18 +23,12 @@ namespace {
 
 using high = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
 
-template <class T> double ulps(T value, const high& exact)
-{
-    const double unit = std::ldexp(1.0, std::ilogb(double(exact)) + 1 - std::numeric_limits<T>::digits);
-    return double(abs(high(value) - exact)) / unit;
-}
-
-/// Magnitudes of all sizes within what a quadratic's squares can hold, and both signs.
+/// A number of either sign with magnitude between 2^-20 and 2^20, whose squares do not overflow.
 double draw(bit_source& bits) { return (bits.chance(0.5) ? 1 : -1) * std::exp2(bits.uniform(-20, 20)); }
 
 } // namespace
 
-TEST_CASE_TEMPLATE("quadratic_roots: 4 ulp where a c <= b^2 / 2", T, float, double)
+TEST_CASE_TEMPLATE("quadratic_roots are off by at most 4 ulp where a c <= b^2 / 2", T, float, double)
 {
     bit_source bits(1);
     double worst = 0;
@@ -53,8 +48,8 @@ TEST_CASE_TEMPLATE("quadratic_roots: 4 ulp where a c <= b^2 / 2", T, float, doub
     CHECK(quadratic_roots(T(0), T(1), T(3)).second == T(-1.5));
 }
 
-// The largest errors sit where b^2 is far below -a c, so that nothing damps the rounding of that product.
-TEST_CASE_TEMPLATE("quadratics at their worst: 4 ulp", T, float, double)
+// The largest errors occur where b^2 is far below -a c, so that nothing damps the rounding of that product.
+TEST_CASE_TEMPLATE("quadratic_roots at their worst are off by at most 4 ulp", T, float, double)
 {
     const auto number = [](double p, int exponent) {
         const double x = std::exp2(exponent * (2 * std::abs(2 * p - 1) - 1));
@@ -81,9 +76,9 @@ TEST_CASE_TEMPLATE("quadratics at their worst: 4 ulp", T, float, double)
     }
 }
 
-// The roots that hamburger6.h asks for: one positive, two negative. Rounding a coefficient moves the root by about
-// u (|t^3| + |b t^2| + |c t| + |d|) / |f'(t)|; a few of these are what Halley's iteration leaves, whose value of f
-// carries 4 to 6 roundings.
+// The roots of the cubics of hamburger6.h: one positive, two negative. Rounding of a coefficient moves the root by
+// about u (|t^3| + |b t^2| + |c t| + |d|) / |f'(t)|. Halley's iteration leaves a few times that, since its value of f
+// has 4 to 6 roundings.
 template <class T> double roundings_of_largest_root(double r, double m, double n)
 {
     const T b = T(m + n - r), c = T(m * n - r * (m + n)), d = T(-r * m * n);
@@ -96,7 +91,7 @@ template <class T> double roundings_of_largest_root(double r, double m, double n
     return double(abs(high(cubic_largest_root(b, c, d)) - t)) / (u * conditioned);
 }
 
-TEST_CASE_TEMPLATE("cubic_largest_root: its stated error, by climbing", T, float, double)
+TEST_CASE_TEMPLATE("cubic_largest_root has its stated error where a climb finds the largest", T, float, double)
 {
     const double farthest = std::numeric_limits<T>::digits > 24 ? 40 : 9;
     const summit top = climb(3, 100'000, 2, [&](const std::vector<double>& x) {

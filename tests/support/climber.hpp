@@ -1,5 +1,5 @@
-// A hill climber: the search that random samples are no substitute for. The largest errors of a kernel sit in corners
-// that uniform draws miss by orders of magnitude (a receiver 2^-30 behind a depth, three depths in a line).
+// A hill climber. The largest errors of a kernel occur in corners that uniform random samples miss by orders of
+// magnitude (a receiver 2^-30 behind a depth, three depths in a line).
 #pragma once
 
 #include "effort.hpp"
@@ -12,18 +12,19 @@
 
 namespace gnomon::test {
 
-/// The highest point that was found: its score and its place in the unit cube.
+/// The highest point found: its score and its place in the unit cube.
 struct summit {
     double score = -HUGE_VAL;
     std::vector<double> place;
 };
 
-/// Climbs towards large values of score(place), a function of a place in the unit cube of so many dimensions.
+/// The highest point found by climbing towards large values of score(place), for places in the unit cube of the given
+/// number of dimensions.
 ///
 /// Every climb starts from the best of 16 random places. A step moves one to three coordinates by a distance drawn
 /// log-uniformly from 2^-45 to 1, or sends one anywhere; it is kept if the score does not fall, so plateaus are
 /// crossed. A climb ends after 60 steps per dimension without a gain. A NaN counts as infinitely high.
-/// evaluations is the budget of a full run (effort.hpp).
+/// evaluations is the number of evaluations in a full run (effort.hpp).
 template <class Score> summit climb(std::size_t dimensions, std::int64_t evaluations, std::uint64_t seed, Score score)
 {
     bit_source bits(seed);

@@ -1,6 +1,6 @@
-// Places in the unit cube, as a climber moves them (climber.hpp), read as what a receiver sees: a distribution of few
-// depths, or a small scene under a 9x9 filter. Surfaces stand apart by 1 to 2^-30 and receivers on a depth, or behind
-// one by 1 to 2^-40, or anywhere.
+// Situations of receivers from places in the unit cube, which a climber moves (climber.hpp): a distribution of few
+// depths, or a small scene under a 9x9 filter. Surfaces are 2^-30 to 1 apart. A receiver is on a depth, 2^-40 to 1
+// behind one, or anywhere.
 #pragma once
 
 #include "distributions.hpp"
@@ -13,7 +13,7 @@
 
 namespace gnomon::test {
 
-/// 0 in the middle of the unit interval, else of either sign and from 2^-smallest to 1.
+/// 0 for a place in the middle of the unit interval, else a number of either sign with magnitude from 2^-smallest to 1.
 inline double any_size(double place, double smallest)
 {
     const double x = 2 * place - 1;
@@ -21,10 +21,10 @@ inline double any_size(double place, double smallest)
     return std::copysign(std::exp2(smallest * (std::abs(x) - 1) / 0.95), x);
 }
 
-/// A depth as a depth buffer holds it.
+/// The depth z in a depth buffer: clamped to [-1, 1] and rounded to float.
 inline double clamped_depth(double z) { return double(float(std::clamp(z, -1.0, 1.0))); }
 
-/// The receiver at a depth, or behind it, or anywhere.
+/// The depth of a receiver: at a depth, behind it, or anywhere.
 inline double receiver_at(double depth, double kind, double place)
 {
     if (kind < 0.3) return depth;
@@ -32,6 +32,7 @@ inline double receiver_at(double depth, double kind, double place)
     return clamped_depth(2 * place - 1);
 }
 
+/// A receiver and the distribution of depths in its filter region.
 struct sight {
     distribution seen;
     double receiver;
@@ -39,7 +40,7 @@ struct sight {
 
 inline constexpr std::size_t sight_dimensions = 14;
 
-/// One to five depths, each anywhere, near another or clamped to an end.
+/// The sight of one to five depths, each anywhere, near another, or clamped to an end.
 inline sight sight_at(const std::vector<double>& x)
 {
     sight s;
@@ -60,7 +61,7 @@ inline sight sight_at(const std::vector<double>& x)
     return s;
 }
 
-/// Nine depths by nine, the taps of a separable filter, and a receiver.
+/// A receiver in a scene of 9x9 depths under a separable filter.
 struct contact {
     std::array<std::array<float, 9>, 9> depths;
     std::array<float, 9> taps;
@@ -81,7 +82,7 @@ struct contact {
 
 inline constexpr std::size_t contact_dimensions = 18;
 
-/// Up to three planes that meet, or nearly, along straight borders; a box or a binomial filter.
+/// The scene of up to three planes that meet, or nearly meet, along straight borders, under a box or a binomial filter.
 inline contact contact_at(const std::vector<double>& x)
 {
     contact s{};

@@ -1,7 +1,7 @@
-// Depth distributions that provoke moment methods, for tests and benches: 13 families, drawn from a seed.
-// They cover what a filter region sees (one to five surfaces, a filtered plane, clamped depths) and what breaks
-// arithmetic (coincident depths, vanishing weights). No family is meant to be likely; figures over them compare
-// methods.
+// Depth distributions that provoke moment methods, for tests and benches: 13 families, drawn from a seed. They
+// cover the content of filter regions (one to five surfaces, a filtered plane, clamped depths) and cases that
+// break arithmetic (coincident depths, vanishing weights). The families are not meant to be likely: figures over
+// them compare methods.
 #pragma once
 
 #include <algorithm>
@@ -56,7 +56,7 @@ inline constexpr std::array<std::string_view, family_count> family_names = {"one
                                                                             "81 points",
                                                                             "9x9 plane"};
 
-/// Fewest distinct depths that the family draws: with more than m / 2 of them the bounds are smooth in the moments.
+/// The least number of distinct depths of a family. With more than m / 2 the bounds are smooth in the moments.
 inline constexpr std::array<int, family_count> family_points = {1, 1, 2, 2, 2, 3, 3, 3, 4, 5, 5, 81, 9};
 
 class distribution_source {
@@ -104,7 +104,7 @@ class distribution_source {
         return points(1);
     }
 
-    /// A receiver that stands where it hurts: anywhere, on a depth of the distribution, or close to one.
+    /// A receiver at a critical depth: anywhere, on a depth of the distribution, or close to one.
     double receiver(const distribution& d)
     {
         const double u = uniform(0, 1);

@@ -1,4 +1,4 @@
-// Tables in the documentation that tests hold to what they measure.
+// Tables in the documentation whose numbers tests check against measurements.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,8 @@
 
 namespace gnomon::test {
 
-/// The numbers of the row "| KEY | number | ..." in a file, given from the project's root; KEY may have bars.
+/// The numbers of the row "| KEY | number | ..." in a file; path is relative to the root of the project. KEY
+/// may have bars.
 inline std::vector<double> documented(const std::string& path, const std::string& key)
 {
     std::ifstream file(std::filesystem::path(__FILE__).parent_path() / "../.." / path);

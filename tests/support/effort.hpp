@@ -1,7 +1,6 @@
-// How much a randomised test draws. A test names the count of a full run; GNOMON_TEST_EFFORT=quick (sanitizers,
-// second compiler) takes a hundredth of it, GNOMON_TEST_EFFORT=long a hundred times as much.
-#ifndef GNOMON_TESTS_SUPPORT_EFFORT_HPP
-#define GNOMON_TESTS_SUPPORT_EFFORT_HPP
+// The number of draws of a randomised test. A test names the number of a full run. GNOMON_TEST_EFFORT=quick (for
+// sanitizers and the second compiler) makes a hundredth of it, GNOMON_TEST_EFFORT=long a hundred times as many.
+#pragma once
 
 #include <algorithm>
 #include <cstdint>
@@ -11,6 +10,7 @@
 
 namespace gnomon::test {
 
+/// The number of draws of this run, for a number of draws of a full run.
 inline std::int64_t effort(std::int64_t full)
 {
     const char* word = std::getenv("GNOMON_TEST_EFFORT");
@@ -21,8 +21,7 @@ inline std::int64_t effort(std::int64_t full)
     std::exit(2);
 }
 
-/// True where only a part of the draws of a full run is made, so that rare ones may be missing.
+/// True if this run makes fewer draws than a full run, so that rare ones may be missing.
 inline bool draws_few() { return effort(100) < 100; }
 
 } // namespace gnomon::test
-#endif

@@ -1,5 +1,5 @@
-// The honest limit: the most that any method can show of stored moments without ever darkening a surface. By duality it
-// is the largest certificate (certified4.h), found here by a search over both of its nodes.
+// The honest limit: the largest intensity that any method can show for given stored moments without ever darkening a
+// surface. By duality it is the largest certificate (certified4.h), found here by a search over both of its nodes.
 #pragma once
 
 #include <gnomon/moments/bias.h>
@@ -11,21 +11,21 @@
 
 namespace gnomon::test {
 
-/// p0, ..., p4.
+/// The coefficients p0 to p4.
 using quartic = std::array<double, 5>;
 
-/// The mean of p over what was stored, less the most that its errors can make of it.
+/// The mean of p for the stored moments, minus the largest effect of their errors.
 template <class Norm> double certified_mean(const quartic& p, const moments4<double>& b, Norm norm)
 {
     return p[0] + p[1] * b.b1 + p[2] * b.b2 + p[3] * b.b3 + p[4] * b.b4 - norm(p);
 }
 
-/// The certificate with one node at z_f - before and the other at z_f + behind, or, where both are before z_f, at
-/// z_f + behind < z_f.
+/// The certificate with one node at z_f - before and the other at z_f + behind, where a negative `behind` puts
+/// both before z_f.
 inline quartic certificate_of_nodes(double z_f, double before, double behind)
 {
     const double c = 1 / before, g = -1 / behind;
-    std::array<double, 3> square{}, other{}; // of y = z - z_f
+    std::array<double, 3> square{}, other{}; // in y = z - z_f
     double top = 1;
     if (behind > 0) {
         const double k = 1 / (before + behind), t = behind * k;
@@ -45,8 +45,8 @@ inline quartic certificate_of_nodes(double z_f, double before, double behind)
     return y;
 }
 
-/// The largest certified mean for a receiver at z_f, at least 0. norm(p) is the most that errors of storage make of p;
-/// the search starts from the nodes of b with biases around weight.
+/// The largest certified mean for a receiver at z_f, at least 0. norm(p) is the largest effect of storage errors on the
+/// mean of p. The search starts from the nodes of b with biases around weight.
 template <class Norm> double honest_limit(const moments4<double>& b, double z_f, double bias, double weight, Norm norm)
 {
     double best = 0;

@@ -1,5 +1,5 @@
-// Inputs that nobody should send to a kernel and somebody will: a third of them any bit patterns, a third numbers that
-// are special one by one, a third moments of few depths with a little or a lot wrong.
+// Hostile inputs for kernels: a third any bit patterns, a third special numbers, a third moments of few depths with
+// small or large errors.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace gnomon::test {
 
-/// SplitMix64 (Steele, Lea & Flood 2014).
+/// A source of random bits: SplitMix64 (Steele, Lea & Flood 2014).
 class bit_source {
   public:
     explicit bit_source(std::uint64_t seed) : state_(seed) {}
@@ -36,7 +36,7 @@ template <class T> class hostile_source {
   public:
     explicit hostile_source(std::uint64_t seed) : bits_(seed) {}
 
-    /// Six moments or channels and a receiver.
+    /// The next six moments or channels, and a receiver.
     std::array<T, 7> draw()
     {
         std::array<T, 7> x{};
@@ -83,8 +83,8 @@ template <class T> class hostile_source {
     }
 
   private:
-    /// Moments of one to four depths, some at the ends, rounded to T, then perhaps moved, swapped or partly replaced.
-    /// The receiver is one of the depths half of the time.
+    /// Moments of one to four depths, some at the ends, rounded to T and then often perturbed, swapped or partly
+    /// replaced. The receiver is at one of the depths half of the time.
     std::array<T, 7> nearly_moments()
     {
         std::array<double, 4> depths{}, weights{};
@@ -121,7 +121,7 @@ template <class T> class hostile_source {
                 std::swap(x[0], x[1]);
                 break;
             case 4: {
-                const T cleared = special(); // a map that was cleared and never drawn
+                const T cleared = special(); // a map that is cleared and not drawn
                 for (std::size_t j = 0; j < 6; ++j) x[j] = cleared;
                 break;
             }

@@ -1,8 +1,8 @@
-// A kernel as a function from numbers to numbers, over rows in blocks: the shape in which tests, benches and shaders
-// run every kernel alike.
+// Kernels as functions from numbers to numbers over rows in blocks: the common shape in which tests, benches and
+// shaders run every kernel.
 //
-// A block holds 64 rows, one column for each number, so that packs load lanes and a shader's workgroup is a block:
-// number j of row i stands at [(i / 64) (64 n) + 64 j + i % 64], n numbers in a row.
+// A block holds 64 rows, one column for each number, so that packs load lanes and a workgroup of a shader is a block.
+// With n numbers in a row, number j of row i is at [(i / 64) (64 n) + 64 j + i % 64].
 #pragma once
 
 #include "reals.hpp"
@@ -18,7 +18,7 @@ namespace gnomon::test {
 
 inline constexpr std::size_t block_rows = 64;
 
-/// Equal bits, or NaN both.
+/// True if a and b have equal bits or are both NaN.
 template <class T> bool same(T a, T b)
 {
     return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b));
@@ -26,7 +26,7 @@ template <class T> bool same(T a, T b)
 
 template <class Real, class T> inline constexpr std::size_t numbers_in = sizeof(T) / sizeof(Real);
 
-/// A Real, or a struct of nothing else, from the columns that follow; moves on to the next.
+/// The next argument, a Real or a struct of Reals, from the next columns, past which `column` is moved.
 template <class Real, class T> T take(const lane_t<Real>*& column)
 {
     static_assert(sizeof(T) % sizeof(Real) == 0 && std::is_trivially_copyable_v<T>);
@@ -52,7 +52,8 @@ struct kernel_call<Real, kernel, Result (*)(Arguments...)> {
         for (; blocks > 0; --blocks, in += block_rows * inputs, out += block_rows * outputs)
             for (std::size_t i = 0; i < block_rows; i += lanes<Real>()) {
                 const lane_t<Real>* column = in + i;
-                const std::tuple<Arguments...> arguments{take<Real, Arguments>(column)...}; // braces: left to right
+                const std::tuple<Arguments...> arguments{
+                    take<Real, Arguments>(column)...}; // braces evaluate left to right
                 const Result result = std::apply([](const auto&... a) { return kernel(a...); }, arguments);
                 std::array<Real, outputs> numbers;
                 std::memcpy(&numbers, &result, sizeof result);

@@ -1,10 +1,10 @@
-// Rows of inputs for any kernel, by the families that kernels.txt names: the same in every run.
+// Rows of inputs for any kernel, by the families in kernels.txt. Every run draws the same rows.
 //
-// Rows in which a family's numbers belong together come from one situation: a depth distribution (distributions.hpp), a
-// receiver where it hurts, a texel of the distribution. Blocks of 64 rows take turns:
-//     two of four   drawn from the families, in the kernels' domain
-//     one           the same with one number replaced: by a special one, by any bits, or by itself and a little noise
-//     one           every number special, or all of any bits
+// Numbers of a row that belong together come from one situation (situations.hpp): a depth distribution, a receiver at a
+// critical depth, and a texel of the distribution. Of four blocks of 64 rows
+//     two    are drawn from the families, in the domain of the kernel
+//     one    also, but with one number replaced: by a special number, by any bits, or by itself with a small error
+//     one    has only special numbers or only any bits
 #pragma once
 
 #include "kernel_call.hpp"
@@ -25,7 +25,7 @@
 
 namespace gnomon::test {
 
-/// Writes structs and scalars, one number after the other.
+/// A writer of structs and scalars, number after number.
 template <class T> class row_writer {
   public:
     explicit row_writer(T* at) : at_(at) {}
@@ -42,6 +42,7 @@ template <class T> class row_writer {
     T* at_;
 };
 
+/// A family of inputs: its name, how many numbers it gives, and how they are drawn.
 template <class T> struct input_family {
     std::string_view name;
     std::size_t numbers;
@@ -81,7 +82,7 @@ inline constexpr input_family<T> input_families[] = {
          const double lower = bits.uniform(0, 1), weight = bits.uniform(0, 1 - lower);
          put(lower), put(lower + weight), put(weight);
      }},
-    // Both warps at two depths, mixed.
+    // The moments of both warps, of a mixture of two depths.
     {"warped4", 4,
      [](auto put, const situation& s, bit_source& bits) {
          const double c = bits.uniform(1, 40), d = 5.54, w = bits.uniform(0, 1);
@@ -97,7 +98,7 @@ inline constexpr input_family<T> input_families[] = {
      [](auto put, const situation&, bit_source& bits) {
          put(bits.uniform(-1, 1)), put(bits.uniform(1, 8)), put(std::exp2(bits.uniform(-26, -8)));
      }},
-    // Motion: times, surfaces and where they are when.
+    // Motion: times and ranges.
     {"time", 1,
      [](auto put, const situation&, bit_source& bits) {
          put(bits.chance(0.2) ? double(bits.below(5)) / 4 : bits.uniform(0, 1));
@@ -135,7 +136,7 @@ inline constexpr input_family<T> input_families[] = {
          for (int k = 0; k < 6; ++k) put(bits.uniform(-1, 1));
      }},
     {"range_list", 42, [](auto put, const situation& s, bit_source& bits) { put(any_range_list<T>(s, bits)); }},
-    // The Fourier series: settings, and a phase.
+    // Fourier series: settings and phases.
     {"series", 4,
      [](auto put, const situation&, bit_source& bits) {
          put(convolution_settings<T>{T(1 + bits.below(16)), T(bits.uniform(0, 3)), T(bits.uniform(0, 0.1)),
@@ -203,13 +204,13 @@ inline constexpr input_family<T> input_families[] = {
      }},
 };
 
-/// Rows of every kind in turn, those in the kernel's domain alone, or the others alone.
+/// The kind of rows to draw: every kind in turn, only rows in the domain of the kernel, or only the others.
 enum class row_kind { all, tame, hostile };
 
 /// The rows of one kernel.
 template <class T> class kernel_inputs {
   public:
-    /// families: words of kernels.txt, numbers: what they must come to.
+    /// families are the words of kernels.txt, which must give as many numbers as stated.
     kernel_inputs(std::string_view kernel, std::string_view families, std::size_t numbers)
         : bits_(std::hash<std::string_view>{}(kernel)), special_(bits_()), numbers_(numbers)
     {
@@ -226,7 +227,7 @@ template <class T> class kernel_inputs {
             wrong(kernel, "needs " + std::to_string(numbers) + " numbers, its families give " + std::to_string(given));
     }
 
-    /// The next blocks, in the layout of kernel_call.hpp.
+    /// Draws the next blocks, in the layout of kernel_call.hpp.
     void draw(std::size_t blocks, T* to, row_kind kind = row_kind::all)
     {
         std::vector<T> row(numbers_);

@@ -1,4 +1,4 @@
-// Moments as a map has them: of a distribution, exact and then rounded, and of a scene that two passes filter.
+// Moments as a map holds them: those of a distribution, rounded once, and those of a scene after two filter passes.
 #pragma once
 
 #include "contacts.hpp"
@@ -9,18 +9,45 @@
 
 namespace gnomon::test {
 
-/// Summed in double and rounded once.
-inline moments4<float> moments4_of(const distribution& d)
+/// The moments b_1 to b_m of a distribution, summed in double.
+template <std::size_t m> std::array<double, m> moments_of(const distribution& d)
 {
-    std::array<double, 4> b{};
+    std::array<double, m> b{};
     for (std::size_t i = 0; i < d.depths.size(); ++i) {
         double p = d.weights[i];
         for (double& moment : b) moment += p *= d.depths[i];
     }
-    return {float(b[0]), float(b[1]), float(b[2]), float(b[3])};
+    return b;
 }
 
-/// Channels of a scene's centre, rounded when rendered and in each of two passes, whose sums are of float.
+/// The first four of b_1, b_2, ... as T.
+template <class T, std::size_t m> moments4<T> moments4_in(const std::array<double, m>& b)
+{
+    return {T(b[0]), T(b[1]), T(b[2]), T(b[3])};
+}
+
+/// The first six of b_1, b_2, ... as T.
+template <class T> moments6<T> moments6_in(const std::array<double, 6>& b)
+{
+    return {T(b[0]), T(b[1]), T(b[2]), T(b[3]), T(b[4]), T(b[5])};
+}
+
+/// The moments of a distribution, rounded once to float.
+inline moments4<float> moments4_of(const distribution& d) { return moments4_in<float>(moments_of<4>(d)); }
+inline moments6<float> moments6_of(const distribution& d) { return moments6_in<float>(moments_of<6>(d)); }
+
+/// The same numbers in double.
+template <class T> moments4<double> in_double(const moments4<T>& b)
+{
+    return {double(b.b1), double(b.b2), double(b.b3), double(b.b4)};
+}
+template <class T> moments6<double> in_double(const moments6<T>& b)
+{
+    return {double(b.b1), double(b.b2), double(b.b3), double(b.b4), double(b.b5), double(b.b6)};
+}
+
+/// The channels at the centre of a scene, rounded to the format when rendered and after each of two filter passes,
+/// which sum in float.
 template <class Format> typename Format::moments filtered_moments(const contact& scene)
 {
     constexpr bool four = std::is_same_v<typename Format::moments, moments4<float>>;

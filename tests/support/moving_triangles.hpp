@@ -1,5 +1,5 @@
-// Moving triangles and samples near them: still, carried, turned, deformed, in perspective with w down to 1/50, and on
-// a coarse lattice, where vertices meet samples, edges stand on them and areas vanish.
+// Moving triangles with samples near them: static, translated, rotated, deformed, in perspective with w down to 1/50,
+// and on a coarse lattice, where vertices coincide with samples, edges pass through samples and areas vanish.
 #pragma once
 
 #include "hostile.hpp"
@@ -25,7 +25,7 @@ using point = std::array<double, 3>;
 
 inline point any_point(bit_source& bits) { return {bits.uniform(-1, 1), bits.uniform(-1, 1), bits.uniform(-1, 1)}; }
 
-/// About an axis through a point, by Rodrigues' formula.
+/// p rotated about an axis through a point, by Rodrigues' formula.
 inline point turned(const point& p, const point& about, const point& axis, double angle)
 {
     const point d{p[0] - about[0], p[1] - about[1], p[2] - about[2]};
@@ -51,7 +51,7 @@ inline point moved(const point& p, movement how, const point& shift, const point
     }
 }
 
-/// Orthographic, or at a distance from 1/50 to 4 from the light, depth -1 at 1/50 and 1 at 4.
+/// The vertex in clip space: orthographic, or at a distance of 1/50 to 4 from the light with depth -1 to 1.
 inline std::array<double, 4> projected(const point& p, bool perspective)
 {
     if (!perspective) return {p[0], p[1], p[2], 1};
@@ -67,7 +67,8 @@ inline moving_vertex<double> vertex_between(const std::array<double, 4>& q, cons
 
 } // namespace detail
 
-/// Three of four samples see the triangle at some time, one of them at a vertex.
+/// A random moving triangle and a sample. The triangle covers three of four samples at some time, one of them
+/// at a vertex.
 inline moving_scene draw_moving_scene(movement how, bit_source& bits)
 {
     const detail::point shift = detail::any_point(bits), raw = detail::any_point(bits);

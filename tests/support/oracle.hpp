@@ -1,8 +1,10 @@
-// The moment problem in 120 digits, by Algorithm 1 of Peters et al. 2017 as it stands (Hankel system, roots,
-// Vandermonde system): a route that shares nothing with the kernels. For m = 4 and m = 6.
+// The moment problem in 120 digits, by Algorithm 1 of Peters et al. 2017 as printed (Hankel system, roots, Vandermonde
+// system), for m = 4 and m = 6. This route shares nothing with the kernels.
 #pragma once
 
 #include "distributions.hpp"
+
+#include <gnomon/moments/moments.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
@@ -15,7 +17,7 @@ using high = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<
 
 template <std::size_t m> using high_moments = std::array<high, m + 1>;
 
-/// b_j of the distribution, exact up to the 120th digit; weights are made to sum to 1 in this precision.
+/// The moments b_0 to b_m of a distribution, exact to the 120th digit, with weights normalised in this precision.
 template <std::size_t m> high_moments<m> exact_moments(const distribution& d)
 {
     high_moments<m> b{};
@@ -28,7 +30,16 @@ template <std::size_t m> high_moments<m> exact_moments(const distribution& d)
     return b;
 }
 
-/// (1 - alpha) b + alpha b*, where b* has the given even moments and no odd ones.
+/// The four moments, rounded to T.
+template <class T> moments4<T> rounded(const high_moments<4>& b) { return {T(b[1]), T(b[2]), T(b[3]), T(b[4])}; }
+
+/// The six moments, rounded to T.
+template <class T> moments6<T> rounded(const high_moments<6>& b)
+{
+    return {T(b[1]), T(b[2]), T(b[3]), T(b[4]), T(b[5]), T(b[6])};
+}
+
+/// The biased moments (1 - alpha) b + alpha b*, where b* has the given even moments and odd moments of 0.
 template <std::size_t m> high_moments<m> biased(high_moments<m> b, const std::array<double, m / 2>& even, double alpha)
 {
     for (std::size_t j = 1; j <= m; ++j)
@@ -36,7 +47,7 @@ template <std::size_t m> high_moments<m> biased(high_moments<m> b, const std::ar
     return b;
 }
 
-/// The canonical distribution with a node at z_f, and what it gives for the shadow intensity there.
+/// The canonical distribution with a node at z_f, and the bounds on the shadow intensity at z_f.
 template <std::size_t m> struct oracle_result {
     bool valid = false; ///< the Hankel matrix is positive definite
     std::array<high, m / 2 + 1> depths, weights;
@@ -82,7 +93,7 @@ template <std::size_t m> bool positive_definite(const high_moments<m>& b)
     return true;
 }
 
-/// Real roots of q_0 + ... + q_n z^n by Aberth's simultaneous iteration on the reals, which interlacing keeps apart.
+/// The roots of q_0 + ... + q_n z^n, all real, by Newton's method with deflation; a quadratic in closed form.
 template <std::size_t n> std::array<high, n> real_roots(std::array<high, n + 1> q)
 {
     std::array<high, n> z;
@@ -90,10 +101,10 @@ template <std::size_t n> std::array<high, n> real_roots(std::array<high, n + 1> 
         const high h = q[1] / 2, r = sqrt(h * h - q[0] * q[2]), t = h < 0 ? r - h : -(h + r);
         z = {t / q[2], t == 0 ? high(0) : q[0] / t};
     } else {
-        // Divide by the largest coefficient of the reversed polynomial's choice: a root may be near infinity.
+        // A root near infinity is the inverse of a root near 0 of the reversed polynomial.
         const bool reverse = abs(q[0]) > abs(q[n]);
         if (reverse) std::reverse(q.begin(), q.end());
-        // Newton from beyond the largest root converges monotonically; deflate and polish on the original.
+        // Newton's method converges monotonically from a start beyond the largest root.
         std::array<high, n + 1> p = q;
         for (std::size_t k = n; k > 0; --k) {
             high bound = 0;
@@ -147,9 +158,8 @@ template <std::size_t m> oracle_result<m> oracle(const high_moments<m>& b, doubl
     return r;
 }
 
-/// The sharp lower bound for the distribution itself, without storage or bias: what leaking is measured against. Where
-/// the moments determine the distribution, which they do for up to m / 2 depths, that is the distribution's own Z(z <
-/// z_f).
+/// The sharp lower bound for the exact moments of the distribution, without storage or bias: the reference for leaking.
+/// Up to m / 2 depths are determined by their moments, so the bound is then Z(z < z_f) itself.
 template <std::size_t m> double ideal_lower(const distribution& d, double z_f)
 {
     const auto r = oracle<m>(exact_moments<m>(d), z_f);

@@ -1,4 +1,4 @@
-// Triangles and fragments of prisms, and ranges of which some cover a texel for the whole of the shutter.
+// Triangles and fragments of prisms, and ranges some of which cover a texel throughout the shutter.
 #pragma once
 
 #include "hostile.hpp"
@@ -11,7 +11,7 @@
 
 namespace gnomon::test {
 
-/// One of a prism's triangles, and a sample within it three times in four.
+/// A triangle of the prism of m, with a sample that is inside in three of four draws.
 template <class T> struct seen_prism_triangle {
     prism_triangle<T> triangle;
     T s_x, s_y;
@@ -27,7 +27,7 @@ template <class T> seen_prism_triangle<T> any_seen_prism_triangle(const moving_t
     return {triangle, mean(triangle.a.x, triangle.b.x, triangle.c.x), mean(triangle.a.y, triangle.b.y, triangle.c.y)};
 }
 
-/// All fragments of a prism at a sample.
+/// The pair of all fragments of a prism at a sample.
 template <class T> prism_pair<T> pair_at(const prism<T>& p, T s_x, T s_y, T divided = 1)
 {
     prism_pair<T> pair = prism_pair_begin(T(7));
@@ -36,7 +36,7 @@ template <class T> prism_pair<T> pair_at(const prism<T>& p, T s_x, T s_y, T divi
     return pair;
 }
 
-/// Now and then at the shutter's ends.
+/// A random fragment, sometimes at an end of the shutter.
 template <class T> prism_fragment<T> any_prism_fragment(bit_source& bits)
 {
     return {T(bits.chance(0.9) ? 1 : 0), T(bits.chance(0.3) ? double(bits.below(2)) : bits.uniform(0, 1)),
@@ -49,7 +49,7 @@ template <class T> timed_fragment<T> any_timed_fragment(bit_source& bits)
     return {f.time, f.depth, T(bits.below(4))};
 }
 
-/// From one end of the shutter to the other every other time.
+/// A random range, half of the time over the whole shutter.
 template <class T> depth_time_range<T> any_cover_range(bit_source& bits)
 {
     const double a = bits.uniform(0, 1), b = bits.uniform(0, 1), z = bits.uniform(-1, 1);

@@ -1,9 +1,9 @@
-// What a kernel may be instantiated with: scalars, packs of 2 to 16 lanes, and a scalar that the library knows nothing
-// about and for which it finds no fused multiply-add. Tests run one text over all of them.
+// The types that Real can be: scalars, packs of 2 to 16 lanes, and a scalar unknown to the library, for which it uses
+// no fused multiply-add. Tests run one text for all of them.
 #pragma once
 
 #if defined(__GNUC__) && !defined(__clang__)
-// GCC bug 105593: in its own AVX-512 intrinsics.
+// GCC bug 105593, in GCC's own AVX-512 intrinsics.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #endif
@@ -18,7 +18,7 @@
 
 namespace gnomon::test {
 
-/// A number with the arithmetic of T and nothing else: kernels take their generic route, exact products are split.
+/// A number with the arithmetic of T and nothing else: kernels use their generic route and split exact products.
 template <class T> struct plain {
     using value_type = T;
     T value;
@@ -75,7 +75,7 @@ template <class T, class F> void for_each_real(F f)
         if constexpr (!std::is_void_v<batch>) f.template operator()<batch>();
     };
     f.template operator()<T>();
-#if !defined(__SANITIZE_ADDRESS__) // which would take minutes to compile and find in one Real what it finds in all
+#if !defined(__SANITIZE_ADDRESS__) // a sanitizer needs minutes to compile packs and finds the same in every Real
     f.template operator()<plain<T>>();
     pack.template operator()<2>();
     pack.template operator()<4>();

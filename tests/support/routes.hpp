@@ -1,4 +1,4 @@
-// Every way through the moment kernels in one shape, numbers in, numbers out, so that one text can test them all.
+// The routes through the moment kernels as functions from numbers to numbers, so that one text can test all of them.
 #pragma once
 
 #include <gnomon/moments/bounds.h>
@@ -15,7 +15,7 @@ namespace gnomon::test {
 
 inline constexpr std::size_t route_inputs = 7; ///< up to six moments or channels, then the receiver's depth
 
-/// What a route computes: intensities, then a distribution's depths, then its weights.
+/// The results of a route: intensities, then the depths of a distribution, then its weights.
 template <std::size_t intensities_, std::size_t depths_> struct route_shape {
     static constexpr std::size_t intensities = intensities_, depths = depths_;
     template <class Real> using results = std::array<Real, intensities + 2 * depths>;
@@ -79,7 +79,7 @@ template <class Factor> struct route6 : route_shape<5, 4> {
     }
 };
 
-/// Channels and a receiver to one intensity.
+/// A route from channels and a receiver to one intensity.
 template <class Intensity> struct intensity_route4 : route_shape<1, 0> {
     static constexpr std::size_t moments = 4;
     const char* name;
@@ -100,7 +100,7 @@ struct two_point_route : route_shape<0, 2> {
     }
 };
 
-/// A number of the settings' type, for any Real.
+/// The number x as a setting, for any Real.
 #define GNOMON_TEST_SETTING(x) gnomon::literal<decltype(b.b1)>(x)
 
 /// Calls f(route) for every route from moments, or channels, to results.

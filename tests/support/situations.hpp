@@ -1,9 +1,10 @@
-// What kernels are asked about, drawn at random: what one texel sees and where its receiver is, and the moments,
-// matrices, triangles, receivers and lists of ranges that go with it.
+// Random inputs of kernels: a depth distribution with a receiver and a texel, and moments, matrices, triangles,
+// receivers and lists of ranges.
 #pragma once
 
 #include "distributions.hpp"
 #include "hostile.hpp"
+#include "moments_of.hpp"
 #include "moving_triangles.hpp"
 
 #include <gnomon/motion/range/range_list.h>
@@ -18,7 +19,7 @@
 
 namespace gnomon::test {
 
-/// What one row sees: six moments of a distribution, its receiver and one of its depths.
+/// The situation of one row: six moments of a distribution, a receiver, and one of the depths of the distribution.
 struct situation {
     std::array<double, 6> b;
     double receiver, texel;
@@ -30,22 +31,14 @@ inline std::vector<situation> draw_situations(std::size_t count, std::uint64_t s
     std::vector<situation> result(count);
     for (std::size_t i = 0; i < count; ++i) {
         const distribution d = source.draw(family(i % family_count));
-        situation& s = result[i];
-        for (std::size_t k = 0; k < d.depths.size(); ++k) {
-            double power = d.weights[k];
-            for (double& b : s.b) b += power *= d.depths[k];
-        }
-        s.receiver = source.receiver(d);
-        s.texel = d.depths[i / family_count % d.depths.size()];
+        const double receiver = source.receiver(d);
+        result[i] = {moments_of<6>(d), receiver, d.depths[i / family_count % d.depths.size()]};
     }
     return result;
 }
 
-template <class T> moments4<T> moments4_in(const situation& s) { return {T(s.b[0]), T(s.b[1]), T(s.b[2]), T(s.b[3])}; }
-template <class T> moments6<T> moments6_in(const situation& s)
-{
-    return {T(s.b[0]), T(s.b[1]), T(s.b[2]), T(s.b[3]), T(s.b[4]), T(s.b[5])};
-}
+template <class T> moments4<T> moments4_in(const situation& s) { return moments4_in<T>(s.b); }
+template <class T> moments6<T> moments6_in(const situation& s) { return moments6_in<T>(s.b); }
 
 template <class T> double any_number(bit_source& bits)
 {
@@ -53,7 +46,7 @@ template <class T> double any_number(bit_source& bits)
     return std::ldexp(bits.uniform(-1, 1), int(bits.below(61)) - 30);
 }
 
-/// Leading coefficient 1 and three real roots, near one another now and then.
+/// Coefficients b, c, d of a cubic t^3 + b t^2 + c t + d with three real roots, sometimes close together.
 inline std::array<double, 3> monic_cubic(bit_source& bits)
 {
     const double r = bits.uniform(-2, 2), s = bits.chance(0.3) ? r * (1 + bits.uniform(0, 1e-3)) : bits.uniform(-2, 2);
@@ -102,7 +95,7 @@ template <class T> seen_triangle<T> any_seen_triangle(bit_source& bits)
     return {triangle, moving_triangle_edges(triangle, T(scene.s_x), T(scene.s_y))};
 }
 
-/// A moving triangle and its edge functions around some origin.
+/// A moving triangle and its setup around some origin.
 template <class T> struct setup_and_triangle {
     triangle_setup<T> setup;
     moving_triangle<T> triangle;
@@ -120,7 +113,7 @@ template <class T> depth_setup<T> any_depth_setup(bit_source& bits)
     return depth_setup_make(x.setup, x.triangle);
 }
 
-/// Depth at a sample near the origin.
+/// The depth curve at a sample near the origin.
 template <class T> depth_curve<T> any_depth_curve(bit_source& bits)
 {
     const setup_and_triangle<T> x = any_setup_and_triangle<T>(bits);
@@ -128,8 +121,8 @@ template <class T> depth_curve<T> any_depth_curve(bit_source& bits)
     return moving_depth_curve(depth_setup_make(x.setup, x.triangle), triangle_setup_edges(x.setup, s_x, s_y), s_x, s_y);
 }
 
-/// A receiver on its way over some texels, by an orthographic light or by one in perspective, and as it leaves some
-/// texel of its sweep, half of the time by bilinear weights.
+/// A receiver on a path over some texels, in an orthographic or a perspective light, with a step of its sweep and its
+/// state there, half of the time with bilinear weights.
 template <class T> struct seen_receiver {
     receiver_path<T> path;
     texel_sweep<T> sweep;
@@ -154,7 +147,7 @@ template <class T> seen_receiver<T> any_seen_receiver(const situation& s, bit_so
     return r;
 }
 
-/// A full list now and then, of few depths, so that ranges hide and meet one another.
+/// A list of up to 15 insertions of few depths, so that ranges occlude and cross one another and some lists are full.
 template <class T> range_list<T> any_range_list(const situation& s, bit_source& bits)
 {
     range_list<T> list = range_list_make(depth_time_range<T>{});

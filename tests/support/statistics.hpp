@@ -1,7 +1,6 @@
-// Errors of a run and the rows that headers state about them. A row stands once, in the comment of the header that it
-// is about,
+// Errors of a run, and the rows in which headers state them. A row stands in the comment of the kernel,
 //     error, float, hankel4_constant_bias at 3e-7: p99 2e-5, p99.9 1e-4, max 5e-3
-// and the test reads it there: what the comment claims is what is checked.
+// and the test reads the row there, so that the stated errors are the tested ones.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +15,7 @@
 
 namespace gnomon::test {
 
-/// Collected errors; a NaN counts as infinite, so that no comparison can overlook it.
+/// A sample of errors. A NaN counts as infinite, so that no comparison can miss it.
 class error_sample {
   public:
     void add(double error) { errors_.push_back(std::isnan(error) ? HUGE_VAL : std::abs(error)); }
@@ -46,7 +45,7 @@ struct error_row {
     double p99, p999, maximum;
 };
 
-/// The row "error, NAME: p99 X, p99.9 Y, max Z" of include/gnomon/HEADER; without a maximum that is infinite.
+/// The row "error, NAME: p99 X, p99.9 Y, max Z" of include/gnomon/HEADER. The maximum is infinite if none is stated.
 inline error_row stated_error(const std::string& header, const std::string& name)
 {
     const auto path = std::filesystem::path(__FILE__).parent_path() / "../../include/gnomon" / header;
