@@ -3,11 +3,13 @@
 // such as .20#12. With GNOMON_WRITE_SWEEPS=1 the test writes the file anew.
 #include "evaluation/atlas/region.hpp"
 #include "evaluation/atlas/sweep.hpp"
+#include "support/documented.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -110,6 +112,33 @@ TEST_CASE("every sweep's failing region ends where it is known to end, within a 
     }
     for (const auto& [name, unused] : expected) FAIL_CHECK(name << ": in sweeps.txt, and no layer of a sweep");
     if (std::getenv("GNOMON_WRITE_SWEEPS") != nullptr) std::ofstream(kept) << found_text.str();
+}
+
+TEST_CASE("docs/stability.md has the share of points at which each method fails, in percent")
+{
+    std::map<std::string, std::vector<double>> shares;
+    for (const sweep* s : registry_of<sweep>().all()) {
+        if (s->id == "exponents") continue; // of formats, not of methods
+        for (const sweep_layer& l : s->layers()) {
+            double failing = 0, points = 0;
+            for (const std::string& row : failures(*s, l)) {
+                failing += double(std::ranges::count(row, '#'));
+                points += double(row.size());
+            }
+            shares[l.id].push_back(100 * failing / points);
+        }
+    }
+    for (const auto& [id, expected] : shares) {
+        if (id == "pcf") continue; // the reference of all sweeps but one
+        std::ostringstream row;
+        row << "| " << id << " |";
+        for (const double share : expected) row << ' ' << std::lround(share) << " |";
+        INFO("expected: " << row.str());
+        const std::vector<double> told = gnomon::test::documented("docs/stability.md", id);
+        CHECK(told.size() == expected.size());
+        for (std::size_t i = 0; i < std::min(told.size(), expected.size()); ++i)
+            CHECK(std::abs(told[i] - expected[i]) <= 1);
+    }
 }
 
 TEST_CASE("axes begin and end where they say, evenly or by an even ratio")
