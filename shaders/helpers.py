@@ -24,23 +24,27 @@ def technique_first(headers):
     return re.compile(rf"(?:{'|'.join(stems)})(?:\d+|\d*_\w+)|{'|'.join(stem for stem in stems if '_' in stem)}")
 
 
-def internal(headers):
-    """Names of detail kernels, and of structs and constants that these alone use or that do not begin with a technique."""
+def parts(headers, also=lambda name: False):
+    """Names of detail kernels, and of structs and constants that these alone use; or of others, if so wanted."""
     defined = dict(definitions(headers))
-    details = {name for name, text in defined.items() if DETAIL.match(text)}
     users = {name: set() for name, text in defined.items() if not KERNEL.match(text)}
     for name, text in defined.items():
         for word in code_words(text):
             if word in users and word != name:
                 users[word].add(name)
-    first = technique_first(headers)
-    names = set(details)
+    names = {name for name, text in defined.items() if DETAIL.match(text)}
     while True: # a struct may be used by structs
-        more = {name for name, by in users.items() if not first.fullmatch(name) or by and by <= names} - names
+        more = {name for name, by in users.items() if also(name) or by and by <= names} - names
         if not more:
-            break
+            return names
         names |= more
-    for name, text in defined.items():
+
+
+def internal(headers):
+    """Names that get a prefix: of parts, and of structs and constants that do not begin with a technique."""
+    first = technique_first(headers)
+    names = parts(headers, lambda name: not first.fullmatch(name))
+    for name, text in definitions(headers):
         for member in re.findall(r"\w+(?=[,;\[])", "".join(STRUCT.findall(text))):
             if member in names:
                 raise DialectError(f"{name}: its member {member} has the name of a helper, which gets a prefix in packages")

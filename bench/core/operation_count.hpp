@@ -8,6 +8,10 @@
 #include <type_traits>
 #include <utility>
 
+#if !defined(GNOMON_BENCH_FUSED)
+#define GNOMON_BENCH_FUSED is_fused<float>
+#endif
+
 namespace gnomon::bench {
 
 /// The first five are the arithmetic that a floor executes; the others move and compare.
@@ -94,7 +98,7 @@ namespace gnomon {
 
 template <> struct pack_operations<bench::counting_real> {
     using real = bench::counting_real;
-    static constexpr bool fused = is_fused<float>;
+    static constexpr bool fused = GNOMON_BENCH_FUSED;
     static constexpr real min(real a, real b) { return real::count(&bench::operations::extrema, a, b); }
     static constexpr real max(real a, real b) { return real::count(&bench::operations::extrema, a, b); }
     static constexpr real power_of_two(real n) { return real::count(&bench::operations::signs, n); }

@@ -199,7 +199,7 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) range_occluding_part(GNOMON_T(depth_tim
 /// Shadow intensity at time t and depth z on the surface with the given id: 1 where the range lasts at time t, lies
 /// more than the bias in front of z, and has another id; else 0.
 /// NaN: 0, lit.
-/// Source: Hong & Oh, Sec. 5
+/// Source: Hong & Oh 2018, Sec. 3.3
 GNOMON_KERNEL Real range_intensity(GNOMON_T(depth_time_range) r, Real t, Real z, Real id, GNOMON_SETTING bias)
 {
     GNOMON_MASK during = r.t0 <= t && t <= r.t1;
