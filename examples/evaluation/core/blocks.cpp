@@ -1,5 +1,6 @@
 #include "blocks.hpp"
 
+#include "driver.hpp"
 #include "renderer/output/file.hpp"
 
 #include <fmt/format.h>
@@ -24,6 +25,8 @@ class page_writer {
     {
         need(!what.title.empty() && !what.summary.empty(), "the page has no title or no summary");
         json result{{"driver", what.driver}, {"title", what.title}, {"family", what.family}, {"summary", what.summary}};
+        if (const evaluation::driver* of = registry_of<evaluation::driver>().find(what.driver))
+            result["order"] = of->order;
         if (what.front) result["front"] = picture(*what.front);
         result["blocks"] = json::array();
         for (const block& one : what.blocks)
@@ -48,6 +51,8 @@ class page_writer {
         json result{{"type", type}};
         if (!b.title.empty()) result["title"] = b.title;
         if (!b.text.empty()) result["text"] = b.text;
+        if constexpr (requires { b.is_folded; })
+            if (b.is_folded) result["folded"] = true;
         return result;
     }
 
@@ -68,6 +73,7 @@ class page_writer {
             if (c.scale) head["scale"] = *c.scale;
             if (c.best != best::none) head["best"] = c.best == best::low ? "low" : "high";
             if (!c.hint.empty()) head["hint"] = c.hint;
+            if (!c.colour.empty()) head["colour"] = c.colour;
             result["columns"].push_back(std::move(head));
         }
         result["rows"] = json::array();
@@ -80,6 +86,7 @@ class page_writer {
                 if (const std::string* words = std::get_if<std::string>(&value)) cells[key] = *words;
             }
             if (!row.colour.empty()) cells["colour"] = row.colour;
+            if (row.is_aside) cells["aside"] = true;
             result["rows"].push_back(std::move(cells));
         }
         return result;
@@ -97,6 +104,9 @@ class page_writer {
         json result = begun("pictures", b);
         result["columns"] = b.columns;
         if (b.compare) result["compare"] = true;
+        if (b.is_pixelated) result["pixelated"] = true;
+        if (b.shown) result["shown"] = {b.shown->first, b.shown->second};
+        for (const auto& [colour, label] : b.key) result["key"].push_back({{"colour", colour}, {"label", label}});
         for (const shown_picture& p : b.pictures) result["pictures"].push_back(picture(p));
         return result;
     }
@@ -120,6 +130,22 @@ class page_writer {
         if (a.threshold) result["threshold"] = finite(*a.threshold, a.label);
         if (a.least) result["least"] = finite(*a.least, a.label);
         if (a.most) result["most"] = finite(*a.most, a.label);
+        for (const auto& [value, text] : a.ticks) result["ticks"].push_back({finite(value, a.label), text});
+        return result;
+    }
+
+    json points_of(const series& s) const
+    {
+        json result = json::array();
+        for (const std::vector<double>& point : s.points) {
+            need(point.size() == 2 || point.size() == 3, fmt::format("a point of {} is none", s.label));
+            const bool is_rule = s.style == style::rule;
+            need(!is_rule || std::isnan(point[0]) != std::isnan(point[1]), s.label + " is neither upright nor level");
+            json one = json::array();
+            for (const double value : point)
+                one.push_back(is_rule && std::isnan(value) ? json() : json(finite(value, s.label)));
+            result.push_back(std::move(one));
+        }
         return result;
     }
 
@@ -127,22 +153,25 @@ class page_writer {
     {
         constexpr const char* styles[] = {"points", "line", "steps", "band", "rule"};
         json result = drawn("chart", b);
+        if (b.is_front) result["front"] = true;
         for (const panel& p : b.panels) {
             json shown = json::object();
             if (!p.title.empty()) shown["title"] = p.title;
             shown["x"] = written(p.x);
             shown["y"] = written(p.y);
             if (p.pareto) shown["pareto"] = true;
+            if (!p.size.empty()) shown["size"] = p.size;
             for (const series& s : p.series) {
                 json one{{"label", s.label}};
                 if (!s.colour.empty()) one["colour"] = s.colour;
                 one["style"] = styles[static_cast<int>(s.style)];
-                for (const std::vector<double>& point : s.points) {
-                    need(point.size() == 2 || point.size() == 3, fmt::format("a point of {} is none", s.label));
-                    for (const double value : point) finite(value, s.label);
-                    one["points"].push_back(point);
-                }
+                one["points"] = points_of(s);
                 if (!s.labelled) one["labelled"] = false;
+                need(s.texts.empty() || s.texts.size() == s.points.size(),
+                     fmt::format("{} has {} texts for {} points", s.label, s.texts.size(), s.points.size()));
+                if (!s.texts.empty()) one["texts"] = s.texts;
+                if (s.dashed) one["dashed"] = true;
+                if (!s.marker.empty()) one["marker"] = s.marker;
                 shown["series"].push_back(std::move(one));
             }
             result["panels"].push_back(std::move(shown));

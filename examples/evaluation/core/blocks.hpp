@@ -28,17 +28,20 @@ struct column {
     std::optional<double> scale{}; // of the number shown
     evaluation::best best = best::none;
     std::string hint{};
+    std::string colour{}; // "#rrggbb", of a swatch before the label
 };
 
 struct table_row {
     std::vector<std::pair<std::string, cell>> cells; // by the columns' keys
     std::string colour{};                            // "#rrggbb"
+    bool is_aside = false;                           // never the best
 };
 
 struct table_block {
     std::string title{}, text{};
     std::vector<column> columns;
     std::vector<table_row> rows;
+    bool is_folded = false; // closed under its title until a click
 };
 
 struct shown_picture {
@@ -50,6 +53,10 @@ struct pictures_block {
     int columns = 1;
     bool compare = false; // two of the pictures are chosen and shown side by side
     std::vector<shown_picture> pictures;
+    bool is_folded = false;
+    bool is_pixelated = false;                              // enlarged without smoothing
+    std::vector<std::pair<std::string, std::string>> key{}; // "#rrggbb" and what that colour means in the pictures
+    std::optional<std::pair<int, int>> shown{};             // the two that a comparison shows first
 };
 
 enum class scale { linear, log, symlog };
@@ -59,9 +66,11 @@ struct axis {
     evaluation::scale scale = scale::linear;
     std::optional<double> threshold{}; // symlog: linear below
     std::optional<double> least{}, most{};
+    std::vector<std::pair<double, std::string>> ticks{};
 };
 
-// Points are {x, y}, or {x, y, size} of a point, or {x, low, high} of a band; a rule is a vertical line at {x, y}.
+// Points are {x, y}, or {x, y, size} of a point, or {x, low, high} of a band. A rule is an upright line at {x, NaN} or a
+// level one at {NaN, y}.
 enum class style { points, line, steps, band, rule };
 
 struct series {
@@ -69,7 +78,10 @@ struct series {
     std::string colour{}; // "#rrggbb"
     evaluation::style style = style::points;
     std::vector<std::vector<double>> points{};
-    bool labelled = true; // beside the points
+    bool labelled = true;             // beside the points, else in the legend
+    std::vector<std::string> texts{}; // one beside each point
+    bool dashed = false;
+    std::string marker{}; // circle, square, triangle, diamond, down, plus, cross, star or none
 };
 
 struct panel {
@@ -77,6 +89,7 @@ struct panel {
     axis x, y;
     bool pareto = false; // the front of points that none other beats in x and y is drawn
     std::vector<evaluation::series> series{};
+    std::string size{}; // the third number of points, in words
 };
 
 struct chart_block {
@@ -84,6 +97,8 @@ struct chart_block {
     std::string name; // of its files, without suffix
     std::string alt, caption{};
     std::vector<panel> panels;
+    bool is_front = false; // the one chart of the gallery's front page
+    bool is_folded = false;
 };
 
 struct map_axis {

@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon::evaluation {
@@ -27,7 +28,7 @@ struct family {
     std::string colour{}; // "#rrggbb"
 };
 
-// A kind of map or a kind of receiver, as rows of the report name them.
+// A kind of map, as rows of the report name it.
 struct map_kind {
     using kind = map_kind;
     static constexpr const char* kind_name = "map";
@@ -35,12 +36,23 @@ struct map_kind {
     std::string id, label;
     double order = 0;
 };
-struct receiver_kind {
+
+struct receiver_facts {
+    std::string id, label;
+    double order = 0;
+    std::string marker{}; // in charts; see series
+};
+
+// A kind of receiver, as rows of the report name it.
+class receiver_kind : public receiver_facts {
+  public:
     using kind = receiver_kind;
     static constexpr const char* kind_name = "receiver";
 
-    std::string id, label;
-    double order = 0;
+    explicit receiver_kind(receiver_facts facts) : receiver_facts(std::move(facts)) {}
+    receiver_kind(const receiver_kind&) = delete;
+    receiver_kind& operator=(const receiver_kind&) = delete;
+    virtual ~receiver_kind() = default;
 };
 
 using parameters = std::map<std::string, double>;
