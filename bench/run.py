@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Runs every bench and keeps the rows.
+"""Runs every bench and writes their rows.
 
 usage: run.py FOLDER OUTPUT    runs FOLDER/bench_*, writes their rows as one Google Benchmark JSON to OUTPUT, prints a table
 
-The table has time per iteration and each counter: ratios to a baseline of the same run, the rest as its bench names it.
+The columns of the table are the time per iteration and the counters, among them ratios to a baseline of the same run.
 """
 import json
 import os
@@ -12,7 +12,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-# What Google Benchmark writes into every row; the rest of a row is counters.
+# The fields that Google Benchmark writes into every row. All others are counters.
 STANDARD = {"name", "family_index", "per_family_instance_index", "run_name", "run_type", "repetitions", "repetition_index",
             "threads", "iterations", "real_time", "cpu_time", "time_unit", "label", "aggregate_name", "aggregate_unit",
             "error_occurred", "error_message"}
@@ -60,7 +60,7 @@ def main():
     try:
         result = merged(programs)
     except subprocess.CalledProcessError as error:
-        print(f"run.py: {error.cmd[0]} ended with {error.returncode}; {output} is as it was", file=sys.stderr)
+        print(f"run.py: {error.cmd[0]} ended with {error.returncode}; {output} is unchanged", file=sys.stderr)
         sys.exit(2)
     output.parent.mkdir(parents=True, exist_ok=True)
     aside = output.with_suffix(".part")

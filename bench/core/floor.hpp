@@ -1,13 +1,12 @@
-// The machine's limit for a kernel: the same count of additions, multiplications, fused multiply-adds, divisions and
-// square roots, none of which waits for another.
-#ifndef GNOMON_BENCH_FLOOR_HPP
-#define GNOMON_BENCH_FLOOR_HPP
+// The floor of a kernel: the time of the machine for the same number of additions, multiplications, fused
+// multiply-adds, divisions and square roots, none of which depends on another.
+#pragma once
 
 #include "operation_count.hpp"
 
 namespace gnomon::bench {
 
-// After a lambda's parameters: as GNOMON_INLINE is for functions.
+// The counterpart of GNOMON_INLINE behind the parameters of a lambda.
 #define GNOMON_BENCH_INLINE __attribute__((always_inline))
 
 #if defined(__x86_64__)
@@ -16,7 +15,8 @@ namespace gnomon::bench {
 #define GNOMON_BENCH_REGISTER "w"
 #endif
 
-/// Makes the compiler forget where x comes from, without an instruction: what follows is neither merged nor vectorised.
+/// Hides the origin of x from the compiler, without an instruction, so that operations on x are neither
+/// merged nor vectorised.
 template <class Real> GNOMON_INLINE void forget(Real& x)
 {
     if constexpr (requires { x.low; }) forget(x.low), forget(x.high);
@@ -24,7 +24,7 @@ template <class Real> GNOMON_INLINE void forget(Real& x)
     else asm volatile("" : "+" GNOMON_BENCH_REGISTER(x));
 }
 
-/// Computes operation(a, b) so many times: a is forgotten each time, else one would do.
+/// Computes operation(a, b) `count` times. Without forget(a) the compiler would compute it once.
 template <int count, class Real, class Operation> GNOMON_INLINE void repeat(Real a, Real b, Operation operation)
 {
     const auto once = [&](int) GNOMON_BENCH_INLINE {
@@ -33,11 +33,12 @@ template <int count, class Real, class Operation> GNOMON_INLINE void repeat(Real
         forget(result);
     };
     const auto times = [&]<int... k>(std::integer_sequence<int, k...>) GNOMON_BENCH_INLINE { (once(k), ...); };
-    constexpr int unrolled = 256; // the resolve of a list has tens of thousands, which would take minutes to compile
+    constexpr int unrolled = 256; // the tens of thousands of a resolve would take minutes to compile
     for (int i = 0; i < count / unrolled; ++i) times(std::make_integer_sequence<int, unrolled>());
     times(std::make_integer_sequence<int, count % unrolled>());
 }
 
+/// Executes the operations of Kernel `times` times.
 template <class Kernel, class Real> [[gnu::noinline]] void run_floor(std::size_t times)
 {
     constexpr operations n = operations_of<Kernel>;
@@ -53,4 +54,3 @@ template <class Kernel, class Real> [[gnu::noinline]] void run_floor(std::size_t
 }
 
 } // namespace gnomon::bench
-#endif

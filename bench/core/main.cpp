@@ -1,4 +1,4 @@
-// The rows register themselves; a flag that Google Benchmark does not know ends in one line.
+// The main function of every bench. Rows register themselves. A flag unknown to Google Benchmark ends in one line.
 #include <benchmark/benchmark.h>
 
 int main(int argc, char** argv)

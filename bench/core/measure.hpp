@@ -1,8 +1,7 @@
-// One row of a bench: a kernel run over many fragments in one way (scalar, plain loop, pack), beside the machine's
-// floor for its operations and a baseline kernel. All three are timed in turn, some 100 times, so that the ratios a row
-// reports come from the same milliseconds; medians, since machines are shared.
-#ifndef GNOMON_BENCH_MEASURE_HPP
-#define GNOMON_BENCH_MEASURE_HPP
+// A row of a bench: a kernel that runs over many fragments in one way (scalar, plain loop, pack), beside the floor of
+// the machine for its operations and a baseline kernel. All three are timed in turn, some 100 times, so that ratios
+// compare times of the same milliseconds. Results are medians, since machines are shared.
+#pragma once
 
 #include "floor.hpp"
 
@@ -24,7 +23,7 @@
 
 namespace gnomon::bench {
 
-// A kernel stands in the namespace of its compilation, exact or contracted, so that the linker keeps both.
+// A kernel is in the namespace of its compilation, exact or contracted, so that the linker keeps both.
 #define GNOMON_BENCH_STRING_OF(name) #name
 #define GNOMON_BENCH_STRING(name) GNOMON_BENCH_STRING_OF(name)
 
@@ -36,7 +35,7 @@ struct compilation {
 
 template <class Lane> using column = std::vector<Lane, xsimd::aligned_allocator<Lane, 64>>;
 
-/// The operands of a kernel and its results, an array for each.
+/// The operands and results of a kernel, one array for each.
 template <class Lane, std::size_t inputs> struct fragments {
     std::array<column<Lane>, inputs> in;
     column<Lane> out;
@@ -46,7 +45,7 @@ inline constexpr std::size_t resident_fragments = 1024; // 32 KiB with seven ope
 inline constexpr std::size_t streamed_fragments = std::size_t{1} << 24; // 0.4 to 0.5 GiB: more than any cache
 inline constexpr std::size_t streamed_window = std::size_t{1} << 14;
 
-/// What a kernel reads: Kernel::samples gives its operands for some fragments, in double.
+/// The fragments of a kernel, with operands from Kernel::samples.
 template <class Kernel, class Lane> fragments<Lane, Kernel::inputs> make_fragments(std::size_t count)
 {
     const auto samples = Kernel::samples(resident_fragments, 1);
@@ -80,7 +79,7 @@ template <class Real> GNOMON_INLINE void store(Real x, lane_t<Real>* to)
     else x.store_aligned(to);
 }
 
-/// One fragment after the other, or one pack after the other.
+/// Runs the kernel for one fragment, or one pack of fragments, after the other.
 template <class Kernel, class Real>
 [[gnu::noinline]] void run_packs(fragments<lane_t<Real>, Kernel::inputs>& f, std::size_t begin, std::size_t end)
 {
@@ -97,7 +96,7 @@ template <class Kernel, class Real>
     (std::make_index_sequence<Kernel::inputs>());
 }
 
-/// The loop that anybody would write, for the compiler to vectorise.
+/// Runs the kernel in a plain loop, which the compiler may vectorise.
 template <class Kernel, class Real>
 [[gnu::noinline]] void run_plain_loop(fragments<Real, Kernel::inputs>& f, std::size_t begin, std::size_t end)
 {
@@ -115,7 +114,7 @@ template <class Kernel, class Real>
     (std::make_index_sequence<Kernel::inputs>());
 }
 
-/// Bytes of a function's machine code, as the symbol table has them.
+/// The bytes of a function's machine code, from the symbol table.
 inline double code_bytes(const void* function)
 {
     Dl_info info;
@@ -124,7 +123,7 @@ inline double code_bytes(const void* function)
     return found ? static_cast<double>(static_cast<const ElfW(Sym)*>(symbol)->st_size) : std::nan("");
 }
 
-/// Something to time: run() covers so many fragments.
+/// A piece of work to time: run() processes `covered` fragments.
 struct work {
     std::function<void()> run;
     double covered;
@@ -137,7 +136,7 @@ struct work {
         const std::chrono::duration<double, std::nano> spent = std::chrono::steady_clock::now() - begin;
         return spent.count() / (covered * repeats);
     }
-    /// Makes one timing last 30 microseconds, a thousand times the clock's own.
+    /// Sets the repeats so that one timing lasts 30 microseconds, a thousand times as long as reading the clock.
     void calibrate()
     {
         while (nanoseconds() * covered * repeats < 3e4) repeats *= 2;
@@ -153,7 +152,7 @@ inline double quantile(std::vector<double> values, double q)
 
 inline constexpr int rounds = 101;
 
-/// Nanoseconds per fragment of several works, timed in turn: [work][round].
+/// The nanoseconds per fragment of several works, timed in turn, as [work][round].
 inline std::vector<std::vector<double>> time_in_turn(std::vector<work> works)
 {
     for (work& w : works) w.calibrate();
@@ -170,7 +169,8 @@ inline double median_ratio(const std::vector<double>& over, const std::vector<do
     return quantile(ratios, 0.5);
 }
 
-/// A row of two works, made when it runs: the time of the first, and how many times less that is than of the second.
+/// Registers a row of two works, which are made when the row runs: the time of the first, and its speed relative to the
+/// second. Returns true.
 template <class Measured, class Baseline> bool add_comparison(const char* name, Measured measured, Baseline baseline)
 {
     const auto run = [=](benchmark::State& state) {
@@ -186,7 +186,7 @@ template <class Measured, class Baseline> bool add_comparison(const char* name, 
 template <class Lane, std::size_t inputs>
 using pass = void (*)(fragments<Lane, inputs>& f, std::size_t begin, std::size_t end);
 
-/// Runs a pass over f: all of it where it is small, else the next window of it, so that nothing is still in a cache.
+/// The work of a pass over f: over all of a small f, else over the next window, none of which is in a cache.
 template <class Lane, std::size_t inputs> work work_of(pass<Lane, inputs> run, fragments<Lane, inputs>& f)
 {
     const std::size_t count = f.out.size(), step = std::min(count, streamed_window);
@@ -203,7 +203,8 @@ template <class Kernel, class Real> work floor_work()
     return {[] { run_floor<Kernel, Real>(resident_fragments / lanes_of<Real>); }, resident_fragments};
 }
 
-/// How far float is from double on the same float operands, over samples that the timing has not seen.
+/// Reports the difference of float from double for the same float operands, over samples other than those
+/// of the timing.
 template <class Kernel> void report_errors(benchmark::State& state)
 {
     if constexpr (requires { Kernel::has_error; }) {
@@ -220,7 +221,7 @@ template <class Kernel> void report_errors(benchmark::State& state)
     }
 }
 
-/// Where a row's numbers come from; see the columns of bench/run.py.
+/// A row with its counters, which bench/run.py prints as columns.
 template <class Kernel, class Baseline, class Real> struct row {
     using lane = lane_t<Real>;
     pass<lane, Kernel::inputs> run;
@@ -250,15 +251,15 @@ template <class Kernel, class Baseline, class Real> struct row {
     }
 };
 
-/// The floor on its own.
+/// Times the floor alone.
 template <class Kernel, class Real> void time_floor(benchmark::State& state)
 {
     const auto times = time_in_turn({floor_work<Kernel, Real>()});
     for (auto _ : state) state.SetIterationTime(quantile(times[0], 0.5) * 1e-9);
 }
 
-/// Registers family/kernel/way/memory/arithmetic and, beside the rows in L1, family/kernel/way/floor/arithmetic. With
-/// contraction allowed there are scalar code and packs, in L1.
+/// Registers family/kernel/way/L1/arithmetic, and for exact arithmetic also family/kernel/way/floor/arithmetic and, for
+/// kernels of few operands, family/kernel/way/memory/arithmetic.
 template <class Kernel, class Baseline, class Real>
 void add_row(const std::string& family, const std::string& way, pass<lane_t<Real>, Kernel::inputs> run)
 {
@@ -272,12 +273,12 @@ void add_row(const std::string& family, const std::string& way, pass<lane_t<Real
     add("L1", row<Kernel, Baseline, Real>{run, false});
     if (is_contracted<Kernel>) return;
     add("floor", time_floor<Kernel, Real>);
-    // More operands than this would take gigabytes; two packs wait for memory as one does.
+    // More operands need gigabytes, and two packs wait for memory as long as one.
     if (std::is_same_v<lane_t<Real>, float> && Kernel::inputs <= 10 && !is_wide<Real>)
         add("memory", row<Kernel, Baseline, Real>{run, true});
 }
 
-/// Rows for a pack and for two of them as one (simd/wide.hpp).
+/// Registers rows for a pack, and for two packs as one (simd/wide.hpp).
 template <class Kernel, class Baseline, class Pack> void add_pack_rows(const std::string& family)
 {
     const std::string lanes = std::to_string(Pack::size) + " lanes";
@@ -286,7 +287,7 @@ template <class Kernel, class Baseline, class Pack> void add_pack_rows(const std
         add_row<Kernel, Baseline, wide<Pack>>(family, "2 x " + lanes, run_packs<Kernel, wide<Pack>>);
 }
 
-/// Registers a kernel in every way this machine has. Baseline is timed in scalar code of the same lane.
+/// Registers a kernel in every way that this machine has. The baseline is timed in scalar code of the same lane type.
 template <class Kernel, class Baseline> void add_rows(const std::string& family)
 {
     add_row<Kernel, Baseline, float>(family, "scalar float", run_packs<Kernel, float>);
@@ -304,7 +305,7 @@ template <class Kernel, class Baseline> void add_rows(const std::string& family)
 #endif
 }
 
-/// Registers kernels in the order given; true, so that a constant's initialisation can do it.
+/// Registers kernels in the given order. Returns true, so that the initialisation of a constant can call it.
 template <class Baseline, class... Kernels> bool add_kernels(const std::string& family)
 {
     (add_rows<Kernels, Baseline>(family), ...);
@@ -312,4 +313,3 @@ template <class Baseline, class... Kernels> bool add_kernels(const std::string& 
 }
 
 } // namespace gnomon::bench
-#endif

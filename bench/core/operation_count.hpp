@@ -1,6 +1,6 @@
-// How many operations of each kind a kernel takes, counted while compiling by running it on a Real that only counts.
-#ifndef GNOMON_BENCH_OPERATION_COUNT_HPP
-#define GNOMON_BENCH_OPERATION_COUNT_HPP
+// The number of operations of each kind in a kernel, counted at compile time by running the kernel on a
+// Real that counts.
+#pragma once
 
 #include <gnomon/portable.h>
 
@@ -14,13 +14,13 @@
 
 namespace gnomon::bench {
 
-/// The first five are the arithmetic that a floor executes; the others move and compare.
+/// Numbers of operations. The floor executes the first five kinds; the others move and compare.
 struct operations {
     int additions = 0, multiplications = 0, fused = 0, divisions = 0, roots = 0;
     int comparisons = 0, selections = 0, extrema = 0, signs = 0;
 };
 
-/// A Real without a value. What two constants make is a constant, which a compiler computes, and is not counted.
+/// A Real without a value. Operations on two constants are not counted, since a compiler evaluates them.
 struct counting_real {
     using value_type = float;
     operations* total = nullptr;
@@ -36,7 +36,7 @@ struct counting_real {
         friend constexpr mask operator&&(mask a, mask b) { return {a.total ? a.total : b.total}; }
         friend constexpr mask operator||(mask a, mask b) { return a && b; }
         friend constexpr mask operator!(mask a) { return a; }
-        friend constexpr bool any(mask) { return true; } // a skip that is never taken
+        friend constexpr bool any(mask) { return true; } // so that nothing is skipped
         friend constexpr counting_real select(mask m, counting_real a, counting_real b)
         {
             return count(&operations::selections, counting_real(m.total), a, b);
@@ -89,7 +89,7 @@ template <class Kernel> constexpr operations count_operations()
     return total;
 }
 
-/// The operations of Kernel::run, whose operands are Kernel::inputs Reals.
+/// The operations of Kernel::run for Kernel::inputs operands.
 template <class Kernel> inline constexpr operations operations_of = count_operations<Kernel>();
 
 } // namespace gnomon::bench
@@ -106,4 +106,3 @@ template <> struct pack_operations<bench::counting_real> {
 };
 
 } // namespace gnomon
-#endif

@@ -1,5 +1,5 @@
-// The filters beside moment shadow maps, one look-up already filtered each; percentage-closer filtering over 9 texels.
-// The baseline is Algorithm 1 for four moments, as for the moment kernels.
+// The filters other than moment shadow maps, one look-up of a filtered map each; percentage-closer filtering over 9
+// texels. The baseline is Algorithm 1 for four moments, as for the moment kernels.
 #include "core/measure.hpp"
 #include "moments/moments.hpp"
 
@@ -14,7 +14,7 @@
 
 namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {
 
-/// Operands f_1(z), ..., f_n(z), averaged over a distribution, and z_f.
+/// Operands f_1(z) to f_n(z), averaged over a distribution, and z_f.
 template <std::size_t n, class Encode>
 std::vector<std::array<double, n + 1>> averages(std::size_t count, std::uint64_t seed, Encode encode)
 {

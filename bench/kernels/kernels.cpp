@@ -1,5 +1,5 @@
-// Every kernel of tests/support/kernels.txt on inputs of its domain, in L1: scalar code and the widest pack, in turn,
-// so that a new kernel has a time by being written. The rows beside this file compare ways and baselines.
+// Every kernel of tests/support/kernels.txt on inputs of its domain, in L1: scalar code and the widest pack in turn, so
+// that a new kernel has a time without further text. The other benches compare ways and baselines.
 #define GNOMON_BENCH_ARITHMETIC exact
 #include "kernels.hpp"
 

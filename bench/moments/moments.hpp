@@ -1,15 +1,13 @@
-// What the moment kernels read in a bench: moments of the 13 adversarial families of tests/support in turn, with a
-// receiver each.
-#ifndef GNOMON_BENCH_MOMENTS_HPP
-#define GNOMON_BENCH_MOMENTS_HPP
+// The operands of moment kernels in a bench: moments of the 13 families of tests/support in turn, with a receiver each.
+#pragma once
 
-#include "support/distributions.hpp"
+#include "support/moments_of.hpp"
 
 #include <gnomon/moments/quantization.h>
 
 namespace gnomon::bench {
 
-/// Operands b1, ..., bm and z_f.
+/// The operands b_1 to b_m and z_f.
 template <std::size_t m> struct moments_and_receiver {
     static constexpr std::size_t inputs = m + 1;
 
@@ -19,17 +17,15 @@ template <std::size_t m> struct moments_and_receiver {
         std::vector<std::array<double, inputs>> result(count);
         for (std::size_t i = 0; i < count; ++i) {
             const test::distribution d = source.draw(static_cast<test::family>(i % test::family_count));
-            for (std::size_t k = 0; k < d.depths.size(); ++k) {
-                double p = d.weights[k];
-                for (std::size_t j = 0; j < m; ++j) result[i][j] += p *= d.depths[k];
-            }
+            const auto b = test::moments_of<m>(d);
+            std::copy(b.begin(), b.end(), result[i].begin());
             result[i][m] = source.receiver(d);
         }
         return result;
     }
 };
 
-/// The moments behind their quantization transform, as channels in [0, 1], and z_f.
+/// The channels in [0, 1] of the moments after their quantization transform, and z_f.
 template <std::size_t m> struct channels_and_receiver {
     static constexpr std::size_t inputs = m + 1;
 
@@ -50,4 +46,3 @@ template <std::size_t m> struct channels_and_receiver {
 };
 
 } // namespace gnomon::bench
-#endif

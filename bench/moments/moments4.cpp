@@ -1,5 +1,5 @@
-// Four moments: the default route, its variants, and Algorithm 1 as the paper has it. Compiled once as the library is
-// meant to be, and once with contraction allowed.
+// Four moments: the default route, its variants, and Algorithm 1 as printed. Compiled exactly, as the library is meant
+// to be, and with contraction.
 #include "core/measure.hpp"
 #include "evaluation/methods/raised_pivots4.hpp"
 #include "moments.hpp"
@@ -56,7 +56,7 @@ struct certified_unorm16 : channels {
     }
 };
 
-/// The default once, which darkens (docs/decisions/2-bias.md).
+/// A variant that darkens (docs/decisions/2-bias.md).
 struct raised : moments {
     static constexpr auto name = "raised pivots";
     static constexpr bool has_error = true;
@@ -105,7 +105,7 @@ struct both_bounds : moments {
     }
 };
 
-/// A kernel with many results returns a sum of them, so that none is left out.
+/// Returns a sum over all results, so that none is optimised away.
 struct distribution : moments {
     static constexpr auto name = "distribution";
     template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)

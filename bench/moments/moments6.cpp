@@ -1,5 +1,5 @@
-// Six moments: the default route, its variants, and Algorithm 1 as the paper has it. Compiled once as the library is
-// meant to be, and once with contraction allowed.
+// Six moments: the default route, its variants, and Algorithm 1 as printed. Compiled exactly, as the library is meant
+// to be, and with contraction.
 #include "core/measure.hpp"
 #include "evaluation/methods/raised_pivots6.hpp"
 #include "moments.hpp"
@@ -29,7 +29,7 @@ struct algorithm1 : moments {
     }
 };
 
-/// The bias kept apart.
+/// The default, with the bias kept apart.
 struct standard : moments {
     static constexpr auto name = "default";
     static constexpr bool has_error = true;
@@ -82,7 +82,7 @@ struct both_bounds : moments {
     }
 };
 
-/// A kernel with many results returns a sum of them, so that none is left out.
+/// Returns a sum over all results, so that none is optimised away.
 struct distribution : moments {
     static constexpr auto name = "distribution";
     template <class Real>

@@ -1,4 +1,4 @@
-// Lists of ranges: one more range, the front at a time, and the resolve.
+// Lists of ranges: insertion of a range, the front at a time, and the resolve.
 #include "core/measure.hpp"
 #include "support/hostile.hpp"
 
@@ -6,8 +6,8 @@
 
 namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {
 
-/// Eight ranges of a texel and a ninth. The baseline is the way without lists: the front of all nine at 16 times, as 16
-/// shadow maps would have it.
+/// Eight ranges of a texel and a ninth. The baseline uses no list: the front of all nine at 16 times, as from
+/// 16 shadow maps.
 struct nine_ranges : compilation {
     static constexpr std::size_t inputs = 45;
     static std::vector<std::array<double, inputs>> samples(std::size_t count, std::uint64_t seed)
@@ -30,7 +30,7 @@ struct nine_ranges : compilation {
         return {x[5 * k], x[5 * k + 1], x[5 * k + 2], x[5 * k + 3], x[5 * k + 4]};
     }
 
-    /// The first eight as they come, what insertion would leave of them aside.
+    /// The list of the first eight as they are, without insertion.
     template <class Real> static GNOMON_INLINE constexpr range_list<Real> list(const std::array<Real, inputs>& x)
     {
         range_list<Real> all;
@@ -60,7 +60,7 @@ struct sixteen_times : nine_ranges {
     }
 };
 
-/// Where the eight do not hide one another, there is no room for the ninth.
+/// If the eight do not occlude one another, there is no room for the ninth.
 struct list_insert : nine_ranges {
     static constexpr auto name = "insert into a list of 8";
     template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)

@@ -1,5 +1,5 @@
-// Receivers of shadows in motion: what one range of a texel costs at rest, moving, filtered; the baseline is Palmer's
-// five samples in time.
+// Receivers of shadows in motion: the cost of one range of a texel for static, moving and filtered receivers. The
+// baseline is Palmer's five samples in time.
 #include "core/measure.hpp"
 #include "support/hostile.hpp"
 
@@ -7,7 +7,7 @@
 
 namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {
 
-/// A path over up to four texels either way, in perspective half of the time, and a range on it.
+/// A path over up to four texels in either direction, in perspective half of the time, and a range.
 struct path_and_range : compilation {
     static constexpr std::size_t inputs = 16;
     static std::vector<std::array<double, inputs>> samples(std::size_t count, std::uint64_t seed)
@@ -57,7 +57,7 @@ struct five_samples : path_and_range {
         const std::array<real, 16> x{operands...};
         const receiver_path<real> p = path(x);
         sampled_receiver<real> state = sampled_receiver_begin(real(5));
-        real texels = real(0); // where each is looked up is part of the work
+        real texels = real(0); // finding the texels is part of the work
         for (int k = 0; k < 5; ++k) {
             const real t = receiver_sample_time(p, real(static_cast<lane_t<real>>(k)), real(5), real(0.5));
             const texel_position<real> at = receiver_path_at(p, t);
@@ -69,7 +69,7 @@ struct five_samples : path_and_range {
     }
 };
 
-struct receiver_at_rest : path_and_range {
+struct receiver_static : path_and_range {
     static constexpr auto name = "receiver at rest, one range";
     static constexpr bool has_error = true;
     template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
@@ -129,7 +129,7 @@ struct receiver_sweep : path_and_range {
     }
 };
 
-[[maybe_unused]] const bool registered = add_kernels<five_samples, five_samples, receiver_at_rest, receiver_behind,
+[[maybe_unused]] const bool registered = add_kernels<five_samples, five_samples, receiver_static, receiver_behind,
                                                      receiver_moving, receiver_filtered, receiver_sweep>("receivers");
 
 } // namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC

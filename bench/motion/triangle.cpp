@@ -1,9 +1,10 @@
-// Moving triangles, a sample of the shadow map each, seen at some time three times in four: covered times from edges
-// on. The baseline is the usual way, without its list of intervals: six roots sorted, the middle of every two tried.
-// Depth at the ends of an interval, its line and a piece of it, as the mean of the vertices' and by a field for many
-// samples; and all of what a sample sees of a translated triangle, with what all triangles need and with what
-// translations do. Prisms of Hong & Oh give about the same times; and a texel's ranges are searched for a cover, four
-// of them, beside their shadow tests.
+// Moving triangles at a sample of the shadow map, three of four seen at some time.
+//
+// Covered times from edges. The baseline is the usual route, without its list of intervals: six roots are sorted and
+// the middle between any two is tested. Prisms of Hong & Oh give about the same times. Depth at the ends of an
+// interval, its line and a piece of it: from the vertices, and from a setup for many samples. All results at a sample
+// of a translated triangle: by the kernels for any triangle, and by those for translations. A texel of four ranges:
+// shadow tests, and the search for a cover.
 #include "core/measure.hpp"
 #include "support/moving_triangles.hpp"
 #include "support/prisms.hpp"
@@ -118,7 +119,7 @@ struct prism_pairs : triangle_and_sample {
     }
 };
 
-// Edge functions and depths of a triangle around a sample, as a rasterizer has them for a tile.
+/// Edge functions and depths of a triangle around a sample, as in the setup of a rasterizer for a tile.
 struct field_and_sample : compilation {
     static constexpr std::size_t inputs = 51;
     static std::vector<std::array<double, inputs>> samples(std::size_t count, std::uint64_t seed)
@@ -181,7 +182,7 @@ struct field_depths : field_and_sample {
     }
 };
 
-// A line and how far depth departs from it; and the first piece of a tolerance, which takes several.
+/// The line between two depths with its deviation. The piece is the first within a tolerance that needs several.
 struct vertex_line : field_and_sample {
     static constexpr auto name = "line of the vertices' depth";
     template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
@@ -222,7 +223,7 @@ struct field_piece : field_and_sample {
     }
 };
 
-// A triangle whose vertices move alike, around a sample that sees its front in the midst of the shutter interval.
+/// A triangle whose vertices have the same motion, around a sample that its front covers in the middle of the shutter.
 struct translated_field : compilation {
     static constexpr std::size_t inputs = 45;
     static std::vector<std::array<double, inputs>> samples(std::size_t count, std::uint64_t seed)

@@ -1,4 +1,4 @@
-// The elementary functions. The baseline of each is the C library's in scalar code.
+// The elementary functions. The baseline of each is the function of the C library in scalar code.
 #include "core/measure.hpp"
 
 #include <gnomon/numerics/exp.h>

@@ -1,5 +1,5 @@
-// Receivers in a map of ranges that no cache holds: squares that cross it at random, seen by receivers among them. The
-// baseline is the fold of the kernels, tap after tap and list after list, as moving_intensity and static_intensity were.
+// Receivers in a map of ranges that no cache holds: squares cross the map at random, and receivers are among them. The
+// baseline is the fold of the kernels, tap after tap and list after list.
 #define GNOMON_BENCH_ARITHMETIC exact
 #include "core/measure.hpp"
 #include "support/hostile.hpp"
@@ -12,10 +12,10 @@ namespace gnomon::bench {
 namespace {
 
 constexpr std::size_t side = 1024, squares = 6000;
-constexpr float widest = 24, longest = 60;              // half a square's side, and its way, in texels
-constexpr std::size_t receivers = 65536, at_once = 256; // of these so many at a time, then the next
+constexpr float widest = 24, longest = 60;              // half the side of a square, and its path, in texels
+constexpr std::size_t receivers = 65536, at_once = 256; // receivers, and how many are looked up at a time
 
-/// When a point is within half a side of a square's centre, along one axis on which that goes from a to b.
+/// The times between which a point is inside a square along one axis, where the centre of the square moves from a to b.
 std::pair<float, float> times_inside(float point, float a, float b, float half)
 {
     if (a == b) return std::abs(point - a) <= half ? std::pair(0.f, 1.f) : std::pair(1.f, 0.f);
@@ -82,12 +82,13 @@ class squares_map {
     range_map<float> lists() const { return {side, side, first_, ranges_}; }
     range_map<float> with_totals() const { return {side, side, first_, ranges_, totals_}; }
 
-    /// Of a shutter that opens and closes at once, on their way: a cell each.
+    /// The look-up of moving receivers with a box shutter, counted by cells of their paths.
     template <class... Add> work moving(const range_map<float>& map, const Add&... add)
     {
         return each(cells_ / receivers,
                     [=, this](std::size_t i) { shadows_[i] = moving_intensity(map, paths_[i], 0.f, 1.f, 1, add...); });
     }
+    /// The look-up of moving receivers by the fold.
     work moving_by_fold()
     {
         return moving(lists(), [](const moving_receiver<float>& s, const depth_time_range<float>& r) {
@@ -95,8 +96,8 @@ class squares_map {
         });
     }
 
-    /// At rest, many at a time and by the fold.
-    work resting(const range_map<float>& map)
+    /// The look-up of static receivers, many at a time.
+    work statically(const range_map<float>& map)
     {
         return {[=, this, begin = start()]() mutable {
                     const auto next = std::span(placed_).subspan(begin, at_once);
@@ -105,7 +106,8 @@ class squares_map {
                 },
                 double(at_once)};
     }
-    work resting_by_fold()
+    /// The look-up of static receivers by the fold.
+    work static_by_fold()
     {
         return each(1, [this](std::size_t i) {
             const auto add = [](const static_receiver<float>& s, const depth_time_range<float>& r) {
@@ -116,7 +118,8 @@ class squares_map {
     }
 
   private:
-    /// Begins elsewhere each time: what one work has read would be in a cache for the next.
+    /// The work of `look` for each receiver. Works start at different receivers, so that none finds the data of another
+    /// in a cache.
     template <class Look> work each(double parts, const Look& look)
     {
         return {[=, begin = start()]() mutable {
@@ -155,13 +158,13 @@ squares_map& scene()
         "receivers/a cell of a way/totals", [] { return scene().moving(scene().with_totals()); },
         [] { return scene().moving_by_fold(); }) &&
     add_comparison(
-        "receivers/at rest/fold", [] { return scene().resting_by_fold(); }, [] { return scene().resting_by_fold(); }) &&
+        "receivers/at rest/fold", [] { return scene().static_by_fold(); }, [] { return scene().static_by_fold(); }) &&
     add_comparison(
-        "receivers/at rest/lists", [] { return scene().resting(scene().lists()); },
-        [] { return scene().resting_by_fold(); }) &&
+        "receivers/at rest/lists", [] { return scene().statically(scene().lists()); },
+        [] { return scene().static_by_fold(); }) &&
     add_comparison(
-        "receivers/at rest/totals", [] { return scene().resting(scene().with_totals()); },
-        [] { return scene().resting_by_fold(); });
+        "receivers/at rest/totals", [] { return scene().statically(scene().with_totals()); },
+        [] { return scene().static_by_fold(); });
 
 } // namespace
 

@@ -1,6 +1,6 @@
-// Lists of some thousand texels resolved: a pack of them at once, against one by one (the baseline). Ranges are as a
-// rasterizer gives them: of surfaces that cross, each for a part of the shutter and the nearest first; texels beside
-// one another see them at nearly the same times.
+// The resolve of some thousand lists: a pack of texels at once, against one by one, the baseline. Ranges are like those
+// of a rasterizer: surfaces that cross, each for a part of the shutter, the nearest first. Neighbouring texels see them
+// at nearly the same times.
 #define GNOMON_BENCH_ARITHMETIC exact
 #include "core/measure.hpp"
 #include "support/hostile.hpp"
@@ -14,7 +14,7 @@ namespace {
 using pack = xsimd::batch<float>;
 constexpr std::size_t packs = 256; // more than branch predictors remember
 
-/// So many ranges in each list.
+/// Lists of `length` ranges.
 template <std::size_t length> class lists {
   public:
     lists()
