@@ -1,10 +1,10 @@
-// Moving triangles at a sample of the shadow map, three of four seen at some time.
-//
-// Covered times from edges. The baseline is the usual route, without its list of intervals: six roots are sorted and
-// the middle between any two is tested. Prisms of Hong & Oh give about the same times. Depth at the ends of an
-// interval, its line and a piece of it: from the vertices, and from a setup for many samples. All results at a sample
-// of a translated triangle: by the kernels for any triangle, and by those for translations. A texel of four ranges:
-// shadow tests, and the search for a cover.
+// Moving triangles at a sample of the shadow map, three of four seen at some time:
+//     covered times   from edges; the baseline is the usual route without its list of intervals, which sorts six roots
+//                     and tests the middle between any two; prisms of Hong & Oh give about the same times
+//     depth           at the ends of an interval, its line and a piece of it: from the vertices, and from a setup for
+//                     many samples
+//     translations    all results at a sample: by the kernels for any triangle, and by those for translations
+//     a texel         of four ranges: shadow tests, and the search for a cover
 #include "core/measure.hpp"
 #include "support/moving_triangles.hpp"
 #include "support/prisms.hpp"

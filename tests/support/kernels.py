@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the headers define and what kernels.txt says about it: the one table that tests and benches share.
+"""Joins the kernels of the headers with their lines in kernels.txt to the table that tests and benches share.
 
 usage: kernels.py OUTPUT TABLE HEADER...    writes a C++ header that includes all headers and defines
     GNOMON_FOR_EACH_KERNEL(KERNEL) as KERNEL(name, inputs, outputs, "FAMILY...", unit) for every kernel: how many numbers go
@@ -29,13 +29,13 @@ class Line(NamedTuple):
 
 
 class Headers:
-    """The structs, member by member as (type, name), the kernels of some headers, in their order, and those that are parts."""
+    """The structs of some headers, member by member as (type, name), their public kernels, and the parts of these."""
 
     def __init__(self, headers):
         self.structs, self.kernels, self.details = {}, [], []
         for header in sorted(headers):
             text = re.sub(r"//.*", "", Path(header).read_text())
-            name = re.fullmatch(r".*/(gnomon/.*)", Path(header).as_posix())[1] # the clone may be in a folder gnomon, too
+            name = re.fullmatch(r".*/(gnomon/.*)", Path(header).as_posix())[1] # the clone may be in a folder named gnomon as well
             for struct, body in re.findall(r"^GNOMON_(?:LIST_)?STRUCT\((\w+)\)\s*\{([^}]*)\}", text, re.MULTILINE):
                 capacity = re.search(CAPACITY, text, re.MULTILINE)
                 self.structs[struct] = [(type_name(member_type), element)
@@ -52,7 +52,7 @@ class Headers:
                 (self.details if detail else self.kernels).append(Kernel(kernel, name, type_name(result), types))
 
     def numbers(self, type_):
-        """The numbers of a type as member accesses, such as .phase.cosine; of a Real, the value itself."""
+        """The numbers of a type as member accesses, such as .phase.cosine, or the empty access for a Real."""
         if type_ == "Real":
             return [""]
         return [f".{member}{rest}" for member_type, member in self.structs[type_] for rest in self.numbers(member_type)]
@@ -62,7 +62,7 @@ class Headers:
 
 
 def elements(member, capacity):
-    """A member's name, or of an array those of its elements, as many as unless a user sets another number."""
+    """The name of a member, or of each element of an array with the default capacity."""
     name = member.removesuffix("[GNOMON_CAPACITY]")
     return [member] if name == member else [f"{name}[{i}]" for i in range(int(capacity[1]))]
 
@@ -85,7 +85,7 @@ def table(path):
 
 
 def read(path, headers):
-    """The headers' contents and the table's lines, which name the same kernels."""
+    """The contents of the headers and the lines of the table, which must name the same public kernels."""
     found, lines = Headers(headers), table(path)
     names, details = ({kernel.name for kernel in kernels} for kernels in (found.kernels, found.details))
     for kernel in found.kernels:

@@ -36,7 +36,7 @@ template <class T> moments6<T> moments6_in(const std::array<double, 6>& b)
 inline moments4<float> moments4_of(const distribution& d) { return moments4_in<float>(moments_of<4>(d)); }
 inline moments6<float> moments6_of(const distribution& d) { return moments6_in<float>(moments_of<6>(d)); }
 
-/// The same numbers in double.
+/// The moments b in double.
 template <class T> moments4<double> in_double(const moments4<T>& b)
 {
     return {double(b.b1), double(b.b2), double(b.b3), double(b.b4)};

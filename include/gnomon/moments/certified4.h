@@ -1,4 +1,5 @@
-// Shadow intensity from four stored moments, certified: never above Z(z < z_f), whatever errors storage has made.
+// Shadow intensity from four stored moments, certified: never above Z(z < z_f), for any errors of storage within
+// the stated noise.
 //
 // A quartic p with p <= 1 before z_f and p <= 0 from z_f on has E[p] <= Z(z < z_f) for every distribution Z. Storage
 // moves channel k by at most noise_k, so E[p] is at least its value from the stored channels minus
