@@ -11,18 +11,18 @@ CASES = Path(__file__).parent / "lint_cases"
 
 
 def expectation(path):
-    rule = path.read_text(encoding="utf-8").partition("\n")[0].removeprefix("// expect: ")
+    rule = path.read_text(encoding="utf-8").partition("\n")[0].lstrip("/#").removeprefix(" expect: ")
     return [] if rule == "nothing" else [rule]
 
 
 def with_long_file(folder):
-    """The cases and one file that is written here, since a file of that length is no pleasure to keep."""
+    """The cases and files that are written here, since files of that length are no pleasure to keep."""
     shutil.copytree(CASES, folder)
-    for lines, name in ((lint.MAX_LINES, "longest.cpp"), (lint.MAX_LINES + 1, "too_long.cpp")):
-        expected = "nothing" if lines <= lint.MAX_LINES else "too long"
-        path = folder / "tests" / name
-        path.parent.mkdir(exist_ok=True)
-        path.write_text(f"// expect: {expected}\n" + "\n" * (lines - 1))
+    for room, rule in (("tests", "test too long"), ("bench", "too long")):
+        most = lint.MAX_LINES[room]
+        (folder / room).mkdir(exist_ok=True)
+        for lines, name, expected in ((most, "longest.cpp", "nothing"), (most + 1, "too_long.cpp", rule)):
+            (folder / room / name).write_text(f"// expect: {expected}\n" + "\n" * (lines - 1))
     return folder
 
 

@@ -19,6 +19,7 @@ GNOMON_KERNEL GNOMON_T(double_word) two_product(Real a, Real b)
     }
     return r;
 }
+/// Depth.
 GNOMON_KERNEL Real lower(Real z, GNOMON_SETTING bias)
 {
     GNOMON_MASK inside = z > Real(0) && !(z >= bias);

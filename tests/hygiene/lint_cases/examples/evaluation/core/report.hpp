@@ -1,0 +1,3 @@
+// expect: nothing
+#include "renderer/vulkan/device.hpp"
+#include "renderer/trace/tracer.hpp"

@@ -1,0 +1,2 @@
+// expect: include goes up
+#include "lessons/parts.hpp"

@@ -1,0 +1,3 @@
+// expect: nothing
+#include "image_code.hpp"
+#include "made_by_the_build.h"

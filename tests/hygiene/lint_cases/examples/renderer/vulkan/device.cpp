@@ -1,0 +1,2 @@
+// expect: nothing
+#include "renderer/trace/tracer.hpp"
