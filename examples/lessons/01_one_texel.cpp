@@ -1,8 +1,8 @@
 // What does one texel of a moment shadow map know about the depths that were filtered into it?
 //
-// A texel holds the means of z, z^2, z^3 and z^4 over all depths z of its filter region: four numbers, however many depths
-// there are. For any receiver they bound the share of these depths that lies in front of it. The lower bound is the shadow
-// intensity: it never darkens a lit surface.
+// A texel holds the means of z, z^2, z^3 and z^4 over all depths z of its filter region: four numbers, however many
+// depths there are. For any receiver they bound the share of these depths that lies in front of it. The lower bound is
+// the shadow intensity: it never darkens a lit surface.
 #include <gnomon/storage/moments_formats.hpp>
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 
 using format = gnomon::moments4_unorm16; // 64 bits per texel, as in a texture of four 16-bit UNORM channels
 
-// A filter region over two surfaces, a post and the ground behind it. Depths are signed: -1 is the near plane, 1 the far one.
+// A filter region over two surfaces, a post and the ground behind it. Depths are signed: -1 is the near plane, 1 the
+// far one.
 constexpr std::array depths{-0.52f, -0.50f, -0.48f, 0.28f, 0.29f, 0.30f, 0.31f, 0.32f};
 
 // The exact answer: the share of all depths in front of the receiver. A filter cannot know it without every depth.

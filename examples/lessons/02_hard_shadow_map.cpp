@@ -25,7 +25,8 @@ constexpr int width = 960, height = 540; // of the picture
 constexpr int side = 1024;               // of the shadow map
 constexpr double filter_radius = 5.5;    // in texels: the blur reaches 4 to either side, the look-up 1.5 further
 
-// How far the filter region of a sloped receiver rises towards the light: the depth bias that keeps it from shadowing itself.
+// How far the filter region of a sloped receiver rises towards the light: the depth bias that keeps it from shadowing
+// itself.
 double depth_bias(const camera& light, const surface& receiver, double level)
 {
     const double texel = 2 * light.half_extent.x / side;                         // in the scene's units

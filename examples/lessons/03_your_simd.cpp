@@ -1,7 +1,7 @@
 // How do you filter with a SIMD type of your own?
 //
-// A kernel is a template over its number type. Any pack of numbers will do that has the functions below, and each lane gets
-// the bits that the kernel gives for it alone. This pack is a vector of GCC and Clang; wrap your engine's type alike.
+// A kernel is a template over its number type. Any pack will do that has the functions below, and each lane gets the
+// bits that the kernel gives for it alone. This pack is a vector of GCC and Clang; wrap your engine's type alike.
 #include "renderer/scene/stage.hpp"
 #include "renderer/shade/receivers.hpp"
 #include "renderer/shade/shading.hpp"

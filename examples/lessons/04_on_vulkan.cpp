@@ -1,7 +1,8 @@
 // How do the same shadows look on a GPU?
 //
-// Six passes: depths from the light, a texel of moments for each depth, a blur along x and one along y, mip levels, and the
-// camera's picture. The shaders in the folder beside this file include a package of the library and call its functions.
+// Six passes: depths from the light, a texel of moments for each depth, a blur along x and one along y, mip levels, and
+// the camera's picture. The shaders in the folder beside this file include a package of the library and call its
+// functions.
 #include "04_on_vulkan/shaders.hpp"
 #include "renderer/scene/stage.hpp"
 #include "renderer/shade/receivers.hpp"

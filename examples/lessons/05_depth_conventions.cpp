@@ -1,8 +1,9 @@
 // How does the depth buffer of an engine become the signed depth that moments want?
 //
-// Moments want depth that is linear in the distance from the light, from -1 at the near plane to 1 at the far plane: then
-// every step of distance has the same precision, and surfaces keep the ratios of their distances. An orthographic light's
-// buffer is linear already; that of a perspective light (a spot light, a cube face) is not, and has to be undone first.
+// Moments want depth that is linear in the distance from the light, from -1 at the near plane to 1 at the far plane:
+// then every step of distance has the same precision, and surfaces keep the ratios of their distances. An orthographic
+// light's buffer is linear already; that of a perspective light (a spot light, a cube face) is not, and has to be
+// undone first.
 #include <gnomon/moments/moments.h>
 
 #include <array>

@@ -1,8 +1,9 @@
 // How long is a moving receiver in shadow while the shutter is open?
 //
-// In motion a texel of the shadow map has a list of depth-time ranges in place of a depth: from time t0 to t1 the light sees
-// a surface there, whose depth goes from z0 to z1 along a line. A moving receiver passes from texel to texel, and its own
-// depth goes along a line, too. When one line is in front of the other is known in closed form: no time is sampled.
+// In motion a texel of the shadow map has a list of depth-time ranges in place of a depth: from time t0 to t1 the light
+// sees a surface there, whose depth goes from z0 to z1 along a line. A moving receiver passes from texel to texel, and
+// its own depth goes along a line, too. When one line is in front of the other is known in closed form: no time is
+// sampled.
 #include <gnomon/motion/range/range_list.h>
 #include <gnomon/motion/receiver/moving_receiver.h>
 

@@ -1,7 +1,8 @@
 // How do shadows look when everything moves while the shutter is open?
 //
-// The light renders a map of depth-time ranges, a list for each texel. The camera renders what each pixel sees from when to
-// when. Each such segment is a moving receiver, as in lesson 6, which this map answers in closed form: no noise.
+// The light renders a map of depth-time ranges, a list for each texel. The camera renders what each pixel sees from
+// when to when. Each such segment is a moving receiver, as in lesson 6, which this map answers in closed form: no
+// noise.
 #include "renderer/raster/moving_rasterizer.hpp"
 #include "renderer/scene/moving_stages.hpp"
 #include "renderer/shade/moving_view.hpp"

@@ -1,8 +1,9 @@
 // What do a depth bias and over-darkening do to a shadow?
 //
-// A sloped receiver lies behind a part of its own filter region. Comparing depths, it shadows itself (acne), unless a depth
-// bias moves it towards the light; a bound on the intensity needs less. Too much bias takes shadows from contacts. A bound
-// leaves some light in deep shadows, too (leaking): over-darkening divides it away, and hardens soft edges.
+// A sloped receiver lies behind a part of its own filter region. Comparing depths, it shadows itself (acne), unless a
+// depth bias moves it towards the light; a bound on the intensity needs less. Too much bias takes shadows from
+// contacts. A bound leaves some light in deep shadows, too (leaking): over-darkening divides it away, and hardens soft
+// edges.
 #include "renderer/scene/stage.hpp"
 #include "renderer/shade/receivers.hpp"
 #include "renderer/shade/shading.hpp"

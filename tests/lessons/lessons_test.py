@@ -27,7 +27,8 @@ def name_of(number):
 
 def run(number, folder):
     """The output of a lesson, whose pictures are below the folder."""
-    done = subprocess.run([PROGRAMS / f"lesson_{name_of(number)}"], cwd=folder, capture_output=True, text=True, check=False)
+    program = PROGRAMS / f"lesson_{name_of(number)}"
+    done = subprocess.run([program], cwd=folder, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, ""), (done.returncode, done.stderr)
     return done.stdout
 
@@ -115,7 +116,8 @@ class Lesson03(Lesson):
     NUMBER = 3
 
     def test_packs_give_the_bits_of_scalars(self):
-        receivers, different = re.fullmatch(r"(\d+) receivers, (\d+) differ from one at a time\n", self.printed).groups()
+        counts = re.fullmatch(r"(\d+) receivers, (\d+) differ from one at a time\n", self.printed)
+        receivers, different = counts.groups()
         self.assertGreater(int(receivers), 100000)
         self.assertEqual(int(different), 0)
 

@@ -175,7 +175,7 @@ TEST_CASE("a climber finds no receiver that thinned lists without backdrops ligh
 {
     constexpr std::size_t ranges = 7, numbers = 4;
     texel_lists texels;
-    stack<depth_time_range<float>> lists;
+    append_buffer<depth_time_range<float>> lists;
     std::array<std::uint32_t, texel_pack::size> sizes{};
     std::size_t shown = 0;
     const auto score = [&](const std::vector<double>& place) {

@@ -1,5 +1,5 @@
-// Places of the nodes of a file that Assimp has read, at rest and at a time of one of its animations. Only for the
-// reader of models: Assimp's types stay behind it.
+// Places of the nodes of a file that Assimp has read, static or at a time of one of its animations. For the importer
+// alone: no other file sees Assimp's types.
 #pragma once
 
 #include <assimp/scene.h>
@@ -19,20 +19,21 @@ struct assimp_pose {
 
 glm::dmat4 matrix_of(const aiMatrix4x4& m);
 
-// As the file has the nodes; meshes are where their nodes are, whatever bones they have.
+// The static pose: nodes as in the file. Meshes are where their nodes are; bones are ignored.
 assimp_pose assimp_pose_at_rest(const aiScene& source);
 
 double assimp_duration(const aiAnimation& animation); // in seconds
 
-// At a time in seconds after the animation's start. Keys are interpolated linearly, rotations along the shorter great
-// arc, since Assimp tells of no other way; before the first key and after the last one they stay. Throws
-// std::runtime_error where the animation moves no nodes or moves meshes by other means, where a channel's name is that
-// of several nodes, and where it leaves out a rotation or scale that its node's matrix does not tell.
+// The pose at a time in seconds after the start of the animation. Keys are interpolated linearly, rotations along the
+// shorter great arc, since Assimp names no other interpolation; they are constant before the first key and after the
+// last one. Throws std::runtime_error if the animation moves no nodes or moves meshes by other means, if a channel has
+// the name of several nodes, or if a channel leaves out a rotation or scale that cannot be recovered from the matrix of
+// its node.
 assimp_pose assimp_pose_at(const aiScene& source, const aiAnimation& animation, double seconds);
 
-// From the coordinates of each of the mesh's vertices to the world's: one matrix for all, that of the node, or one for
-// each where bones move it; weights are divided by their sum. Throws std::runtime_error where a bone's name is not that
-// of one node.
+// Matrices from the coordinates of the mesh to those of the world: one for all vertices, that of the node, or one for
+// each vertex if bones move the mesh. Weights of bones are divided by their sum. Throws std::runtime_error if the name
+// of a bone is not that of exactly one node.
 std::vector<glm::dmat4> vertex_transforms(const aiMesh& part, const aiNode& node, const assimp_pose& at);
 
 } // namespace gnomon::renderer

@@ -1,6 +1,6 @@
-// A glTF 2.0 file as tinygltf reads it, checked where tinygltf is not strict: it takes a wrong type for an absent
-// value, cuts indices to 32 bits, and looks at no accessor's range. Every function throws std::runtime_error with the
-// cause, or std::bad_alloc.
+// A glTF 2.0 file, read by tinygltf and checked where tinygltf is not strict: tinygltf treats a value of a wrong type
+// as absent, cuts indices to 32 bits, and checks no range of an accessor. Every function throws std::runtime_error with
+// the cause, or std::bad_alloc.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -22,16 +22,15 @@ template <class T> const T& gltf_item(const std::vector<T>& items, int index, co
 // Normalized integers become fractions.
 std::vector<double> gltf_numbers(const tinygltf::Model& model, int index, int type);
 
-// The same for whole numbers, which a file may store as unsigned integers only.
+// The whole numbers of the accessor at an index, which a file may store as unsigned integers only.
 std::vector<std::uint32_t> gltf_whole_numbers(const tinygltf::Model& model, int index, int type);
 
-// A node and the one that it hangs on, -1 where it hangs on none.
+// A node and its parent, -1 if it has none.
 struct gltf_link {
     int node, parent;
 };
 
-// Every node of the file, parents first. Throws where a node has two parents, or where nodes hang on each other in a
-// circle.
+// Every node of the file, parents first. Throws if a node has two parents or is its own ancestor.
 std::vector<gltf_link> gltf_hierarchy(const tinygltf::Model& model);
 
 // The nodes of the file's scene, each followed by its children. The scene is the file's default one, or the first one,

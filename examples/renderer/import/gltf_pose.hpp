@@ -1,4 +1,4 @@
-// Places of the nodes of a glTF file, and weights of its morph targets, at rest and at a time of an animation.
+// Places of the nodes of a glTF file and weights of its morph targets, static or at a time of an animation.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -15,18 +15,19 @@ struct gltf_pose {
     std::vector<std::vector<double>> weights; // one for each morph target of the node's mesh
 };
 
-// The number of morph targets of each of the mesh's primitives. Throws where they differ.
+// The number of morph targets of the primitives of a mesh. Throws if their numbers differ.
 std::size_t gltf_target_count(const tinygltf::Mesh& mesh);
 
-// As the file has the nodes, with the default weights of the node or else of its mesh. Throws std::runtime_error where
-// a node is malformed.
+// The static pose: nodes as in the file, with the default weights of the node, or else of its mesh. Throws
+// std::runtime_error if a node is malformed.
 gltf_pose gltf_pose_at_rest(const tinygltf::Model& model);
 
-// The time of the last key, in seconds. Throws std::runtime_error where the animation moves nothing, and where a
-// channel or a key is malformed or of a kind that is not read.
+// The time of the last key, in seconds. Throws std::runtime_error if the animation moves nothing, or if a channel or a
+// key is malformed or of an unsupported kind.
 double gltf_duration(const tinygltf::Model& model, const tinygltf::Animation& animation);
 
-// At a time in seconds. Before the first key and after the last one, values stay. Throws as gltf_duration does.
+// The pose at a time in seconds. Values are constant before the first key and after the last one. Throws as
+// gltf_duration.
 gltf_pose gltf_pose_at(const tinygltf::Model& model, const tinygltf::Animation& animation, double seconds);
 
 } // namespace gnomon::renderer

@@ -1,6 +1,6 @@
-// Readers of models take some broken files badly: they assert, follow wild pointers, descend until the stack is full,
-// or believe a header that promises 10^11 corners. While a guard lives, memory is limited, so that the last kind ends
-// in std::bad_alloc, and the others end the program with one line, "FILE: cause", and exit code 2. One guard at a time.
+// A guard against importers that fail on broken files: by an assertion, a wild pointer, recursion until the stack is
+// full, or a header that promises 10^11 vertices. While a guard lives, memory is limited, so that the last kind ends in
+// std::bad_alloc; the other kinds end the program with one line, "FILE: cause", and exit code 2. One guard at a time.
 #pragma once
 
 #include <sys/resource.h>

@@ -1,4 +1,4 @@
-// Models from files: glTF 2.0 by tinygltf; OBJ, PLY, STL, glTF 1.0 and whatever else Assimp reads.
+// Models from files: glTF 2.0 by tinygltf; OBJ, PLY, STL, glTF 1.0 and other formats by Assimp.
 #pragma once
 
 #include "renderer/scene/moving_scene.hpp"
@@ -10,17 +10,17 @@
 namespace gnomon::renderer {
 
 // The triangles of a file, y up, scaled so that the longest side of the bounds is one, standing on y = 0 above the
-// origin. Points, lines and triangles that have a corner at infinity or nowhere (NaN) are left out. Models are at rest:
-// of glTF, default weights of morph targets count, and joints place the meshes that have a skin, as the format says; of
-// other formats, meshes are where their nodes are, whatever bones they have.
-// Throws std::runtime_error with one line, "FILE: cause", where something is not supported or nothing is left to be
-// seen.
+// origin. Points, lines and triangles with an infinite or NaN coordinate are left out. The model is static: of glTF,
+// with the default weights of morph targets, and with meshes that have a skin placed by their joints; of other formats,
+// with meshes where their nodes are, bones ignored. Throws std::runtime_error with one line, "FILE: cause", if
+// something is not supported or nothing is left to be seen.
 scene load_model(const std::filesystem::path& file);
 
-// The same while the shutter is open for a part of an animation, both times in seconds after its start: nodes, bones
-// and, of glTF, morph targets move, and corners go straight from their places at the first time to those at the second.
-// The bounds are those of both. An empty name means the file's first animation. Throws as above, and where there is no
-// animation of that name, where it moves nothing, where times are in the wrong order or outside of it.
+// The triangles of a file while the shutter is open for a part of an animation, between two times in seconds after its
+// start. Nodes, bones and, of glTF, morph targets move; vertices move straight from their places at the first time to
+// those at the second. The bounds are those of both. An empty name means the first animation of the file. Throws as
+// load_model, and if there is no animation of that name, if the animation moves nothing, or if the times are not in
+// order within it.
 moving_scene load_animated_model(const std::filesystem::path& file, std::string_view animation, double open,
                                  double closing);
 

@@ -11,7 +11,7 @@
 
 namespace gnomon::renderer {
 
-// Corners are in double until they are normalised, so that a small model far from the origin keeps its shape.
+// Vertices are in double until they are normalised, so that a small model far from the origin keeps its shape.
 struct model_part {
     std::string name;
     glm::vec3 albedo{0.7f};
@@ -26,8 +26,8 @@ struct exposure {
     double open, closing;
 };
 
-// The place in the list of the animation of this name, 0 where the name is empty. Throws std::runtime_error, which
-// lists the names that there are.
+// The index in the list of the animation of this name, 0 if the name is empty. Throws std::runtime_error, which lists
+// the names of the file, if there is none.
 std::size_t find_animation(std::span<const std::string> names, std::string_view name);
 
 // Throws std::runtime_error unless the shutter closes no earlier than it opens, and both within the animation.

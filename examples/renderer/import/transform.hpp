@@ -18,7 +18,7 @@ inline glm::dmat4 composed(const glm::dvec3& translation, const glm::dquat& rota
     return glm::scale(glm::translate(glm::dmat4(1), translation) * glm::mat4_cast(rotation), scale);
 }
 
-// The quaternion scaled to length one. Throws where it has no length, or one that is no number.
+// The quaternion scaled to length one. Throws if its length is 0 or not finite.
 inline glm::dquat unit(const glm::dquat& q)
 {
     const double length = glm::length(q);
@@ -26,7 +26,7 @@ inline glm::dquat unit(const glm::dquat& q)
     return q / length;
 }
 
-// The matrix of 16 numbers, column by column. Throws where its last row is not that of an affine one.
+// The matrix of 16 numbers, column by column. Throws if its last row is not that of an affine matrix.
 inline glm::dmat4 affine(const double* numbers)
 {
     glm::dmat4 matrix = glm::make_mat4(numbers);
@@ -38,7 +38,7 @@ inline glm::dmat4 affine(const double* numbers)
     return matrix;
 }
 
-// The matrix that carries normals along: the inverse transpose, up to a positive factor; also where there is no
+// The matrix that transforms normals: the inverse transpose up to a positive factor, also of a matrix without an
 // inverse.
 inline glm::dmat3 for_normals(const glm::dmat4& matrix)
 {

@@ -1,5 +1,5 @@
-// A picture is width x height values, rows from top to bottom. What the gallery shows of a picture: PNG files,
-// magnified insets, signed error colours, and compositions.
+// Pictures: width x height values, rows from top to bottom; magnified insets, signed error colours, compositions, and
+// PNG files.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -69,7 +69,7 @@ void outline(picture& target, const rectangle& frame, const glm::vec3& colour, i
 // All pictures in one row from left to right, upper edges aligned, `gap` white pixels between them.
 picture side_by_side(std::span<const picture> pictures, int gap = 4);
 
-// The same from top to bottom, left edges aligned.
+// All pictures in one column from top to bottom, left edges aligned, `gap` white pixels between them.
 picture stacked(std::span<const picture> pictures, int gap = 4);
 
 // Diverging map of a signed error of a visibility: white 0, blue for light leaking (too bright), red for acne (too

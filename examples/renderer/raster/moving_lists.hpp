@@ -1,5 +1,5 @@
-// The lists of a pack of texels while the rasterizer of motion works at them: columns of rows (simd/resolve.hpp), to
-// which ranges come by packs, until they are laid out.
+// The lists of a pack of texels while the rasterizer of motion adds ranges to them, a range for each lane at a time.
+// The list of a texel is a column of rows (simd/resolve.hpp). Finished lists are appended to a buffer, texel by texel.
 #pragma once
 
 #include "moving_tiles.hpp"
@@ -16,12 +16,13 @@
 
 namespace gnomon::renderer {
 
-// Things one after the other, and room behind them that keeps what it has.
-template <class T> class stack {
+// A buffer to append to. Clearing it keeps its memory, and memory beyond its end keeps its contents.
+template <class T> class append_buffer {
   public:
     std::size_t size() const { return size_; }
     std::span<const T> used() const { return std::span(room_).first(size_); }
     void clear() { size_ = 0; }
+    // Room for `count` elements beyond the end; grow() adds them.
     T* room_for(std::size_t count)
     {
         if (room_.size() < size_ + count) room_.resize(2 * (size_ + count));
@@ -34,8 +35,8 @@ template <class T> class stack {
     std::size_t size_ = 0;
 };
 
-// Depths behind which all is hidden, while lists are still open: in each of some equal parts of the shutter, the
-// farthest depth of the nearest range that lasts for all of the part.
+// Depths behind which everything is hidden, for each lane, while ranges are still added: for each of some equal parts
+// of the shutter interval, the least of the farthest depths of the ranges that last for all of that part.
 class hidden_depths {
   public:
     void clear()
@@ -44,7 +45,7 @@ class hidden_depths {
         any_ = false;
     }
 
-    // Of the lanes that exist those in which the range may be in front.
+    // The lanes of `exists` in which the range may be in front.
     GNOMON_INLINE xsimd::batch_bool<float> may_be_seen(const xsimd::batch_bool<float>& exists,
                                                        const range_pack& r) const
     {
@@ -56,7 +57,7 @@ class hidden_depths {
         return seen && exists;
     }
 
-    // Adds a range that is listed in these lanes.
+    // Notes a range that is added to the lists of these lanes.
     GNOMON_INLINE void add(const xsimd::batch_bool<float>& exists, const range_pack& r)
     {
         if (!gnomon_any(exists && texel_pack(part) <= r.t1 - r.t0)) return;
@@ -77,17 +78,18 @@ class hidden_depths {
     bool any_ = false;
 };
 
+// The lists of a pack of texels.
 class texel_lists {
   public:
     using range = depth_time_range<float>;
     using range_lanes = depth_time_range<texel_pack>;
     using lane_mask = xsimd::batch_bool<float>;
 
-    // The number of ranges that there is room for.
+    // The number of ranges that the rows have room for.
     std::size_t room() const { return texel_pack::size * count_; }
 
-    // Resolved lists keep what is in front. Without backdrops the farthest range that is always there waits outside of
-    // them, since what comes may be behind it.
+    // Begins empty lists. Resolved lists hold the ranges in front. Without backdrops, the farthest range that is always
+    // there is kept apart from its list: a range still to come may lie behind it.
     void clear(bool resolved, bool backdrops)
     {
         resolved_ = resolved, backdrops_ = backdrops;
@@ -97,21 +99,21 @@ class texel_lists {
         backdrop_ = {};
     }
 
-    // Those that exist.
+    // Adds a range in the lanes of `exists`.
     GNOMON_INLINE void add(const lane_mask& exists, const range_pack& r, float id)
     {
-        const range_lanes came{r.t0, r.t1, r.z0, r.z1, texel_pack(id)};
-        if (resolved_) add_resolved(exists, came);
-        else if (gnomon_any(exists)) put_in_new_row(exists, came);
+        const range_lanes added{r.t0, r.t1, r.z0, r.z1, texel_pack(id)};
+        if (resolved_) add_resolved(exists, added);
+        else if (gnomon_any(exists)) put_in_new_row(exists, added);
     }
 
-    // At the end of others, texel by texel, how many of each in sizes.
-    void append_to(stack<range>& all, std::span<std::uint32_t, texel_pack::size> sizes) const
+    // Appends the lists, texel by texel, and sets the sizes of the lists.
+    void append_to(append_buffer<range>& all, std::span<std::uint32_t, texel_pack::size> sizes) const
     {
         range* end = all.room_for(room() + 1);
         for (std::size_t i = 0; i < texel_pack::size; ++i) {
             std::uint32_t count = 0;
-            // Without branches: what does not exist is overwritten.
+            // Without branches: a range that does not exist is overwritten by the next one.
             for (std::size_t k = 0; k < count_; ++k) {
                 const std::uint32_t exists = used_[k] >> i & 1;
                 *end = rows_[k].range(i);
@@ -122,9 +124,11 @@ class texel_lists {
         }
     }
 
-    // The same of what of them is in front; finish(list) says what of a list, which it may change, is kept.
+    // Appends the parts in front, texel by texel, and sets the sizes of the lists. finish(list) may change a list in
+    // place and returns the part of it that is kept.
     template <class Finish>
-    void append_resolved_to(stack<range>& all, std::span<std::uint32_t, texel_pack::size> sizes, const Finish& finish)
+    void append_resolved_to(append_buffer<range>& all, std::span<std::uint32_t, texel_pack::size> sizes,
+                            const Finish& finish)
     {
         if (!backdrops_) add_seen(backdrop_.rest().t0 < backdrop_.rest().t1, backdrop_.rest());
         resolve();
@@ -136,7 +140,7 @@ class texel_lists {
         }
     }
 
-    // They become what of them is in front.
+    // Replaces the lists by their parts in front.
     void thin_out()
     {
         resolve();
@@ -170,14 +174,14 @@ class texel_lists {
         rows_[count_++].set(range_keep_if(exists, r));
     }
 
-    [[gnu::noinline]] void add_resolved(lane_mask exists, const range_lanes& came)
+    [[gnu::noinline]] void add_resolved(lane_mask exists, const range_lanes& added)
     {
-        if (backdrops_) return add_seen(exists, came);
-        const range_lanes listed = backdrop_.add(range_keep_if(exists, came));
+        if (backdrops_) return add_seen(exists, added);
+        const range_lanes listed = backdrop_.add(range_keep_if(exists, added));
         add_seen(listed.t0 < listed.t1, listed);
     }
 
-    // In one of the last rows that has room for it, or in a new one.
+    // Adds a range to one of the last rows that is free in all of its lanes, or to a new row.
     GNOMON_INLINE void add_seen(const lane_mask& exists, const range_lanes& r)
     {
         const range_pack times{r.t0, r.t1, r.z0, r.z1};
@@ -185,15 +189,15 @@ class texel_lists {
         const std::uint64_t bits = bits_of(seen);
         if (bits == 0) return;
         hidden_.add(seen, times);
-        constexpr std::size_t asked = 8;
-        std::size_t k = count_ < asked ? 0 : count_ - asked;
+        constexpr std::size_t searched = 8;
+        std::size_t k = count_ < searched ? 0 : count_ - searched;
         while (k < count_ && (used_[k] & bits) != 0) ++k;
         if (k == count_) return put_in_new_row(seen, r);
         used_[k] |= bits;
         rows_[k].set(range_select(seen, r, rows_[k].range()));
     }
 
-    // Puts what is in front into pieces_, in order of time.
+    // Puts the parts in front into pieces_, for each lane in order of time.
     void resolve()
     {
         resolve_rows<texel_pack>(rows_, fronts_, count_);
@@ -217,7 +221,7 @@ class texel_lists {
 
     std::vector<row> rows_, thinned_; // the first count_ are in use
     std::vector<front_row<texel_pack>> fronts_;
-    std::vector<std::uint64_t> used_; // of each row, a bit for each lane
+    std::vector<std::uint64_t> used_; // for each row, a bit for each lane that has a range
     std::size_t count_ = 0;
     bool resolved_ = false, backdrops_ = true;
     hidden_depths hidden_;

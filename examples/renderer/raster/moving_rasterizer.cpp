@@ -26,19 +26,22 @@ namespace {
 using map = range_map<float>;
 
 constexpr std::size_t texels_per_tile = map::texels_per_tile, packs_per_tile = moving_samples::packs_per_tile;
-constexpr std::size_t long_lists = 256 * texel_pack::size; // ranges of a pack
+// Ranges of a pack of texels from which on lists are long: resolving compares all ranges of a texel with one another.
+constexpr std::size_t long_lists = 256 * texel_pack::size;
 
-// What a tile needs, and what becomes of it.
+// The work of one tile.
 struct tile_lists {
-    tile_bins members;
-    texel_lists texels; // that are worked at
+    tile_bins bins;
+    texel_lists texels; // the lists of the pack of texels at hand
     range_counts counts;
-    stack<depth_time_range<float>> lists; // in the order of texels
+    append_buffer<depth_time_range<float>> lists; // the finished lists, in the order of texels
     std::array<std::uint32_t, texels_per_tile> sizes;
 };
 
-// Where a triangle is seen by samples, and what becomes of that. Large things go by value to functions that are called
-// rarely: they need no memory elsewhere.
+// A triangle, the texels that it is tested against, and the lists that get its ranges.
+//
+// Most texels see a triangle once, in a line of depth: that case is inlined below. Functions for the other cases are
+// kept out of line, and take packs by value: so the common case needs no memory for its registers' contents.
 struct tile_query {
     const tile_triangle& triangle;
     const moving_samples& samples;
@@ -46,7 +49,7 @@ struct tile_query {
     texel_lists& to;
 };
 
-// Ranges whose depth is further from its line than the tolerance, in pieces (Palmer 2011, chapter 5).
+// Adds ranges whose depth departs from a line by more than the tolerance, in pieces (Palmer 2011, chapter 5).
 [[gnu::noinline]] void add_pieces(const tile_query& at, xsimd::batch_bool<float> bent, depth_curve<texel_pack> curve,
                                   texel_pack opening, texel_pack closing)
 {
@@ -60,38 +63,41 @@ struct tile_query {
     }
 }
 
-// A range of those lanes that have it, in pieces where its depth bends.
-template <class Sight>
-GNOMON_INLINE void add_range(const tile_query& at, const Sight& sight, const xsimd::batch_bool<float>& exists,
+// Adds a range in the lanes that have it, in pieces where its depth bends.
+template <class Coverage>
+GNOMON_INLINE void add_range(const tile_query& at, const Coverage& coverage, const xsimd::batch_bool<float>& exists,
                              const texel_pack& opening, const texel_pack& closing)
 {
     const auto id = float(at.triangle.setup().number);
     if (!(at.tolerance > 0)) {
-        at.to.add(exists, {opening, closing, sight.depth(opening), sight.depth(closing)}, id);
+        at.to.add(exists, {opening, closing, coverage.depth(opening), coverage.depth(closing)}, id);
         return;
     }
-    const depth_line<texel_pack> line = sight.line(opening, closing);
+    const depth_line<texel_pack> line = coverage.line(opening, closing);
     const auto bent = exists && texel_pack(at.tolerance) < line.deviation;
-    if (gnomon_any(bent)) add_pieces(at, bent, sight.curve, opening, closing);
+    if (gnomon_any(bent)) add_pieces(at, bent, coverage.curve, opening, closing);
     at.to.add(exists && !bent, {opening, closing, line.z0, line.z1}, id);
 }
 
-// Adds the parts of an interval in which a triangle that passes the near or the far plane is between them.
-template <class Sight>
-[[gnu::noinline]] std::uint64_t add_between_planes(const tile_query& at, Sight sight, xsimd::batch_bool<float> exists,
-                                                   texel_pack opening, texel_pack closing, float facing)
+// Adds the parts of an interval in which the triangle is between the near and the far plane. Returns a bit for each
+// lane that got a range.
+template <class Coverage>
+[[gnu::noinline]] std::uint64_t add_between_planes(const tile_query& at, Coverage coverage,
+                                                   xsimd::batch_bool<float> exists, texel_pack opening,
+                                                   texel_pack closing, float facing)
 {
-    // Depths at or beyond a plane are limited to it.
+    // The end of a line that reaches a plane or passes it is clamped to that plane.
     const texel_pack one(1.f);
-    const depth_line<texel_pack> line = sight.line(opening, closing);
+    const depth_line<texel_pack> line = coverage.line(opening, closing);
     const auto inside = gnomon_max(line.z0, line.z1) + line.deviation < one &&
                         texel_pack(-1.f) < gnomon_min(line.z0, line.z1) - line.deviation;
     if (!gnomon_any(exists && !inside)) {
-        add_range(at, sight, exists, opening, closing);
+        add_range(at, coverage, exists, opening, closing);
         return bits_of(exists);
     }
-    const edge_intervals<texel_pack> beyond = depth_intervals_beyond(sight.curve, texel_pack(-1.f), texel_pack(facing)),
-                                     before = depth_intervals_before(sight.curve, one, texel_pack(facing));
+    const edge_intervals<texel_pack> beyond =
+                                         depth_intervals_beyond(coverage.curve, texel_pack(-1.f), texel_pack(facing)),
+                                     before = depth_intervals_before(coverage.curve, one, texel_pack(facing));
     std::uint64_t seen = 0;
     for (const float i : {0.f, 1.f})
         for (const float k : {0.f, 1.f}) {
@@ -99,62 +105,64 @@ template <class Sight>
             part = edge_intervals_part(before, texel_pack(k), part.begin, part.end);
             const auto there = exists && part.begin < part.end;
             if (!gnomon_any(there)) continue;
-            add_range(at, sight, there, part.begin, part.end);
+            add_range(at, coverage, there, part.begin, part.end);
             seen |= bits_of(there);
         }
     return seen;
 }
 
-// Adds an interval of those lanes that have it. Returns which are in the picture, a bit for each.
-template <class Sight>
-GNOMON_INLINE std::uint64_t add_interval(const tile_query& at, const Sight& sight, xsimd::batch_bool<float> exists,
-                                         const texel_pack& opening, const texel_pack& closing, float facing)
+// Adds an interval in the lanes that have it. Returns a bit for each lane that got a range: those in the picture.
+template <class Coverage>
+GNOMON_INLINE std::uint64_t add_interval(const tile_query& at, const Coverage& coverage,
+                                         xsimd::batch_bool<float> exists, const texel_pack& opening,
+                                         const texel_pack& closing, float facing)
 {
     if (!at.triangle.whole()) exists = exists && at.triangle.contains(at.samples);
-    if (!at.triangle.setup().between_planes) return add_between_planes(at, sight, exists, opening, closing, facing);
-    add_range(at, sight, exists, opening, closing);
+    if (!at.triangle.setup().between_planes) return add_between_planes(at, coverage, exists, opening, closing, facing);
+    add_range(at, coverage, exists, opening, closing);
     return bits_of(exists);
 }
 
-[[gnu::noinline]] std::uint64_t add_further_intervals(const tile_query& at, quadratic_coverage sight,
+// Adds the second to the fourth interval.
+[[gnu::noinline]] std::uint64_t add_further_intervals(const tile_query& at, quadratic_coverage coverage,
                                                       coverage_intervals<texel_pack> times, float facing)
 {
-    return add_interval(at, sight, times.count > texel_pack(1.f), times.begin1, times.end1, facing) |
-           add_interval(at, sight, times.count > texel_pack(2.f), times.begin2, times.end2, facing) |
-           add_interval(at, sight, times.count > texel_pack(3.f), times.begin3, times.end3, facing);
+    return add_interval(at, coverage, times.count > texel_pack(1.f), times.begin1, times.end1, facing) |
+           add_interval(at, coverage, times.count > texel_pack(2.f), times.begin2, times.end2, facing) |
+           add_interval(at, coverage, times.count > texel_pack(3.f), times.begin3, times.end3, facing);
 }
 
-// Of one facing. Returns how many texels it covers.
-GNOMON_INLINE std::size_t add_facing(const tile_query& at, const quadratic_coverage& sight, float facing)
+// Adds what texels see of one facing. Returns how many texels see it.
+GNOMON_INLINE std::size_t add_facing(const tile_query& at, const quadratic_coverage& coverage, float facing)
 {
-    const coverage_intervals<texel_pack> times = sight.covered(facing);
+    const coverage_intervals<texel_pack> times = coverage.covered(facing);
     const auto covered = times.count > texel_pack(0.f);
     if (!gnomon_any(covered)) return 0;
-    std::uint64_t seen = add_interval(at, sight, covered, times.begin0, times.end0, facing);
-    if (gnomon_any(times.count > texel_pack(1.f))) seen |= add_further_intervals(at, sight, times, facing);
+    std::uint64_t seen = add_interval(at, coverage, covered, times.begin0, times.end0, facing);
+    if (gnomon_any(times.count > texel_pack(1.f))) seen |= add_further_intervals(at, coverage, times, facing);
     return std::size_t(std::popcount(seen));
 }
 
-GNOMON_INLINE std::size_t add_facing(const tile_query& at, const linear_tile_coverage& sight, float facing)
+GNOMON_INLINE std::size_t add_facing(const tile_query& at, const linear_tile_coverage& coverage, float facing)
 {
-    const linear_interval<texel_pack> times = sight.covered(facing);
+    const linear_interval<texel_pack> times = coverage.covered(facing);
     const auto covered = times.begin < times.end;
     if (!gnomon_any(covered)) return 0;
-    return std::size_t(std::popcount(add_interval(at, sight, covered, times.begin, times.end, facing)));
+    return std::size_t(std::popcount(add_interval(at, coverage, covered, times.begin, times.end, facing)));
 }
 
-[[gnu::noinline]] std::size_t add_turned(const tile_query& at)
+[[gnu::noinline]] std::size_t add_back_facing(const tile_query& at)
 {
     if (at.triangle.setup().linear) return add_facing(at, at.triangle.linear(at.samples, -1), -1);
-    return add_facing(at, at.triangle.curved(at.samples, -1), -1);
+    return add_facing(at, at.triangle.quadratic(at.samples, -1), -1);
 }
 
-[[gnu::noinline]] std::size_t add_curved(const tile_query& at)
+[[gnu::noinline]] std::size_t add_quadratic(const tile_query& at)
 {
-    return add_facing(at, at.triangle.curved(at.samples, 1), 1);
+    return add_facing(at, at.triangle.quadratic(at.samples, 1), 1);
 }
 
-// Joins ranges of one mesh.
+// Joins neighbouring ranges of one mesh in a list.
 class mesh_joiner {
   public:
     mesh_joiner(const scene& world, float tolerance) : numbers_(world), tolerance_(tolerance) {}
@@ -171,42 +179,43 @@ class mesh_joiner {
     float tolerance_;
 };
 
-void rasterize_tile(const tiled_triangles& scenery, std::size_t tile, const range_options& how,
-                    const mesh_joiner& joined, tile_lists& to)
+// Fills the lists of a tile, a pack of texels at a time.
+void rasterize_tile(const tiled_triangles& scenery, std::size_t tile, const range_options& how, const mesh_joiner& join,
+                    tile_lists& to)
 {
-    to.members.assign(scenery, tile, how.resolved);
+    to.bins.assign(scenery, tile, how.resolved);
     to.counts = {};
     to.lists.clear();
     for (std::size_t i = 0; i < packs_per_tile; ++i) {
         const moving_samples samples(i);
-        // Resolving compares ranges with one another, so long lists are thinned out in between.
+        // Long lists are resolved in between, since the work of resolving grows with the square of their length.
         std::size_t budget = how.resolved ? std::min(how.budget, long_lists) : how.budget;
         to.texels.clear(how.resolved, how.backdrops);
-        to.members.for_each(i / moving_samples::packs_per_block, [&](const tile_triangle& triangle) {
+        to.bins.for_each(i / moving_samples::packs_per_block, [&](const tile_triangle& triangle) {
             const tile_query at{triangle, samples, how.depth_tolerance, to.texels};
             to.counts.tested += texel_pack::size;
             const moving_setup& s = triangle.setup();
             if (s.positive)
-                to.counts.pairs += s.linear ? add_facing(at, triangle.linear(samples, 1), 1) : add_curved(at);
-            if (s.negative) to.counts.pairs += add_turned(at);
+                to.counts.pairs += s.linear ? add_facing(at, triangle.linear(samples, 1), 1) : add_quadratic(at);
+            if (s.negative) to.counts.pairs += add_back_facing(at);
             if (to.texels.room() <= budget) return;
             ++to.counts.early_resolves;
             to.texels.thin_out();
             budget = std::max(budget, 2 * to.texels.room());
         });
         const auto sizes = std::span(to.sizes).subspan(i * texel_pack::size).first<texel_pack::size>();
-        if (how.resolved) to.texels.append_resolved_to(to.lists, sizes, joined);
+        if (how.resolved) to.texels.append_resolved_to(to.lists, sizes, join);
         else to.texels.append_to(to.lists, sizes);
     }
 }
 
-// Of each sample the nearest triangle at its time; z0 is 1 where there is none.
+// Puts a triangle into the samples that see it, at their times, in front of what they have seen so far.
 void sample_instants(const tile_triangle& triangle, const moving_samples& at, const moving_tile& where, int samples,
                      std::vector<depth_time_range<float>>& nearest)
 {
     const moving_setup& s = triangle.setup();
-    const quadratic_coverage sight = triangle.curved(at, 1);
-    const moving_edges<texel_pack> negative = s.negative ? triangle.curved(at, -1).edges : sight.edges;
+    const quadratic_coverage coverage = triangle.quadratic(at, 1);
+    const moving_edges<texel_pack> negative = s.negative ? triangle.quadratic(at, -1).edges : coverage.edges;
     const auto instant = [&](std::size_t lane, int k) -> depth_time_range<float>* {
         const glm::ivec2 place = at.place(lane);
         if (!triangle.contains(place)) return nullptr;
@@ -220,10 +229,10 @@ void sample_instants(const tile_triangle& triangle, const moving_samples& at, co
         const auto at_time = [&](const moving_edges<texel_pack>& e) {
             return std::array{moving_edge_at(e.a, t), moving_edge_at(e.b, t), moving_edge_at(e.c, t)};
         };
-        const auto inside = at_time(sight.edges), outside = at_time(negative);
+        const auto inside = at_time(coverage.edges), outside = at_time(negative);
         gnomon_min(gnomon_min(inside[0], inside[1]), inside[2]).store_unaligned(least.data());
         gnomon_max(gnomon_max(outside[0], outside[1]), outside[2]).store_unaligned(most.data());
-        sight.depth(t).store_unaligned(z.data());
+        coverage.depth(t).store_unaligned(z.data());
         for (std::size_t i = 0; i < texel_pack::size; ++i) {
             const bool covered = (s.positive && least[i] >= 0) || (s.negative && most[i] <= 0);
             auto* there = covered ? instant(i, k) : nullptr;
@@ -235,7 +244,7 @@ void sample_instants(const tile_triangle& triangle, const moving_samples& at, co
     }
 }
 
-// Past the caches, which a map does not fit in: that saves reading what is overwritten.
+// Copies with stores that bypass the caches: a map is larger than these, and memory to be overwritten need not be read.
 void copy_to_memory(std::span<const depth_time_range<float>> from, depth_time_range<float>* to)
 {
 #ifdef __SSE2__
@@ -250,7 +259,7 @@ void copy_to_memory(std::span<const depth_time_range<float>> from, depth_time_ra
     std::ranges::copy(from, to);
 }
 
-// Evenly spread bits, for times that no two samples share.
+// A number in [0, 1) for each sample: the bits of its index, mixed.
 float jitter(std::uint32_t sample)
 {
     std::uint32_t x = sample * 0x9e3779b9u;
@@ -262,7 +271,7 @@ float jitter(std::uint32_t sample)
 } // namespace
 
 struct range_rasterizer::scratch {
-    std::vector<tile_lists> lists; // of some tiles, one after the other
+    std::vector<tile_lists> lists; // of a wave of tiles
 };
 
 range_rasterizer::range_rasterizer() : scratch_(std::make_unique<scratch>()) {}
@@ -272,10 +281,11 @@ const range_lists& range_rasterizer::operator()(const moving_scene& world, const
                                                 int height, const range_options& how)
 {
     const tiled_triangles scenery(world, eye, width, height, how.visible);
-    const mesh_joiner joined(world.open, how.joining);
+    const mesh_joiner join(world.open, how.joining);
     lists_.width = width, lists_.height = height, lists_.counts = {};
     lists_.first.resize(map::texels(std::size_t(width), std::size_t(height)) + 1);
-    // As many tiles at a time as keep all threads busy and caches full: their lists are laid out while they are there.
+    // Waves of tiles, large enough to keep all threads busy, small enough for their lists to be in a cache when they
+    // are copied to their places in the map.
     const std::size_t wave = 2 * std::size_t(tbb::this_task_arena::max_concurrency());
     scratch_->lists.resize(wave);
     std::vector<std::size_t> begins(wave);
@@ -283,7 +293,7 @@ const range_lists& range_rasterizer::operator()(const moving_scene& world, const
     for (std::size_t tile = 0; tile < scenery.tiles(); tile += wave) {
         const std::span tiles = std::span(scratch_->lists).first(std::min(wave, scenery.tiles() - tile));
         tbb::parallel_for(std::size_t(0), tiles.size(),
-                          [&](std::size_t i) { rasterize_tile(scenery, tile + i, how, joined, tiles[i]); });
+                          [&](std::size_t i) { rasterize_tile(scenery, tile + i, how, join, tiles[i]); });
         for (std::size_t i = 0; i < tiles.size(); ++i) {
             begins[i] = end;
             end += tiles[i].lists.used().size();
@@ -316,10 +326,10 @@ std::vector<depth_time_range<float>> rasterize_instants(const moving_scene& worl
         result[i] = {t, t, 1, 1, 0};
     }
     tbb::parallel_for(std::size_t(0), scenery.tiles(), [&](std::size_t tile) {
-        tile_bins members;
-        members.assign(scenery, tile);
+        tile_bins bins;
+        bins.assign(scenery, tile);
         for (std::size_t i = 0; i < packs_per_tile; ++i)
-            members.for_each(i / moving_samples::packs_per_block, [&, at = moving_samples(i)](const tile_triangle& t) {
+            bins.for_each(i / moving_samples::packs_per_block, [&, at = moving_samples(i)](const tile_triangle& t) {
                 sample_instants(t, at, scenery.tile(tile), samples, result);
             });
     });

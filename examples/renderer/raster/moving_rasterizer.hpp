@@ -1,11 +1,12 @@
-// A rasterizer for motion on the CPU: what each texel of a shadow map sees of a moving scene while the shutter is open,
-// as lists of depth-time ranges, exact by edge functions in time (motion/triangle/moving_triangle.h). Parallel over tiles; its
-// results do not depend on the number of threads.
+// A rasterizer for motion on the CPU. The result is a list of depth-time ranges for each texel of a shadow map: what
+// the texel sees of a moving scene while the shutter is open, exact by edge functions in time
+// (motion/triangle/moving_triangle.h). Parallel over tiles; results do not depend on the number of threads.
 //
-// Work grows with what is covered, not with bounding boxes of what moves: triangles are tested against tiles, against
-// blocks of 4 x 4 texels and then against texels, by one kernel in space and time (motion/triangle/triangle_setup.h), a pack at a
-// time. A tile goes through its blocks and keeps their ranges by packs, counted for each texel; where they would take
-// more memory than they may have they are resolved early. Then each goes to its place in the map, once, from a cache.
+// Work grows with the texels that are covered, not with the bounding boxes of motion: triangles are tested against
+// tiles, then against blocks of 4 x 4 texels, then against texels, by one kernel in space and time
+// (motion/triangle/triangle_setup.h), a pack at a time. A tile fills the lists of one pack of texels after the other,
+// and resolves lists early that would exceed their memory. The lists of a tile are copied to their place in the map
+// once, while they are still in a cache.
 #pragma once
 
 #include "rasterizer.hpp"
@@ -22,18 +23,18 @@ namespace gnomon::renderer {
 
 struct range_options {
     faces visible = faces::both;
-    bool resolved = false;     // lists of what is in front, without overlaps
-    bool backdrops = true;     // resolved lists keep what is behind all else at all times, though it shadows nothing
-    float depth_tolerance = 0; // no line is further from depth than this; 0: one line
-    float joining = 0; // resolved ranges of one mesh become one that is behind them by no more than this (join.hpp)
-    std::size_t budget = std::size_t(1) << 14; // ranges that a pack of texels has room for before it resolves them
+    bool resolved = false;     // lists hold the ranges in front, without overlaps in time
+    bool backdrops = true;     // resolved lists keep a range that is behind all others at all times and shadows nothing
+    float depth_tolerance = 0; // the most by which the line of a range departs from depth; 0: one line, however far
+    float joining = 0;         // joined ranges of one mesh are behind them by this at most (passes/range/join.hpp)
+    std::size_t budget = std::size_t(1) << 14; // ranges of a pack of texels beyond which its lists are resolved early
 };
 
-// What rasterization took.
+// The work of a rasterization.
 struct range_counts {
-    std::size_t pairs = 0;          // of a texel and a triangle that covers it at some time, for either facing
-    std::size_t tested = 0;         // texels tested against triangles
-    std::size_t early_resolves = 0; // of packs of texels, since their budget was used up
+    std::size_t pairs = 0;          // pairs of a texel and a facing of a triangle that covers it at some time
+    std::size_t tested = 0;         // tests of a texel against a triangle
+    std::size_t early_resolves = 0; // packs of texels that were resolved early, since their budget was used up
 
     range_counts& operator+=(const range_counts& other)
     {
@@ -44,7 +45,7 @@ struct range_counts {
 
 struct range_lists {
     int width = 0, height = 0;
-    std::vector<std::uint32_t> first; // as in range_map
+    std::vector<std::uint32_t> first; // see range_map
     std::vector<depth_time_range<float>> ranges;
     range_counts counts;
 
@@ -52,14 +53,14 @@ struct range_lists {
     std::size_t bytes() const;
 };
 
-// Keeps its memory from picture to picture.
+// The rasterizer keeps its memory from picture to picture.
 class range_rasterizer {
   public:
     range_rasterizer();
     ~range_rasterizer();
 
-    // Ids are the triangles' numbers, counted through all meshes. What is in front of the near plane is not there.
-    // The lists are those of the last call.
+    // The lists of a scene, valid until the next call. Ids are the numbers of triangles, counted through all meshes.
+    // Parts of triangles in front of the near plane are left out.
     const range_lists& operator()(const moving_scene& world, const moving_camera& eye, int width, int height,
                                   const range_options& how = {});
 
@@ -69,16 +70,17 @@ class range_rasterizer {
     range_lists lists_;
 };
 
-// Stochastic rasterization: for each texel as many samples, each at one time, in a stratum of the shutter interval of
-// its own. Sample k of texel i is element i samples + k, a range of no duration with the depth and the id of the
-// nearest triangle at that time; depth 1 where there is none.
+// Stochastic rasterization: `samples` samples for each texel, each at a time in its own stratum of the shutter
+// interval. Sample k of texel i is element i samples + k, a range of no duration with the depth and the id of the
+// nearest triangle at that time, or with depth 1 if there is none.
 std::vector<depth_time_range<float>> rasterize_instants(const moving_scene& world, const moving_camera& eye, int width,
                                                         int height, int samples);
 
-// The mesh and the triangle in it with this number.
+// A triangle by its mesh and its index in that mesh.
 struct triangle_place {
     std::uint32_t mesh, triangle;
 };
+// Conversion from the number of a triangle, counted through all meshes.
 class triangle_numbers {
   public:
     explicit triangle_numbers(const scene& world);
@@ -86,7 +88,7 @@ class triangle_numbers {
     std::uint32_t count() const { return begins_.back(); }
 
   private:
-    std::vector<std::uint32_t> begins_; // of each mesh, and the end
+    std::vector<std::uint32_t> begins_; // the first number of each mesh, and the number of all triangles
 };
 
 } // namespace gnomon::renderer

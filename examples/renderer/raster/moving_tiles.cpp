@@ -39,9 +39,9 @@ struct moving_view {
     }
 };
 
-// Which sides of it are seen: the sign of the determinant of the corners' (x, y, w), a cubic in time, by its Bernstein
-// coefficients. It is the edge function across from a corner asked at this corner. One that only turns its negative
-// side is turned around.
+// Finds the facings that a triangle has at some time: the signs of the determinant of the corners' (x, y, w), a cubic
+// in time, bounded by its Bernstein coefficients. The determinant is the edge function across from a corner, at that
+// corner. A triangle that has the negative facing alone gets two corners exchanged, and so the positive one.
 void set_facing(moving_setup& s, faces visible)
 {
     const moving_vertex<double>& a = s.corners.a;
@@ -50,7 +50,7 @@ void set_facing(moving_setup& s, faces visible)
     const auto close = [&](const sample_plane<double>& p) { return p.x * a.x1 + p.y * a.y1 + p.c * a.w1; };
     const auto [least, most] = std::minmax({open(across.e0), close(across.e0) + 2 * open(across.e1),
                                             2 * close(across.e1) + open(across.e2), close(across.e2)});
-    // Texels count rows downwards: what turns its front to the eye runs clockwise.
+    // Rows are counted downwards, so the corners of a front face run clockwise.
     s.positive = most > 0 && visible != faces::front;
     s.negative = least < 0 && visible != faces::back;
     if (s.positive || !s.negative) return;
@@ -58,7 +58,8 @@ void set_facing(moving_setup& s, faces visible)
     std::swap(s.positive, s.negative);
 }
 
-// Where its corners are seen at both ends, and hence in between; everywhere if one is ever behind the eye.
+// Finds the texels that a triangle may cover: those between its corners at shutter open and close, which enclose all
+// that is between; all texels if a corner is ever behind the eye. Returns false if there are none.
 bool set_extent(moving_setup& s, const moving_view& from)
 {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -81,8 +82,9 @@ bool set_extent(moving_setup& s, const moving_view& from)
     return s.first.x <= s.last.x && s.first.y <= s.last.y;
 }
 
-// What moves alike but for rounding: that of positions in float, 2^-24 of the picture's extent each. Every edge is
-// asked by itself, for both triangles that share it; only beside a vertex a crack of that size may open.
+// Finds the edges that are linear in time but for the rounding of positions in float, 2^-24 of the picture's extent
+// each. An edge is judged by its own two corners, hence alike for both triangles that share it: a crack of that size
+// may open beside a vertex alone.
 void set_linear(moving_setup& s, const moving_view& from)
 {
     constexpr double rounding = 0x1p-22;
@@ -133,20 +135,20 @@ std::vector<moving_setup> set_up(const moving_scene& world, const moving_view& f
     return all;
 }
 
-// Calls visit(tile) for those in which it is seen at some time.
+// Calls visit(tile) for the tiles in which a triangle is seen at some time.
 template <class Visit> void for_each_tile(const moving_setup& s, const Visit& visit)
 {
     const glm::ivec2 low = s.first / moving_tile_size, extent = s.last / moving_tile_size - low + 1;
     const int count = extent.x * extent.y;
-    if (count <= 2) { // it reaches into both
+    if (count <= 2) { // one tile, or two neighbours: the triangle reaches into both
         visit(low);
         if (count == 2) visit(low + extent - 1);
         return;
     }
     const glm::dvec2 origin = double(moving_tile_size) * (glm::dvec2(low) + 0.5 * glm::dvec2(extent));
-    const auto field = numbers_as<float>(triangle_setup_make(s.corners, origin.x, origin.y));
-    const edge_errors errors(field, s.linear_edges, 0.5f * float(moving_tile_size) * glm::vec2(extent));
-    const touched_cells touched(field, errors, s, 0.5f * float(moving_tile_size) + tile_triangle::margin);
+    const auto equations = rounded_to<float>(triangle_setup_make(s.corners, origin.x, origin.y));
+    const edge_errors errors(equations, s.linear_edges, 0.5f * float(moving_tile_size) * glm::vec2(extent));
+    const cell_test touched(equations, errors, s, 0.5f * float(moving_tile_size) + tile_triangle::margin);
     const auto tile = [&](int i) { return low + glm::ivec2(i % extent.x, i / extent.x); };
     for (int begin = 0; begin < count; begin += int(texel_pack::size)) {
         texel_lanes x, y;
@@ -201,7 +203,7 @@ void tiled_triangles::sort_into_tiles()
     std::vector<std::uint32_t> next = first_;
     for (const auto& found : local)
         for (const member& m : found) members_[next[m.tile]++] = m.triangle;
-    // In one order, in whichever order threads have found them.
+    // Sort, so that the order does not depend on which thread found what.
     tbb::parallel_for(std::size_t(0), tiles(), [&](std::size_t i) {
         std::sort(members_.begin() + first_[i], members_.begin() + first_[i + 1]);
     });
@@ -213,17 +215,17 @@ tile_triangle::tile_triangle(const moving_setup& s, const moving_tile& where)
                                         double(where.corner.y) + 0.5 * moving_tile_size))
 {}
 
-tile_triangle::tile_triangle(const moving_setup& s, const moving_tile& where, const triangle_setup<double>& field)
+tile_triangle::tile_triangle(const moving_setup& s, const moving_tile& where, const triangle_setup<double>& equations)
     : setup_(&s),
       last_(glm::min(s.last - where.corner, where.size - 1)),
       low_(glm::max(s.first - where.corner, 0) / moving_block_size),
       high_(last_ / moving_block_size),
       whole_(where.size == glm::ivec2(moving_tile_size)),
-      depths_(numbers_as<float>(depth_setup_make(field, s.corners)))
+      depths_(rounded_to<float>(depth_setup_make(equations, s.corners)))
 {
-    wide_ = numbers_as<float>(field);
+    wide_ = rounded_to<float>(equations);
     errors_ = {wide_, s.linear_edges, glm::vec2(0.5f * float(moving_tile_size))};
-    wide_ = widened(wide_, errors_, 1);
+    wide_ = widen(wide_, errors_, 1);
 }
 
 void tile_bins::assign(const tiled_triangles& scenery, std::size_t tile, bool front_to_back)

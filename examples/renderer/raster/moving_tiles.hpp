@@ -1,6 +1,9 @@
-// Moving triangles, ready to be sampled by packs of texels: what the rasterizer of motion is made of. A setup knows
-// where a triangle may be seen and which sides of it, a tile which triangles it has, and a triangle in a tile goes
-// through the blocks of texels that it touches at some time.
+// Moving triangles prepared for a rasterizer that works on packs of texels. The steps, from the picture down to texels:
+//   moving_setup      a triangle in texel space, the texels that it may cover, and the facings that it has
+//   tiled_triangles   for each tile of the picture, the triangles that it sees at some time
+//   tile_triangle     a triangle in the coordinates of one tile, widened against cracks, and the blocks that it touches
+//   tile_bins         for each block of a tile, the triangles that touch it
+//   quadratic_coverage, linear_tile_coverage   the times at which a triangle covers each texel, and its depth
 #pragma once
 
 #include "rasterizer.hpp"
@@ -26,7 +29,7 @@ namespace gnomon::renderer {
 using texel_pack = xsimd::batch<float>;
 using texel_lanes = std::array<float, texel_pack::size>;
 
-// A bit for each lane; xsimd 8 has no such function.
+// A bit for each lane of a mask, as the function mask() of later versions of xsimd.
 template <class Mask> std::uint64_t bits_of(const Mask& lanes)
 {
     if constexpr (requires { std::uint64_t{lanes.data}; }) return lanes.data;
@@ -44,36 +47,36 @@ template <class Visit> void for_each_bit(std::uint64_t bits, const Visit& visit)
     for (; bits != 0; bits &= bits - 1) visit(std::size_t(std::countr_zero(bits)));
 }
 
-// As maps of ranges count.
+// Tiles and blocks are those of range_map.
 inline constexpr int moving_tile_size = int(range_map<float>::tile), moving_block_size = int(range_map<float>::block);
 inline constexpr int moving_blocks = moving_tile_size / moving_block_size; // along a side of a tile
 static_assert(moving_blocks * moving_blocks == 64, "a tile has a bit for each block");
 
-// A triangle: x and y in texels times w, z the linear depth, by which lists are sorted.
+// A moving triangle that may be seen.
 struct moving_setup {
-    moving_triangle<double> corners;
-    glm::ivec2 first, last;  // texels that it may cover, both included
-    bool positive, negative; // whether its edge functions are ever all positive, and all negative
-    bool before_eye;         // all of it, all of the time
-    bool between_planes;     // near and far
-    glm::bvec3 linear_edges; // those across from the corners whose functions are linear in time
-    bool linear;             // all of them, and the corners' depths change alike
-    float nearest;           // depth
-    std::uint32_t number;    // counted through all meshes
+    moving_triangle<double> corners; // x and y in texels times w, and linear depth
+    glm::ivec2 first, last;          // texels that the triangle may cover, both included
+    bool positive, negative;         // true if its edge functions are all positive, or all negative, at some time
+    bool before_eye;                 // true if all of it is before the eye all of the time
+    bool between_planes;             // true if all of it is between the near and the far plane all of the time
+    glm::bvec3 linear_edges;         // for the edge across from each corner: its function is linear in time
+    bool linear;                     // true if all edges are, and the depths of the corners change alike
+    float nearest;                   // depth, by which tiles sort their triangles
+    std::uint32_t number;            // counted through all meshes
 };
 
 struct moving_tile {
-    glm::ivec2 corner, size; // size: of what lies in the picture
+    glm::ivec2 corner, size; // the size of the part inside the picture
     int picture_width;
 
-    // Row by row in the picture.
+    // Index of a pixel in the picture, row by row.
     std::size_t pixel(const glm::ivec2& inside) const
     {
         return std::size_t(corner.y + inside.y) * std::size_t(picture_width) + std::size_t(corner.x + inside.x);
     }
 };
 
-// All triangles, by the tiles in which they are seen at some time.
+// The triangles of a scene, sorted into the tiles in which they are seen at some time.
 class tiled_triangles {
   public:
     // Throws std::invalid_argument for a picture that is empty or too large.
@@ -96,9 +99,10 @@ class tiled_triangles {
     std::vector<std::uint32_t> first_, members_;
 };
 
-// A struct of numbers, rounded to float; To: float, or a pack that has it in every lane.
+// A struct of numbers, each of them rounded to float and converted to To: float, or a pack with that float in every
+// lane.
 template <class To, template <class, class> class Struct, class From>
-Struct<To, To> numbers_as(const Struct<From, From>& x)
+Struct<To, To> rounded_to(const Struct<From, From>& x)
 {
     const auto given = std::bit_cast<std::array<From, sizeof x / sizeof(From)>>(x);
     std::array<To, given.size()> result;
@@ -106,72 +110,73 @@ Struct<To, To> numbers_as(const Struct<From, From>& x)
     return std::bit_cast<Struct<To, To>>(result);
 }
 
-// The same in every lane; member by member, which compilers keep in registers.
-GNOMON_INLINE sample_plane<texel_pack> in_lanes(const sample_plane<float>& p) { return {p.x, p.y, p.c}; }
-GNOMON_INLINE edge_equation<texel_pack> in_lanes(const edge_equation<float>& f)
+// A struct of packs with the same number in every lane. Written member by member, since compilers keep that in
+// registers.
+GNOMON_INLINE sample_plane<texel_pack> broadcast(const sample_plane<float>& p) { return {p.x, p.y, p.c}; }
+GNOMON_INLINE edge_equation<texel_pack> broadcast(const edge_equation<float>& f)
 {
-    return {in_lanes(f.e0), in_lanes(f.e1), in_lanes(f.e2)};
+    return {broadcast(f.e0), broadcast(f.e1), broadcast(f.e2)};
 }
-GNOMON_INLINE triangle_setup<texel_pack> in_lanes(const triangle_setup<float>& f)
+GNOMON_INLINE triangle_setup<texel_pack> broadcast(const triangle_setup<float>& f)
 {
-    return {in_lanes(f.a), in_lanes(f.b), in_lanes(f.c)};
+    return {broadcast(f.a), broadcast(f.b), broadcast(f.c)};
 }
-GNOMON_INLINE depth_setup<texel_pack> in_lanes(const depth_setup<float>& d)
+GNOMON_INLINE depth_setup<texel_pack> broadcast(const depth_setup<float>& d)
 {
-    return {in_lanes(d.n0), in_lanes(d.n1), in_lanes(d.n2), in_lanes(d.n3), d.z0, d.z1, d.least, d.most};
+    return {broadcast(d.n0), broadcast(d.n1), broadcast(d.n2), broadcast(d.n3), d.z0, d.z1, d.least, d.most};
 }
 
-// Of the same triangle from the other side.
-GNOMON_INLINE moving_edges<texel_pack> turned(const moving_edges<texel_pack>& e)
+// The edge functions of the same triangle, seen from the other side.
+GNOMON_INLINE moving_edges<texel_pack> flipped(const moving_edges<texel_pack>& e)
 {
     return {{-e.a.e0, -e.a.e1, -e.a.e2}, {-e.b.e0, -e.b.e1, -e.b.e2}, {-e.c.e0, -e.c.e1, -e.c.e2}};
 }
 
-// The margins by which edge functions are widened, lest rounding opens cracks around a vertex.
+// Margins by which edge functions are widened, so that rounding opens no cracks around a vertex.
 struct edge_errors {
     float a = 0, b = 0, c = 0;
 
     edge_errors() = default;
 
-    // Of the samples within h of the field's origin.
-    edge_errors(const triangle_setup<float>& field, const glm::bvec3& linear, const glm::vec2& h)
+    // The margins for samples within h of the origin of the equations.
+    edge_errors(const triangle_setup<float>& equations, const glm::bvec3& linear, const glm::vec2& h)
     {
         const auto error = [&](const edge_equation<float>& f, bool is_linear) {
             return is_linear ? linear_edge_error(f, h.x, h.y) : edge_equation_error(f, h.x, h.y);
         };
-        a = error(field.a, linear.x), b = error(field.b, linear.y), c = error(field.c, linear.z);
+        a = error(equations.a, linear.x), b = error(equations.b, linear.y), c = error(equations.c, linear.z);
     }
 
     float sum() const { return a + b + c; }
 };
 
-// By its errors where times is 1, to the other side where it is -1.
-GNOMON_INLINE triangle_setup<float> widened(const triangle_setup<float>& f, const edge_errors& e, float times)
+// The equations plus `times` their margins: 1 widens the triangle for the facing 1, -1 for the facing -1.
+GNOMON_INLINE triangle_setup<float> widen(const triangle_setup<float>& f, const edge_errors& e, float times)
 {
     return {edge_equation_widen(f.a, e.a, times), edge_equation_widen(f.b, e.b, times),
             edge_equation_widen(f.c, e.c, times)};
 }
 
-// Which cells, the samples within reach of their middles, a triangle covers at some time.
-class touched_cells {
+// A test of cells: does a triangle cover any sample within reach of a cell's middle, at any time?
+class cell_test {
   public:
-    touched_cells(const triangle_setup<float>& field, const edge_errors& errors, const moving_setup& s, float reach)
+    cell_test(const triangle_setup<float>& equations, const edge_errors& errors, const moving_setup& s, float reach)
         : setup_(s)
     {
-        if (s.positive) positive_ = widened(triangle_setup_around(field, reach, reach, 1.f), errors, 1);
-        if (s.negative) negative_ = widened(triangle_setup_around(field, reach, reach, -1.f), errors, -1);
+        if (s.positive) positive_ = widen(triangle_setup_around(equations, reach, reach, 1.f), errors, 1);
+        if (s.negative) negative_ = widen(triangle_setup_around(equations, reach, reach, -1.f), errors, -1);
     }
 
-    // A bit for each lane.
+    // A bit for each lane whose cell is covered at some time.
     std::uint64_t operator()(const texel_pack& middle_x, const texel_pack& middle_y) const
     {
         const auto touched = [&](const triangle_setup<float>& around, float facing) {
             if (setup_.linear) {
-                const auto edges = triangle_setup_edges_linear(in_lanes(around), middle_x, middle_y);
-                const auto times = linear_coverage(facing < 0 ? turned(edges) : edges);
+                const auto edges = triangle_setup_edges_linear(broadcast(around), middle_x, middle_y);
+                const auto times = linear_coverage(facing < 0 ? flipped(edges) : edges);
                 return bits_of(times.begin < times.end);
             }
-            const auto edges = triangle_setup_edges(in_lanes(around), middle_x, middle_y);
+            const auto edges = triangle_setup_edges(broadcast(around), middle_x, middle_y);
             return bits_of(moving_coverage(edges, texel_pack(facing)).count > texel_pack(0.f));
         };
         return (setup_.positive ? touched(positive_, 1) : 0) | (setup_.negative ? touched(negative_, -1) : 0);
@@ -179,10 +184,10 @@ class touched_cells {
 
   private:
     const moving_setup& setup_;
-    triangle_setup<float> positive_, negative_; // of the facings that it has
+    triangle_setup<float> positive_, negative_; // set for the facings that the triangle has
 };
 
-// Where things of some size, in rows of some length, are from the middle of a tile, along x or y.
+// Offsets along x or y, from the middle of a tile, of the middles of Count cells: Row cells to a row, Size texels each.
 template <int Count, int Row, int Size, bool Y> constexpr auto tile_offsets()
 {
     std::array<float, std::size_t(Count)> result{};
@@ -191,7 +196,7 @@ template <int Count, int Row, int Size, bool Y> constexpr auto tile_offsets()
     return result;
 }
 
-// A pack of the samples of a tile, as range_map counts them.
+// A pack of texels of a tile, in the order of range_map: their middles, from the middle of the tile.
 struct moving_samples {
     static constexpr int per_block = moving_block_size * moving_block_size;
     static constexpr std::size_t packs_per_block = std::size_t(per_block) / texel_pack::size,
@@ -199,7 +204,7 @@ struct moving_samples {
     static_assert(std::size_t(per_block) % texel_pack::size == 0, "packs are parts of a block");
 
     glm::ivec2 block;
-    int begin; // of the block's samples
+    int begin; // the first texel of the pack, counted in the block
     texel_pack x, y;
 
     explicit moving_samples(std::size_t number)
@@ -213,7 +218,7 @@ struct moving_samples {
         y = texel_pack::load_unaligned(&first_y[std::size_t(begin)]) + texel_pack(corner.y);
     }
 
-    // Where in the tile one of them is.
+    // Coordinates in the tile of the texel of a lane.
     glm::ivec2 place(std::size_t lane) const
     {
         const int sample = begin + int(lane);
@@ -225,12 +230,13 @@ struct range_pack {
     texel_pack t0, t1, z0, z1;
 };
 
-// What of a triangle a pack of samples sees.
+// The times at which a triangle covers each texel of a pack, and its depth.
 struct quadratic_coverage {
     const moving_setup& of;
     moving_edges<texel_pack> edges; // widened
     depth_curve<texel_pack> curve;
 
+    // Up to four intervals in which the texels are covered by the side of this facing, 1 or -1.
     GNOMON_INLINE coverage_intervals<texel_pack> covered(float facing) const
     {
         const auto inside = [&](const moving_edge<texel_pack>& e, bool linear) {
@@ -249,14 +255,14 @@ struct quadratic_coverage {
     }
 };
 
-// Of one that is linear in time.
+// The coverage by a triangle that is linear in time (moving_setup::linear): one interval.
 struct linear_tile_coverage {
     moving_edges<texel_pack> edges; // widened
     depth_curve<texel_pack> curve;
 
     GNOMON_INLINE linear_interval<texel_pack> covered(float facing) const
     {
-        return linear_coverage(facing < 0 ? turned(edges) : edges);
+        return linear_coverage(facing < 0 ? flipped(edges) : edges);
     }
     GNOMON_INLINE texel_pack depth(const texel_pack& t) const { return linear_depth_at(curve, t); }
     GNOMON_INLINE depth_line<texel_pack> line(const texel_pack& begin, const texel_pack& end) const
@@ -272,7 +278,7 @@ class tile_triangle {
 
     const moving_setup& setup() const { return *setup_; }
 
-    // A bit for each block whose samples it covers at some time.
+    // A bit for each block in which the triangle covers a sample at some time.
     std::uint64_t blocks() const
     {
         constexpr int count = moving_blocks * moving_blocks;
@@ -280,35 +286,36 @@ class tile_triangle {
                               middle_y = tile_offsets<count, moving_blocks, moving_block_size, true>();
         const auto number = [](const glm::ivec2& block) { return std::size_t(block.y * moving_blocks + block.x); };
         const std::uint64_t ends = std::uint64_t(1) << number(low_) | std::uint64_t(1) << number(high_);
-        if (high_.x - low_.x + high_.y - low_.y < 2) return ends; // it reaches into both
-        const touched_cells touched(widened(wide_, errors_, -1), errors_, *setup_,
-                                    0.5f * float(moving_block_size - 1) + margin);
+        if (high_.x - low_.x + high_.y - low_.y < 2)
+            return ends; // one block, or two neighbours: the triangle reaches into both
+        const cell_test touched(widen(wide_, errors_, -1), errors_, *setup_,
+                                0.5f * float(moving_block_size - 1) + margin);
         const std::size_t lanes = texel_pack::size, end = std::size_t((high_.y + 1) * moving_blocks);
         std::uint64_t blocks = 0;
         for (std::size_t i = std::size_t(low_.y * moving_blocks) / lanes * lanes; i < end; i += lanes)
             blocks |= touched(texel_pack::load_unaligned(&middle_x[i]), texel_pack::load_unaligned(&middle_y[i])) << i;
-        // Not beyond where its corners are seen.
+        // Drop blocks to the left and right of the texels that the triangle may cover.
         const std::uint64_t columns = (std::uint64_t(2) << high_.x) - (std::uint64_t(1) << low_.x);
         return blocks & columns * 0x0101010101010101;
     }
 
-    GNOMON_INLINE quadratic_coverage curved(const moving_samples& s, float facing) const
+    GNOMON_INLINE quadratic_coverage quadratic(const moving_samples& s, float facing) const
     {
-        const moving_edges<texel_pack> edges = facing < 0 ? triangle_setup_edges(in_lanes(negative()), s.x, s.y)
-                                                          : triangle_setup_edges(in_lanes(wide_), s.x, s.y);
+        const moving_edges<texel_pack> edges = facing < 0 ? triangle_setup_edges(broadcast(negative()), s.x, s.y)
+                                                          : triangle_setup_edges(broadcast(wide_), s.x, s.y);
         return {*setup_, edges, curve(s, edges, facing)};
     }
     GNOMON_INLINE linear_tile_coverage linear(const moving_samples& s, float facing) const
     {
-        const moving_edges<texel_pack> edges = facing < 0 ? triangle_setup_edges_linear(in_lanes(negative()), s.x, s.y)
-                                                          : triangle_setup_edges_linear(in_lanes(wide_), s.x, s.y);
+        const moving_edges<texel_pack> edges = facing < 0 ? triangle_setup_edges_linear(broadcast(negative()), s.x, s.y)
+                                                          : triangle_setup_edges_linear(broadcast(wide_), s.x, s.y);
         return {edges, curve(s, edges, facing)};
     }
 
-    // True where all of the tile is in the picture.
+    // True if all of the tile lies in the picture.
     bool whole() const { return whole_; }
 
-    // The samples that are in the picture.
+    // True for the texels that the triangle may cover inside the picture.
     auto contains(const moving_samples& s) const
     {
         const glm::vec2 beyond = glm::vec2(last_) + 1.f - 0.5f * float(moving_tile_size);
@@ -316,39 +323,40 @@ class tile_triangle {
     }
     bool contains(const glm::ivec2& place) const { return place.x <= last_.x && place.y <= last_.y; }
 
-    // What blocks are tested for beyond their samples, in texels: more than rounding takes from them.
+    // Distance in texels by which tests of cells exceed their samples: more than their rounding.
     static constexpr float margin = 0.05f;
 
   private:
-    tile_triangle(const moving_setup& s, const moving_tile& where, const triangle_setup<double>& field);
+    tile_triangle(const moving_setup& s, const moving_tile& where, const triangle_setup<double>& equations);
 
-    // The field widened for the facing -1.
-    triangle_setup<float> negative() const { return widened(wide_, errors_, -2); }
+    // The equations widened for the facing -1.
+    triangle_setup<float> negative() const { return widen(wide_, errors_, -2); }
 
-    // From edges that are widened.
+    // Depth over time. The edges are widened, so their sum exceeds the true one by the sum of the margins.
     GNOMON_INLINE depth_curve<texel_pack> curve(const moving_samples& s, const moving_edges<texel_pack>& edges,
                                                 float facing) const
     {
-        depth_curve<texel_pack> r = moving_depth_curve(in_lanes(depths_), edges, s.x, s.y);
+        depth_curve<texel_pack> r = moving_depth_curve(broadcast(depths_), edges, s.x, s.y);
         const texel_pack excess(facing * errors_.sum());
         r.d0 = r.d0 - excess, r.d1 = r.d1 - (excess + excess), r.d2 = r.d2 - excess;
         return r;
     }
 
     const moving_setup* setup_;
-    glm::ivec2 last_, low_, high_; // texel, blocks
+    glm::ivec2 last_;       // the last texel that the triangle may cover
+    glm::ivec2 low_, high_; // the first and the last block
     bool whole_;
     depth_setup<float> depths_;
     edge_errors errors_;
-    triangle_setup<float> wide_; // widened for the facing 1
+    triangle_setup<float> wide_; // the equations widened for the facing 1
 };
 
-// The triangles of a tile, by the blocks that they touch.
+// The triangles of a tile, sorted into the blocks that they touch.
 class tile_bins {
   public:
     void assign(const tiled_triangles& scenery, std::size_t tile, bool front_to_back = false);
 
-    // Calls visit(triangle) for those of a block, by their nearest depth or in the order of their numbers.
+    // Calls visit(triangle) for the triangles of a block, front to back or in the order of their numbers.
     template <class Visit> void for_each(std::size_t block, const Visit& visit) const
     {
         for (std::size_t k = 0; k < touching_.size(); ++k)
@@ -358,7 +366,7 @@ class tile_bins {
   private:
     std::vector<const moving_setup*> members_;
     std::vector<tile_triangle> triangles_;
-    std::vector<std::array<std::uint64_t, 64>> touching_; // of 64 triangles each, by blocks, a bit for each triangle
+    std::vector<std::array<std::uint64_t, 64>> touching_; // for 64 triangles each: for each block, a bit per triangle
 };
 
 } // namespace gnomon::renderer

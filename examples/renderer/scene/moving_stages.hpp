@@ -1,4 +1,4 @@
-// The scenes of the papers on shadows in motion, and some whose answer is known. y points up, the ground is y = 0.
+// The scenes of the papers on shadows of motion, and scenes with a known answer. y points up, the ground is y = 0.
 #pragma once
 
 #include "moving_scene.hpp"
@@ -10,52 +10,52 @@
 
 namespace gnomon::renderer {
 
-// A spot light on a straight way that looks at the middle of the casters. Its picture is square and just holds them,
-// and so their shadows, at all times; its planes enclose the whole world at all times. Throws std::invalid_argument
-// where a caster is not in front of it, or where there is none.
+// A spot light that moves along a straight line and looks at the middle of the casters. Its square picture just holds
+// the casters, and hence their shadows, at all times; its planes enclose the whole world at all times. Throws
+// std::invalid_argument if there is no caster, or if one is not in front of the light.
 moving_camera spot_light(const moving_scene& casters, const moving_scene& world, const glm::dvec3& open,
                          const glm::dvec3& closing);
 
-// Andersson et al. 2015, Figure 11: 5 x 3 pillars at rest, below a light that rises.
+// Andersson et al. 2015, Figure 11: 5 x 3 static pillars below a light that rises.
 moving_stage pillars(double aspect);
 
 // Andersson et al. 2015, Figure 12: two level quads, one above the other, that move at right angles.
 moving_stage crossed_quads(double aspect);
 
-// Andersson et al. 2015, Figure 13: two level quads, one on its way to the light, one away from it.
+// Andersson et al. 2015, Figure 13: two level quads, one of which moves towards the light and one away from it.
 moving_stage toward_and_away(double aspect);
 
 // After Hong & Oh: two cubes of 5808 triangles each that rise towards the light.
 moving_stage cubes_to_the_light(double aspect);
 
-// Hong & Oh 2017: cubes at random places, halfway through the shutter, on ways of random directions and of random
-// lengths up to `longest`. The directions and places do not depend on it: it scales the motion.
+// Hong & Oh 2017: cubes at random places halfway through the shutter, on paths of random directions and of random
+// lengths up to `longest`, which scales the motion and changes neither places nor directions.
 moving_stage random_cubes(double aspect, int count, float longest, float half_extent = 0.125f);
 
-// Palmer 2011, Figures 4.1 to 4.3: a cube crosses a plane that turns about the x axis, corner by corner along straight
-// lines, from -degrees to +degrees. The cube is at (0, height, z) halfway.
+// Palmer 2011, Figures 4.1 to 4.3: a cube crosses a plane that turns about the x axis from -degrees to +degrees, its
+// corners along straight lines. The cube is at (0, height, z) halfway.
 moving_stage cube_over_plane(double aspect, float degrees, float height, float z);
 
-// A fan of eight level blades that turns by 90 degrees about the y axis, corner by corner along straight lines.
+// A fan of eight level blades that turns by 90 degrees about the y axis, the corners along straight lines.
 moving_stage fan(double aspect);
 
-// A sheet of cells x cells quads that waves and drifts above the ground: what finely tessellated cloth asks of a map.
+// A sheet of cells x cells quads that waves and drifts above the ground, as finely tessellated cloth does.
 moving_stage waving_sheet(double aspect, int cells);
 
-// After Andersson et al. 2015, Figure 10: a tilted quad that rises towards the light and shadows nothing, but for a
-// method that forgets when it was where. The visibility is 1 everywhere at all times.
+// After Andersson et al. 2015, Figure 10: a tilted quad that rises towards the light. It shadows nothing at any time,
+// so visibility is 1 everywhere. A method that forgets when the quad was where finds shadows.
 moving_stage lit_ramp(double aspect);
 
 // A quad moves along the x axis below a light so far away that the visibility is a trapezoid in x.
 moving_stage trapezoid(double aspect);
 
-// The share of time for which a point of the trapezoid's ground sees the light, exactly.
+// The exact fraction of time for which a point of the trapezoid's ground sees the light.
 double trapezoid_visibility(const glm::dvec3& ground_point);
 
-// A moving model of unit size (see model.hpp) on a ground plane, camera and sun framed by all places where it ever is.
+// A moving model of unit size (see model.hpp) on a ground plane. Camera and sun are framed by all places of the model.
 moving_stage animated_model_stage(moving_scene model, double aspect);
 
-// The scenes of the papers and the known ones; a key names files.
+// The scenes of the papers and those with a known answer; a key names files.
 struct listed_stage {
     std::string_view key, title;
     moving_stage (*make)(double aspect);

@@ -41,7 +41,7 @@ struct bounds {
 
 bounds bounds_of(const scene& world);
 
-// Where a solid stands: its centre, and its three axes as columns, each as long as half of the solid.
+// The place of a solid: its centre, and its three axes as columns, each as long as half of the solid.
 struct placement {
     glm::vec3 centre{0};
     glm::mat3 half_axes{1};

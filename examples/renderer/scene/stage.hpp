@@ -1,4 +1,4 @@
-// A stage is all that a driver needs to make a picture: a scene, a camera, a light, and where to look closely.
+// A stage: a scene, a camera, a light, and the places to look at closely.
 #pragma once
 
 #include "camera.hpp"
@@ -13,7 +13,7 @@
 
 namespace gnomon::renderer {
 
-// A place whose surroundings the gallery magnifies, and the colour of its frame.
+// A place to magnify, and the colour of its frame.
 struct point_of_interest {
     std::string name;
     glm::vec3 position, colour;
@@ -34,8 +34,9 @@ rectangle inset_around(const point_of_interest& place, const camera& eye, int si
 scene fence_scene();
 stage fence_stage(double aspect);
 
-// Duckboards on the ground at noon, whose upper sides lie these differences of signed depth before the ground: next to
-// a slat, a filter region holds two close surfaces, and what is lit is the farther one. A point of interest for each.
+// Duckboards on the ground at noon, whose upper sides lie in front of the ground by these differences of signed depth.
+// Next to a slat a filter region holds two close surfaces, and the receiver is the farther one. A point of interest for
+// each.
 inline constexpr std::array contact_gaps{0.01, 0.02, 0.03};
 stage contact_stage(double aspect);
 

@@ -1,6 +1,6 @@
-// Triangles that cannot shadow one another share an id: those of a plane and those of a convex part (Palmer
-// 2011, 2.3.2). With such an id a receiver is spared by more than its own triangle's ranges, and ranges may be merged
-// without shadowing what they belong to.
+// Ids of surfaces: triangles that cannot shadow one another share an id, as those of a plane and those of a convex part
+// do (Palmer 2011, 2.3.2). A receiver ignores all ranges of its own id, so such an id keeps a merged range from
+// shadowing any part of its own surface.
 #pragma once
 
 #include "moving_scene.hpp"

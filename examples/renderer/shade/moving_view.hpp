@@ -1,4 +1,4 @@
-// What a camera sees of a moving scene while the shutter is open, and the picture that follows from it: analytic, as
+// The view of a camera on a moving scene while the shutter is open, and the picture that follows from it: analytic, as
 // segments of time with one triangle in front (Gribel et al. 2010; Palmer 2011, 2.1), or stochastic, by samples of one
 // time each (Akenine-Moller et al. 2007).
 #pragma once
@@ -36,11 +36,11 @@ struct seen_motion {
     }
 };
 
-// What each pixel sees, analytic. A segment ends where depth departs by more than the tolerance from a line, so that
-// positions do not depart further either.
+// The analytic view: the segments of each pixel. A segment ends where depth departs by more than the tolerance from a
+// line, so that positions do not depart further either.
 seen_motion camera_segments(const moving_scene& world, const camera& eye, int width, int height, float tolerance);
 
-// What each pixel sees at `samples` times, one in each stratum of the shutter interval; every pixel has times of its own.
+// The stochastic view: `samples` times for each pixel, one in each stratum of the shutter interval.
 seen_motion stochastic_visibility(const moving_scene& world, const camera& eye, int width, int height, int samples);
 
 // The picture under the lighting model of shading.hpp, with a visibility of the light for each segment.

@@ -1,4 +1,4 @@
-// What is shaded: the surfaces that a camera sees and a light can reach, as a shadow map sees them.
+// The receivers of a picture: the points that a camera sees and a light can reach, as look-ups into its shadow map.
 #pragma once
 
 #include "renderer/output/image.hpp"
@@ -11,7 +11,7 @@
 
 namespace gnomon::renderer {
 
-// Where to look into a shadow map: texture coordinates in [0, 1] and the level of detail.
+// A place in a shadow map: texture coordinates in [0, 1] and the level of detail.
 struct look_up {
     float u, v, level;
 };
@@ -24,10 +24,12 @@ struct receivers {
     std::size_t size() const { return pixels.size(); }
 };
 
-// Texels from the middle of the filter that the depth bias spares from shadowing themselves.
+// Distance in texels, from the middle of a look-up, of the farthest texel of the filter: 4 of a blur with 9 taps, 1.5
+// of bilinear filtering.
 inline constexpr double bias_radius = 5.5;
 
-// Slopes end here, at 80 degrees: beyond, the bias would swallow whole casters for the sake of hardly lit surfaces.
+// The slope of 80 degrees, at which the bias stops growing: a larger one would remove the shadows of whole casters for
+// the sake of surfaces that are hardly lit.
 inline const double steepest_slope = std::tan(80 * std::acos(-1.0) / 180);
 
 // Depth per texel across a plane at 45 degrees to the light; in perspective at distance one.
@@ -36,8 +38,8 @@ double unit_slope(const camera& light, int resolution);
 // Depth per texel across a plane, in the direction in which it rises most, at a place of it.
 double plane_slope(const glm::dvec3& position, const glm::dvec3& normal, const camera& light, int resolution);
 
-// Depths are moved towards the light by the most that a plane through the receiver rises within bias_radius texels of
-// the level looked at: the customary slope-scaled bias, the same for every method (Peters et al. 2017, D.2).
+// The receivers of a picture. Depths are moved towards the light by the most that the plane of the receiver rises
+// within bias_radius texels of the level of detail: the customary slope-scaled bias (Peters et al. 2017, D.2).
 receivers receivers_of(const image<surface>& seen, const camera& light, int resolution);
 
 } // namespace gnomon::renderer

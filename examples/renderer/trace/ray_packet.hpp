@@ -1,4 +1,4 @@
-// Packets of rays for the tracer. Only for it: Embree's types stay behind it.
+// Packets of rays, for the tracer alone: no other file sees Embree's types.
 #pragma once
 
 #include "renderer/scene/scene.hpp"
@@ -14,10 +14,10 @@
 
 namespace gnomon::renderer {
 
-// Rays in one packet; those of one receiver or pixel at many times are as coherent as rays can be.
+// The number of rays in a packet: those of one receiver or pixel at many times, which are coherent.
 inline constexpr int packet = 16;
 
-// A moment in part i of n, chosen by the finalizer of SplitMix64.
+// A time in part i of n, chosen by the finalizer of SplitMix64.
 inline float stratified_time(std::size_t owner, int i, int n)
 {
     std::uint64_t bits = (static_cast<std::uint64_t>(owner) << 24) + static_cast<std::uint64_t>(i) + 1;
@@ -37,7 +37,7 @@ struct way {
 
 inline constexpr float endless = std::numeric_limits<float>::infinity();
 
-// Whether a part of the way lies within `margin` of the box: the three slabs overlap.
+// True if a part of the segment lies within `margin` of the box: the three slabs overlap.
 inline bool crosses(const way& ray, const bounds& box, float margin)
 {
     float enter = 0, leave = ray.end;

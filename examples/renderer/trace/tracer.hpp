@@ -53,24 +53,25 @@ class tracer {
     tracer(tracer&&) noexcept;
     tracer& operator=(tracer&&) noexcept;
 
-    // 1 for a receiver that sees the light when the shutter opens, 0 for one that does not. A ray starts off its surface,
-    // so that it does not meet that surface again. Parallel over receivers.
+    // 1 for a receiver that sees the light when the shutter opens, 0 for one that does not. A ray starts off its
+    // surface, so that it does not meet that surface again. Parallel over receivers.
     void visibility(const camera& light, std::span<const receiver> receivers, std::span<float> result) const;
 
     // The visibility of each receiver at a time of its own, in [0, 1].
     void visibility(const moving_camera& light, std::span<const receiver> receivers, std::span<const float> times,
                     std::span<float> result) const;
 
-    // The fraction of `samples` times, one in each of as many equal parts of [0, 1], at which a receiver sees the light.
-    // A time within its part depends on the index of the receiver alone. A receiver that faces away from the light does
-    // not see it. Parallel over receivers.
+    // The fraction of `samples` times, one in each of as many equal parts of [0, 1], at which a receiver sees the
+    // light. A time within its part depends on the index of the receiver alone. A receiver that faces away from the
+    // light does not see it. Parallel over receivers.
     void mean_visibility(const moving_camera& light, std::span<const receiver_motion> receivers, int samples,
                          std::span<float> result) const;
 
     // The first point on a ray at a time in [0, 1].
     hit first_hit(const view_ray& ray, float time) const;
 
-    // The path of the point of a triangle that a ray has met, at shutter open and close; normals on the side of the hit.
+    // The path of the point of a triangle that a ray has met, at shutter open and close; normals on the side of the
+    // hit.
     receiver_motion receiver_of(const hit& seen, float time_of_hit) const;
 
     // Distance along the normal at which a ray starts: a few roundings of the scene's diagonal.

@@ -24,14 +24,15 @@
 
 namespace gnomon::renderer::vulkan {
 
-// There is no Vulkan library, no driver, no device that will do, or no validation layer although one was asked for.
+// Thrown if there is no Vulkan library, driver or suitable device, or no validation layer although one is wanted.
 struct unavailable : std::runtime_error {
     using runtime_error::runtime_error;
 };
 
 enum class validation { off, on };
 
-// Of what the loader offers (VK_ICD_FILENAMES narrows it down) a graphics card first, then a driver on the CPU.
+// A device with one queue: of those that the loader offers (VK_ICD_FILENAMES restricts them) a graphics card first,
+// then a driver on the CPU.
 class device {
   public:
     explicit device(validation checks = validation::off);
@@ -43,7 +44,7 @@ class device {
     // Warnings and errors of the validation layer so far.
     const std::vector<std::string>& complaints() const { return *complaints_; }
 
-    // Records commands, has them executed, and waits for their end; the host sees what they wrote.
+    // Records commands, executes them and waits for their end, after which the host sees what they wrote.
     void run(const std::function<void(const vk::raii::CommandBuffer&)>& record) const;
 
     vk::raii::DeviceMemory allocate(const vk::MemoryRequirements& needed, vk::MemoryPropertyFlags wanted) const;
@@ -59,7 +60,7 @@ class device {
     vk::raii::CommandPool pool_ = nullptr;
 };
 
-// Later commands wait for earlier ones and see what they wrote.
+// Makes later commands wait for earlier ones and see what they wrote.
 void barrier(const vk::raii::CommandBuffer& commands);
 
 // Memory that the host and shaders share.
@@ -103,10 +104,11 @@ class image {
 // Copies the texels of level 0 into the buffer, row by row without gaps.
 void copy(const vk::raii::CommandBuffer& commands, const image& source, const buffer& target);
 
-// Fills the other mip levels, each from the one before, with means of 2 x 2 texels.
+// Fills the mip levels after the first, each from the one before, with means of 2 x 2 texels.
 void build_mips(const vk::raii::CommandBuffer& commands, const image& target);
 
-// A sampled image has all of its levels, a stored one the first; a mere buffer is a storage buffer.
+// How a shader uses a resource: all levels of a sampled image, the first level of a stored image, a buffer as uniform
+// or, by itself, as storage buffer.
 struct sampled {
     const image& source;
 };
@@ -123,7 +125,7 @@ vk::raii::Sampler trilinear_sampler(const device& owner);
 
 using push_constants = std::span<const std::byte>;
 
-// What shaders are given: resources at set 0, bindings 0, 1, ... in this order, and push constants.
+// The inputs of shaders: resources at set 0, bindings 0, 1, ... in this order, and push constants.
 class inputs {
   public:
     inputs(const device& owner, const std::vector<resource>& resources, std::size_t push_bytes);
@@ -156,7 +158,7 @@ class compute_pass {
     vk::raii::Pipeline pipeline_;
 };
 
-// A stage of a pipeline while the pipeline is being made; what the create info points to lives as long as this.
+// A stage of a pipeline while the pipeline is made. Owns everything that the create info points to.
 class stage_info {
   public:
     stage_info(const device& owner, const shader& code, vk::ShaderStageFlagBits stage);
@@ -173,15 +175,16 @@ class stage_info {
     vk::PipelineShaderStageCreateInfo info_;
 };
 
-// Moments on the device's clock.
+// Marks on the device's clock.
 class timeline {
   public:
     timeline(const device& owner, std::uint32_t marks);
 
     void reset(const vk::raii::CommandBuffer& commands) const;
-    void mark(const vk::raii::CommandBuffer& commands, std::uint32_t index) const; // when all before it is done
+    // Sets a mark for the time at which all earlier commands are done.
+    void mark(const vk::raii::CommandBuffer& commands, std::uint32_t index) const;
 
-    // From each mark to the next.
+    // The time from each mark to the next.
     std::vector<double> milliseconds() const;
 
   private:

@@ -11,10 +11,10 @@ namespace gnomon::renderer::vulkan {
 
 struct raster_shaders {
     shader vertex;
-    std::optional<shader> fragment; // none: depth alone
+    std::optional<shader> fragment; // without one, depth alone is drawn
 };
 
-// What is drawn into, cleared first: the depth buffer, of one or several samples, to 1.
+// The images that are drawn into. They are cleared first, the depth buffer to 1.
 struct raster_target {
     const image& depth;
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
@@ -24,7 +24,7 @@ struct raster_target {
 
 class raster_pass {
   public:
-    // A vertex has attributes of three floats each at locations 0, 1, ...; target outlives the pass.
+    // A vertex has attributes of three floats each at locations 0, 1, ... The images of the target outlive the pass.
     raster_pass(const device& owner, const raster_shaders& shaders, const raster_target& target,
                 std::uint32_t attributes, const std::vector<resource>& resources, std::size_t push_bytes);
 

@@ -34,7 +34,8 @@ std::vector<glm::vec3> corners_of(const scene& world);
 // The rows of the matrix from positions to Vulkan's clip space, in which y points down and depth goes from 0 to 1.
 std::array<glm::vec4, 4> clip_rows(const camera& eye);
 
-// The rows of the matrix from positions to texture coordinates and signed depth in the shadow map of a directional light.
+// The rows of the matrix from positions to texture coordinates and signed depth in the shadow map of a directional
+// light.
 std::array<glm::vec4, 3> shadow_rows(const camera& light);
 
 // Level 0 of an image of format R32G32B32A32_SFLOAT that can be copied from.
