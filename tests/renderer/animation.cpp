@@ -1,77 +1,22 @@
-// Animated models: small files whose corners are known at any time, and lines for bad requests.
+// Animated glTF models: small files whose vertices are known at any time, and lines for bad requests.
+#include "animated_model.hpp"
 #include "folder.hpp"
-#include "renderer/import/model.hpp"
+#include "gltf_writer.hpp"
 #include "renderer/output/file.hpp"
 #include "renderer/scene/moving_stages.hpp"
 
 #include <doctest/doctest.h>
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 using namespace gnomon::renderer;
+using namespace gnomon::test;
 
 namespace {
-
-std::string base64(std::string_view bytes)
-{
-    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t bits = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? digits[bits >> (18 - 6 * k) & 63] : '=';
-    }
-    return text;
-}
-
-// glTF text whose numbers, all floats or 16-bit indices, are views of one buffer.
-class gltf {
-  public:
-    // Adds an accessor and returns its index.
-    int floats(std::string_view type, std::size_t components, const std::vector<float>& values)
-    {
-        return add(type, 5126, components, values);
-    }
-    int shorts(std::string_view type, std::size_t components, const std::vector<std::uint16_t>& values)
-    {
-        return add(type, 5123, components, values);
-    }
-
-    std::string text(const std::string& nodes_meshes_and_so_on) const
-    {
-        return R"({"asset":{"version":"2.0"},"scene":0,)" + nodes_meshes_and_so_on + R"(,"accessors":[)" + accessors_ +
-               R"(],"bufferViews":[)" + views_ + R"(],"buffers":[{"byteLength":)" + std::to_string(bytes_.size()) +
-               R"(,"uri":"data:application/octet-stream;base64,)" + base64(bytes_) + R"("}]})";
-    }
-
-  private:
-    template <class T>
-    int add(std::string_view type, int component, std::size_t components, const std::vector<T>& values)
-    {
-        const std::string comma = count_ > 0 ? "," : "", index = std::to_string(count_);
-        const std::size_t size = values.size() * sizeof(T);
-        views_ += comma + R"({"buffer":0,"byteOffset":)" + std::to_string(bytes_.size()) + R"(,"byteLength":)" +
-                  std::to_string(size) + "}";
-        accessors_ += comma + R"({"bufferView":)" + index + R"(,"componentType":)" + std::to_string(component) +
-                      R"(,"count":)" + std::to_string(values.size() / components) + R"(,"type":")" + std::string(type) +
-                      R"("})";
-        bytes_.append(reinterpret_cast<const char*>(values.data()), size);
-        bytes_.resize((bytes_.size() + 3) / 4 * 4);
-        return count_++;
-    }
-
-    int count_ = 0;
-    std::string accessors_, views_, bytes_;
-};
 
 std::string number(int i) { return std::to_string(i); }
 
@@ -130,40 +75,6 @@ std::string arm()
                      number(bend) + R"(}],"channels":[{"sampler":0,"target":{"node":3,"path":"rotation"}}]}])");
 }
 
-// DirectX text, which Assimp reads: the triangle of the frame and, on a node of these names and matrix, the one of the
-// carousel, with an animation of these keys.
-std::string turntable(const std::string& matrix, const std::string& keys, const std::string& second_name = "other")
-{
-    return R"(xof 0303txt 0032
-AnimTicksPerSecond { 10; }
-Frame frame {
-  Mesh { 3; -0.5;0;-0.5;, 0.5;1;0.5;, 0.5;0;-0.5;; 1; 3;0,1,2;; }
-}
-Frame )" + second_name +
-           R"( {}
-Frame wheel {
-  FrameTransformMatrix { )" +
-           matrix + R"( }
-  Mesh { 3; 0.2;0;0;, 0;0.1;0;, 0;0;0.3;; 1; 3;0,1,2;; }
-}
-AnimationSet spin { Animation { { wheel } )" +
-           keys + "} }\n";
-}
-
-const std::string at_rest = "1.0,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,0.0,1.0;;";
-const std::string mirrored = "-1.0,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,0.0,1.0;;";
-// By 90 degrees about z within a second.
-const std::string turning = "AnimationKey { 0; 2; 0;4;1.0,0.0,0.0,0.0;;, 10;4;0.70710678,0.0,0.0,0.70710678;;; }";
-const std::string turned = "AnimationKey { 0; 1; 0;4;0.70710678,0.0,0.0,0.70710678;;; }";
-const std::string scaling = "AnimationKey { 1; 1; 0;3;-1.0,2.0,0.5;;; }";
-const std::string enlarging = "AnimationKey { 1; 1; 0;3;2.0,2.0,2.0;;; }";
-const std::string lifting = "AnimationKey { 2; 1; 0;3;0.1,0.4,0.2;;; }";
-
-// A matrix that scales x and moves to (0.1, 0.5, 0).
-std::string raised(int x) { return number(x) + ".0,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,0.0,1.0,0.0,0.1,0.5,0.0,1.0;;"; }
-
-bool near(const glm::vec3& a, const glm::vec3& b) { return glm::length(a - b) < 1e-5f; }
-
 } // namespace
 
 TEST_CASE("nodes move through their hierarchy by keys of position, rotation and size")
@@ -188,11 +99,11 @@ TEST_CASE("nodes move through their hierarchy by keys of position, rotation and 
     const moving_scene still = load_animated_model(folder / "carousel.gltf", "all", 1, 1);
     CHECK_FALSE(still.moves(1));
     CHECK(still.closing[1] == closing);
-    // At rest, nodes stand where the file has them.
+    // Without an animation, nodes are where the file has them.
     CHECK(near(load_model(folder / "carousel.gltf").meshes[1].positions[0], {0.25f, 0, 0}));
 }
 
-TEST_CASE("bones carry corners by their weights")
+TEST_CASE("bones move vertices by their weights")
 {
     const temporary_folder folder;
     write_file(folder / "arm.gltf", arm());
@@ -205,7 +116,7 @@ TEST_CASE("bones carry corners by their weights")
     CHECK(near(model.closing[1][2], {-0.125f, 0.625f, 0.1f}));
 }
 
-TEST_CASE("normals stay square to triangles that are scaled, mirrored and carried, and triangles turn to them")
+TEST_CASE("normals stay perpendicular to triangles that are scaled, mirrored and skinned, and on the same side")
 {
     const temporary_folder folder;
     gltf file;
@@ -259,19 +170,13 @@ TEST_CASE("a moving model has unit size over all of its places, and its stage se
     }
 }
 
-TEST_CASE("what an animation does not have is answered by one line")
+TEST_CASE("a request that an animation cannot meet is answered by one line")
 {
     const temporary_folder folder;
     write_file(folder / "a.gltf", carousel());
     write_file(folder / "rest.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n# padding\n");
     const auto complaint = [&](const char* name, std::string_view animation, double open, double closing) {
-        try {
-            load_animated_model(folder / name, animation, open, closing);
-        } catch (const std::runtime_error& error) {
-            const std::string line = error.what(), prefix = (folder / name).string() + ": ";
-            return line.starts_with(prefix) ? line.substr(prefix.size()) : line;
-        }
-        return std::string("none");
+        return complaint_about(folder / name, animation, open, closing);
     };
     CHECK(complaint("a.gltf", "walk", 0, 1) == R"(no animation "walk"; there are "lift only", "all")");
     CHECK(complaint("a.gltf", "all", 1, 0.5) == "the shutter opens at 1 s and closes at 0.5 s");
@@ -280,60 +185,4 @@ TEST_CASE("what an animation does not have is answered by one line")
     CHECK(complaint("a.gltf", "all", -0.5, 1) == R"(-0.5 s is outside of animation "all", which lasts 2 s)");
     CHECK(complaint("rest.obj", "", 0, 1) == "no animation in it");
     CHECK(complaint("none.gltf", "", 0, 1) == "no such file");
-}
-
-TEST_CASE("formats that Assimp reads scale before they turn, and turn before they move")
-{
-    const temporary_folder folder;
-    write_file(folder / "turntable.x", turntable(at_rest, turning + scaling + lifting));
-    const moving_scene model = load_animated_model(folder / "turntable.x", "spin", 0, 1);
-    REQUIRE(model.open.meshes.size() == 2);
-    // The format is left-handed: z is mirrored, and the turn is the other way round.
-    CHECK(near(model.open.meshes[1].positions[0], {0.1f - 0.2f, 0.4f, -0.2f}));
-    CHECK(near(model.open.meshes[1].positions[1], {0.1f, 0.4f + 0.2f, -0.2f}));
-    CHECK(near(model.open.meshes[1].positions[2], {0.1f, 0.4f, -0.2f - 0.15f}));
-    CHECK(near(model.closing[1][0], {0.1f, 0.4f + 0.2f, -0.2f}));
-    CHECK(near(model.closing[1][1], {0.1f + 0.2f, 0.4f, -0.2f}));
-    CHECK(near(model.closing[1][2], {0.1f, 0.4f, -0.2f - 0.15f}));
-}
-
-TEST_CASE("what a channel leaves out is the node's, where the node's matrix tells it")
-{
-    const temporary_folder folder;
-    const auto corner = [&](const std::string& matrix, const std::string& keys, double time) {
-        write_file(folder / "turn.x", turntable(matrix, keys));
-        return load_animated_model(folder / "turn.x", "spin", time, time).open.meshes[1].positions[0];
-    };
-    CHECK(near(corner(raised(2), turning, 1), {0.1f, 0.5f - 0.4f, 0}));
-    CHECK(near(corner(raised(-2), turning, 0), {0.1f - 0.4f, 0.5f, 0}));
-    CHECK(near(corner(raised(-2), turning, 1), {0.1f, 0.5f + 0.4f, 0}));
-    CHECK(near(corner(raised(-2), scaling, 0), {0.1f - 0.2f, 0.5f, 0}));
-    CHECK(near(corner(raised(-2), lifting, 0), {0.1f - 0.4f, 0.4f, -0.2f}));
-}
-
-TEST_CASE("what Assimp's types cannot tell apart is refused by name")
-{
-    const temporary_folder folder;
-    const auto complaint = [&](const char* name, std::string_view text) {
-        write_file(folder / name, text);
-        try {
-            load_animated_model(folder / name, "", 0, 0);
-        } catch (const std::runtime_error& error) {
-            return std::string(error.what()).substr((folder / name).string().size() + 2);
-        }
-        return std::string("none");
-    };
-    CHECK(complaint("a.x", turntable(at_rest, turning)) == "none");
-    CHECK(complaint("b.x", turntable(at_rest, turning, "wheel")) ==
-          R"(several nodes have the name "wheel" of a bone or a channel)");
-    CHECK(complaint("c.x", turntable(mirrored, turned + scaling)) == "none");
-    CHECK(complaint("d.x", turntable(mirrored, turned)) ==
-          R"(an animation leaves out the scale of node "wheel", which its matrix does not tell)");
-    CHECK(complaint("e.x", turntable(mirrored, enlarging)) ==
-          R"(an animation leaves out the rotation of node "wheel", which its matrix does not tell)");
-    // Bones without a mesh bring no mesh of their own.
-    CHECK(complaint("walk.bvh",
-                    "HIERARCHY\nROOT hip\n{\nOFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\n"
-                    "End Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0\n") ==
-          "no triangles in it");
 }

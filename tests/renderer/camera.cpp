@@ -91,7 +91,7 @@ TEST_CASE("near is -1 and far is +1 exactly")
     CHECK(linear_depth(eye, eye.far_distance) == 1);
 }
 
-TEST_CASE("a light falls straight down, and no view is made from nothing")
+TEST_CASE("a light can look straight down, and a view of no points is refused")
 {
     const std::vector<glm::vec3> points{{0, 0, 0}, {1, 1, 1}};
     const camera light = orthographic_view(points, {0, -1, 0});
@@ -102,7 +102,7 @@ TEST_CASE("a light falls straight down, and no view is made from nothing")
     CHECK_THROWS_WITH(perspective_view(points, {0, NAN, 0}, 1), "camera: direction has no length");
 }
 
-TEST_CASE("what a light has to see includes where shadows end")
+TEST_CASE("the points that a light has to see include the ends of shadows")
 {
     bounds box;
     box.include({-1, 0, -1});

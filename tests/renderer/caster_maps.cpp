@@ -22,7 +22,7 @@ namespace {
 
 constexpr float nobody = 1 << 20;
 
-/// Tells whether something is in front of a depth at a time; undecided where that hangs on rounding.
+/// The answer to a test of a depth at a time: undecided if rounding may change it.
 enum class answer { lit, hidden, undecided };
 
 answer answer_of(std::span<const depth_time_range<float>> list, float t, float z)
@@ -38,7 +38,7 @@ answer answer_of(std::span<const depth_time_range<float>> list, float t, float z
     return hidden ? answer::hidden : answer::lit;
 }
 
-/// The greatest depth that nothing which was left out is in front of: that of the backdrop's nearer end.
+/// The nearer depth of the backdrop, which a map may leave out: nothing else that is left out is in front of it.
 float backdrop_depth(std::span<const depth_time_range<float>> all)
 {
     float depth = 1;
@@ -51,7 +51,7 @@ float backdrop_depth(std::span<const depth_time_range<float>> all)
     return depth;
 }
 
-/// Sheets at rest and in motion, level and tilted, above a ground or above none.
+/// Sheets, static and moving, level and tilted, above a ground or above none.
 moving_scene any_sheets(bit_source& bits, std::size_t most)
 {
     const auto real = [&](double low, double high) { return static_cast<float>(bits.uniform(low, high)); };
@@ -73,7 +73,7 @@ moving_scene any_sheets(bit_source& bits, std::size_t most)
 
 } // namespace
 
-TEST_CASE("caster maps keep the shadows of what is at rest, however soon lists are resolved")
+TEST_CASE("caster maps keep the shadows of static casters under any budget")
 {
     const auto ground = sheet({-1, -0.8f, -1}, {65, -0.8f, 65}), table = sheet({12, 0, 12}, {52, 0, 52});
     std::vector<moving_part> parts{ground, table};

@@ -52,7 +52,7 @@ TEST_CASE("a model stands on the ground, centred, its longest side one")
     CHECK(model.name == "tent");
 }
 
-TEST_CASE("numbers at the ends of float's range, points, lines and NaN do no harm")
+TEST_CASE("huge and tiny coordinates, points, lines and NaN do no harm")
 {
     const temporary_folder folder;
     for (const char* size : {"1e-37", "3e38"}) {
@@ -96,7 +96,7 @@ TEST_CASE("bad files answer with one line: file and cause")
     CHECK(complaint_about(folder / "none.obj") == (folder / "none.obj").string() + ": no such file");
 }
 
-TEST_CASE("a crash in a reader ends the program with one line and exit code 2")
+TEST_CASE("a crash in an importer ends the program with one line and exit code 2")
 {
     std::array<int, 2> ends{};
     REQUIRE(pipe(ends.data()) == 0);

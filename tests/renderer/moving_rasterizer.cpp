@@ -1,16 +1,15 @@
-// The rasterizer of motion against edge functions in double precision, asked one texel, one triangle and one time at a
-// time; and what must not change its lists: threads, budgets, tiles.
+// The rasterizer of motion against edge functions in double precision, for one texel, one triangle and one time at a
+// time. Threads, budgets and tiles do not change its lists.
 #include "renderer/raster/moving_rasterizer.hpp"
 
+#include "moving_boxes.hpp"
 #include "renderer/raster/moving_tiles.hpp"
-#include "renderer/shade/moving_view.hpp"
-#include "support/hostile.hpp"
 
 #include <gnomon/motion/triangle/moving_triangle.h>
 
 #include <doctest/doctest.h>
 #include <glm/common.hpp>
-#include <glm/trigonometric.hpp>
+#include <glm/geometric.hpp>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -22,37 +21,9 @@
 
 using namespace gnomon;
 using namespace gnomon::renderer;
-using gnomon::test::bit_source;
+using namespace gnomon::test;
 
 namespace {
-
-// Boxes that move, and turn or do not, at random, and a ground.
-moving_scene any_scene(std::uint64_t seed, int boxes, bool turn = true)
-{
-    bit_source bits(seed);
-    const auto real = [&](double low, double high) { return static_cast<float>(bits.uniform(low, high)); };
-    const auto point = [&](double reach) {
-        return glm::vec3(real(-reach, reach), real(0, reach), real(-reach, reach));
-    };
-    moving_scene world{{"boxes", {}}, {}};
-    mesh open{}, close{};
-    for (int i = 0; i < boxes; ++i) {
-        const glm::vec3 size(real(0.1, 1)), at = point(2);
-        const float angle = real(-1, 1);
-        add_box(open, upright(at, size, angle));
-        add_box(close, upright(at + 0.5f * point(2), size, turn ? real(-1, 1) : angle));
-    }
-    world.open.meshes = {open, ground({0, 0, 0}, 8, 8, glm::vec3(0.5f))};
-    world.closing = {close.positions, world.open.meshes[1].positions};
-    return world;
-}
-
-moving_camera any_light(const moving_scene& world, bool perspective)
-{
-    const auto corners = bounds_of(world).corners();
-    if (perspective) return {perspective_view_from({3, 7, 2}, {0, 0, 0}, corners, glm::radians(60.0), 1), {0, 0, 0}};
-    return {orthographic_view(corners, {0.4, -1, 0.3})};
-}
 
 // Every triangle at every time, by homogeneous edge functions in double.
 class reference {
@@ -91,7 +62,7 @@ class reference {
             const glm::dvec4 &i = p[(k + 1) % 3], &j = p[(k + 2) % 3];
             const glm::dvec2 a(i.x - x * i.w, i.y - y * i.w), b(j.x - x * j.w, j.y - y * j.w);
             e[k] = a.x * b.y - a.y * b.x;
-            // How far the sample is from the edge, in texels.
+            // Distance of the sample from the edge, in texels.
             const double distance = std::abs(e[k]) / (i.w * j.w) / std::max(glm::length(a / i.w - b / j.w), 1e-9);
             least_length = std::min(least_length, distance);
         }
@@ -114,13 +85,13 @@ template <class Lists> bool same_lists(const Lists& a, const Lists& b)
 
 } // namespace
 
-TEST_CASE("ranges are where edge functions say, at the right depth")
+TEST_CASE("ranges cover the times and depths that edge functions give")
 {
     constexpr int width = 75, height = 50;
     for (const bool perspective : {false, true})
         for (const bool turn : {false, true}) {
-            const moving_scene world = any_scene(1, 6, turn);
-            const moving_camera light = any_light(world, perspective);
+            const moving_scene world = moving_boxes(1, 6, turn);
+            const moving_camera light = light_of(world, perspective);
             range_rasterizer rasterize;
             const range_lists& lists = rasterize(world, light, width, height, {.depth_tolerance = 1e-4f});
             const reference exact(world, light, width, height);
@@ -151,90 +122,10 @@ TEST_CASE("ranges are where edge functions say, at the right depth")
         }
 }
 
-// The time for which two neighbours may be there together, on average: both are widened by 2^-19 of their size in a
-// tile, some 20 texels, and go one texel or more in the time.
-constexpr double shared_time = 2 * 20 * 0x1p-19;
-
-TEST_CASE("neighbours leave no crack: a texel sees one triangle of the ground until the next is there")
+TEST_CASE("lists do not depend on the number of threads, nor resolved lists on the budget")
 {
-    const moving_scene world = any_scene(3, 0);
-    const moving_camera light{any_light(world, true).open, {0.7, 0.4, -0.3}};
-    range_rasterizer rasterize;
-    const range_lists& lists = rasterize(world, light, 256, 256);
-    int shared = 0;
-    double together = 0;
-    for (std::size_t i = 0; i < 256 * 256; ++i) {
-        const auto list = lists.map()(i % 256, i / 256);
-        REQUIRE(list.size() <= 2);
-        if (list.size() < 2) continue;
-        ++shared;
-        const float begin = std::max(list[0].t0, list[1].t0), end = std::min(list[0].t1, list[1].t1);
-        REQUIRE(begin <= end);
-        together += double(end - begin);
-    }
-    CHECK(shared > 100);
-    CHECK(together < shared_time * shared);
-}
-
-// A sheet across the light's axis, beyond the picture on all sides, of which one half is carried and the other creased.
-TEST_CASE("neighbours leave no crack where one is translated and the other is not")
-{
-    constexpr int side = 9, size = 128;
-    bit_source bits(11);
-    const auto real = [&] { return static_cast<float>(bits.uniform(-0.3, 0.3)); };
-    mesh open;
-    std::vector<glm::vec3> closing;
-    for (int z = 0; z < side; ++z)
-        for (int x = 0; x < side; ++x) {
-            const glm::vec3 at(float(x - side / 2), 0, float(z - side / 2));
-            open.positions.push_back(at);
-            closing.push_back(at + (x < side / 2 ? glm::vec3(0.3f, 0.1f, -0.2f) : glm::vec3(real(), 0.1f, real())));
-        }
-    for (unsigned z = 0; z + 1 < side; ++z)
-        for (unsigned x = 0; x + 1 < side; ++x) {
-            const unsigned i = z * side + x;
-            open.triangles.push_back({i, i + 1, i + side});
-            open.triangles.push_back({i + 1, i + side + 1, i + side});
-        }
-    const moving_scene world{{"sheet", {open}}, {closing}};
-    const std::array<glm::vec3, 2> seen{glm::vec3(-2, -0.5f, -2), glm::vec3(2, 0.5f, 2)};
-    const moving_camera light{perspective_view_from({0.2, 7, 0.1}, {0, 0, 0}, seen, glm::radians(30.0), 1)};
-
-    int linear = 0, mixed = 0;
-    const tiled_triangles scenery(world, light, size, size, faces::both);
-    for (std::size_t tile = 0; tile < scenery.tiles(); ++tile)
-        scenery.for_each(tile, [&](const moving_setup& s) {
-            linear += s.linear;
-            mixed += glm::any(s.linear_edges) && !s.linear;
-        });
-    CHECK(linear > 0);
-    CHECK(mixed > 0);
-
-    range_rasterizer rasterize;
-    const range_lists& lists = rasterize(world, light, size, size);
-    std::size_t shared = 0;
-    double together = 0;
-    for (std::size_t i = 0; i < std::size_t(size) * size; ++i) {
-        const auto list = lists.map()(i % size, i / size);
-        std::vector<depth_time_range<float>> sorted(list.begin(), list.end());
-        std::ranges::sort(sorted, {}, &depth_time_range<float>::t0);
-        REQUIRE(!sorted.empty());
-        REQUIRE(sorted.front().t0 == 0);
-        REQUIRE(sorted.back().t1 == 1);
-        for (std::size_t k = 1; k < sorted.size(); ++k) {
-            REQUIRE(sorted[k].t0 <= sorted[k - 1].t1);
-            together += double(sorted[k - 1].t1 - sorted[k].t0);
-        }
-        shared += sorted.size() - 1;
-    }
-    CHECK(shared > std::size_t(size) * size / 4);
-    CHECK(together < shared_time * double(shared));
-}
-
-TEST_CASE("lists do not depend on threads, and resolved ones not on the budget")
-{
-    const moving_scene world = any_scene(4, 40);
-    const moving_camera light = any_light(world, true);
+    const moving_scene world = moving_boxes(4, 40);
+    const moving_camera light = light_of(world, true);
     range_rasterizer rasterize;
     const range_lists many = rasterize(world, light, 100, 90),
                       resolved = rasterize(world, light, 100, 90, {.resolved = true});
@@ -267,13 +158,13 @@ TEST_CASE("lists do not depend on threads, and resolved ones not on the budget")
     CHECK(different <= 2);
 }
 
-TEST_CASE("work grows with what is covered: eight times the motion tests no more texels for each that it covers")
+TEST_CASE("work grows with covered texels: eight times the motion tests hardly more texels for each covered one")
 {
     const auto tested_per_pair = [](float factor) {
-        moving_scene world = any_scene(6, 30);
+        moving_scene world = moving_boxes(6, 30);
         for (std::size_t i = 0; i < world.closing[0].size(); ++i)
             world.closing[0][i] = world.open.meshes[0].positions[i] + factor * glm::vec3(0.3f, 0.02f, 0.25f);
-        const moving_camera light{any_light(any_scene(6, 0), true).open};
+        const moving_camera light{light_of(moving_boxes(6, 0), true).open};
         range_rasterizer rasterize;
         const range_counts counts = rasterize(world, light, 256, 256).counts;
         return double(counts.tested) / double(counts.pairs);
@@ -282,62 +173,18 @@ TEST_CASE("work grows with what is covered: eight times the motion tests no more
     CHECK(tested_per_pair(8) < 2.5);
 }
 
-TEST_CASE("the camera's segments are what instants see")
+TEST_CASE("impossible sizes of pictures are refused")
 {
-    const moving_scene world = any_scene(7, 8);
-    const camera eye = perspective_view_from({2, 5, 6}, {0, 0, 0}, bounds_of(world).corners(), glm::radians(45.0), 1.5);
-    constexpr int width = 60, height = 40, samples = 16;
-    const seen_motion analytic = camera_segments(world, eye, width, height, 1e-4f);
-    const seen_motion stochastic = stochastic_visibility(world, eye, width, height, samples);
-    int asked = 0, other = 0;
-    for (std::size_t pixel = 0; pixel < std::size_t(width * height); ++pixel) {
-        float whole = 0;
-        for (const seen_segment& c : analytic(pixel)) whole += c.weight;
-        CHECK(whole <= 1.0001f);
-        for (const seen_segment& s : stochastic(pixel)) {
-            CHECK(s.weight == 1.0f / samples);
-            ++asked;
-            bool same = false;
-            for (const seen_segment& c : analytic(pixel)) {
-                if (!(c.t0 <= s.t0 && s.t0 <= c.t1) || c.triangle != s.triangle) continue;
-                const float passed = (s.t0 - c.t0) / std::max(c.t1 - c.t0, 1e-9f);
-                same |= glm::distance(glm::mix(c.p0, c.p1, passed), s.p0) < 2e-3f;
-            }
-            other += !same;
-        }
-    }
-    CHECK(asked > width * height * samples / 2);
-    // At the ends of segments and where two surfaces meet, rounding decides.
-    CHECK(other < asked / 500);
-}
-
-TEST_CASE("what is behind the eye or before the near plane is not seen")
-{
-    const moving_scene world = any_scene(8, 0);
-    // Level, a little above the ground, in the midst of it.
-    const camera eye =
-        perspective_view_from({0, 0.5, 0}, {0, 0.5, -5}, bounds_of(world).corners(), glm::radians(60.0), 1);
-    const seen_motion seen = camera_segments(world, eye, 64, 64, 0);
-    for (std::size_t pixel = 0; pixel < 64 * 64; ++pixel) {
-        const std::size_t y = pixel / 64;
-        if (y < 31) REQUIRE(seen(pixel).empty());
-        if (y > 40) REQUIRE(!seen(pixel).empty());
-        for (const seen_segment& c : seen(pixel)) REQUIRE(c.p0.y == doctest::Approx(0).epsilon(1e-3));
-    }
-}
-
-TEST_CASE("the moving rasterizer says which pictures are impossible")
-{
-    const moving_scene world = any_scene(9, 0);
+    const moving_scene world = moving_boxes(9, 0);
     range_rasterizer rasterize;
-    CHECK_THROWS_WITH_AS(rasterize(world, any_light(world, false), 0, 5),
+    CHECK_THROWS_WITH_AS(rasterize(world, light_of(world, false), 0, 5),
                          "moving rasterizer: 0x5 texels, 1 to 16384 per side are possible", std::invalid_argument);
-    CHECK_THROWS_AS(rasterize_instants(world, any_light(world, false), 5, 5, 0), std::invalid_argument);
+    CHECK_THROWS_AS(rasterize_instants(world, light_of(world, false), 5, 5, 0), std::invalid_argument);
 }
 
 TEST_CASE("triangle numbers count through the meshes")
 {
-    const moving_scene world = any_scene(10, 1);
+    const moving_scene world = moving_boxes(10, 1);
     const triangle_numbers numbers(world.open);
     CHECK(numbers.count() == 14);
     CHECK(numbers[0].mesh == 0);

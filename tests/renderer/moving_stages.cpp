@@ -170,7 +170,7 @@ TEST_CASE("quads and cubes are where the papers have them")
     CHECK(volume == doctest::Approx(2));
 }
 
-TEST_CASE("random cubes are drawn alike everywhere, and faster ones go the same ways")
+TEST_CASE("random cubes are the same everywhere, and faster ones move in the same directions")
 {
     const moving_stage slow = random_cubes(aspect, 100, 0.5f), fast = random_cubes(aspect, 100, 2);
     const mesh &cubes = slow.world.open.meshes[0], &faster = fast.world.open.meshes[0];
@@ -211,7 +211,7 @@ TEST_CASE("the plane below the cube turns by the angle on both sides")
     }
 }
 
-TEST_CASE("the fan's blades turn by a quarter, and shrink on the straight ways of their corners")
+TEST_CASE("the fan's blades turn by a quarter, and shrink meanwhile, since their corners move straight")
 {
     const moving_stage stage = fan(aspect);
     for (const auto& [t, shrunk] : {std::pair(0.f, 1.f), {0.5f, std::sqrt(0.5f)}, {1.f, 1.f}}) {
@@ -276,7 +276,7 @@ TEST_CASE("the lit ramp is lit, exactly and everywhere")
     CHECK(std::ranges::all_of(visible, [](float v) { return v == 1; }));
 }
 
-TEST_CASE("a light that has casters behind it is refused")
+TEST_CASE("a light with a caster behind it is refused")
 {
     const moving_scene cubes = random_cubes(aspect, 100, 0.5f).world;
     CHECK_THROWS_WITH(spot_light(cubes, cubes, {0, 2, 0}, {0, 9, 0}), "spot light: a caster is not in front of it");

@@ -222,7 +222,7 @@ TEST_CASE("a surface lies on the ray of its pixel, and its derivatives lead to i
     }
 }
 
-TEST_CASE("faces are told apart by their orientation, shading normals are interpolated")
+TEST_CASE("front and back faces differ by orientation, shading normals are interpolated")
 {
     mesh facing = triangles({{-2, -2, 0}, {2, -2, 0}, {0, 2, 0}});
     facing.normals = {{-1, 0, 1}, {1, 0, 1}, {0, 0, 1}};
@@ -253,7 +253,7 @@ TEST_CASE("hostile triangles leave depths in [-1, 1]")
     }));
 }
 
-TEST_CASE("the number of threads changes nothing")
+TEST_CASE("results do not depend on the number of threads")
 {
     const stage fence = fence_stage(1.5);
     const auto render = [&](int threads) {

@@ -110,7 +110,7 @@ TEST_CASE("a shadow map look-up agrees with the tracer but for the outlines of s
     CHECK(different < receivers / 20);
 }
 
-TEST_CASE("shading is dark where the sun is hidden and unchanged where it does not shine anyway")
+TEST_CASE("shading is dark in shadow, and unchanged on sides that face away from the sun")
 {
     const stage fence = fence_stage(1.5);
     const auto seen = rasterize_surfaces(fence.world, fence.eye, 60, 40);

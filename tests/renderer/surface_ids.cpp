@@ -41,7 +41,7 @@ mesh hinge(float degrees)
 
 } // namespace
 
-TEST_CASE("a box is one surface while it is convex, and its sides are surfaces when a corner goes in")
+TEST_CASE("a convex box is one surface, and its sides are surfaces if a corner is pushed in")
 {
     CHECK(surfaces(scene_of(box(1), box(1))) == 1);
     CHECK(surfaces(scene_of(box(1), box(3))) == 1); // all sides stay flat

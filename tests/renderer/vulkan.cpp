@@ -2,6 +2,7 @@
 // times in order, and a clear word where there is no driver.
 #include "device.hpp"
 #include "probe.h"
+#include "renderer/vulkan/scene.hpp"
 
 #include <algorithm>
 #include <array>
@@ -79,7 +80,7 @@ TEST_CASE("mip levels are means, and a copy has the rows of level 0")
     CHECK(gpu->complaints().empty());
 }
 
-TEST_CASE("without a driver the device says so")
+TEST_CASE("without a driver the device is unavailable")
 {
     for (const char* variable : {"VK_ICD_FILENAMES", "VK_DRIVER_FILES"}) {
         const char* earlier = std::getenv(variable);
@@ -89,4 +90,31 @@ TEST_CASE("without a driver the device says so")
         if (earlier) setenv(variable, kept.c_str(), 1);
         else unsetenv(variable);
     }
+}
+
+TEST_CASE("the matrices of shaders project as cameras do")
+{
+    const std::vector<glm::vec3> points{{-1, -2, 0.5f}, {2, 1, -3}, {0, 0.25f, 0}, {1.5f, -1, 2}};
+    const glm::dvec3 direction(0.4, -1, 0.3);
+    const camera sun = orthographic_view(points, direction), spot = perspective_view(points, direction, 0.9, 1.5);
+    const auto times = [](const auto& rows, const glm::vec3& p) {
+        std::array<double, std::tuple_size_v<std::remove_cvref_t<decltype(rows)>>> result;
+        for (std::size_t i = 0; i < rows.size(); ++i) result[i] = double(glm::dot(rows[i], glm::vec4(p, 1)));
+        return result;
+    };
+    for (const camera& eye : {sun, spot})
+        for (const glm::vec3& p : points) {
+            const glm::dvec3 expected = project(eye, p);
+            const auto [x, y, z, w] = times(vulkan::clip_rows(eye), p);
+            CHECK(std::abs(0.5 * x / w + 0.5 - expected.x) < 1e-6);
+            CHECK(std::abs(0.5 * y / w + 0.5 - expected.y) < 1e-6);
+            const double near = eye.near_distance, far = eye.far_distance, d = view_distance(eye, p);
+            const double depth = eye.perspective() ? far * (d - near) / (d * (far - near)) : (d - near) / (far - near);
+            CHECK(std::abs(z / w - depth) < 1e-5);
+            if (eye.perspective()) continue;
+            const auto [u, v, signed_depth] = times(vulkan::shadow_rows(eye), p);
+            CHECK(std::abs(u - expected.x) < 1e-6);
+            CHECK(std::abs(v - expected.y) < 1e-6);
+            CHECK(std::abs(signed_depth - expected.z) < 1e-6);
+        }
 }

@@ -311,7 +311,7 @@ moving_stage trapezoid(double aspect)
 
 double trapezoid_visibility(const glm::dvec3& ground_point)
 {
-    // The way to the light crosses the bar's height at (x, z), and the bar's centre runs from -1 to 1 in x.
+    // The ray to the light crosses the bar's height at (x, z), and the bar's centre runs from -1 to 1 in x.
     const double to_height = (2000.0 - 2.0) / 2000.0;
     const double x = std::abs(to_height * ground_point.x), z = std::abs(to_height * ground_point.z);
     if (!(z < 1.5)) return 1;
@@ -334,7 +334,7 @@ std::span<const listed_stage> moving_stages()
         {"pillars", "pillars, the light rises", pillars},
         {"crossed_quads", "crossed quads", crossed_quads},
         {"toward_and_away", "toward the light and away", toward_and_away},
-        {"cubes_to_the_light", "cubes on their way to the light", cubes_to_the_light},
+        {"cubes_to_the_light", "cubes that rise to the light", cubes_to_the_light},
         {"random_cubes", "400 random cubes", [](double aspect) { return random_cubes(aspect, 400, 0.5f); }},
         {"cube_over_plane", "a cube over a plane", [](double aspect) { return cube_over_plane(aspect, 0, 2, 0); }},
         {"cube_over_turning_plane", "a cube over a plane that turns",

@@ -30,7 +30,7 @@ inline float stratified_time(std::size_t owner, int i, int n)
 
 using mask = std::array<int, packet>; // -1 for rays that are to be traced
 
-struct way {
+struct segment {
     glm::vec3 origin, direction;
     float end;
 };
@@ -38,7 +38,7 @@ struct way {
 inline constexpr float endless = std::numeric_limits<float>::infinity();
 
 // True if a part of the segment lies within `margin` of the box: the three slabs overlap.
-inline bool crosses(const way& ray, const bounds& box, float margin)
+inline bool crosses(const segment& ray, const bounds& box, float margin)
 {
     float enter = 0, leave = ray.end;
     for (int i = 0; i < 3; ++i) {
@@ -49,7 +49,7 @@ inline bool crosses(const way& ray, const bounds& box, float margin)
     return enter <= leave;
 }
 
-inline void set_ray(RTCRay16& rays, int lane, const way& ray, float time)
+inline void set_ray(RTCRay16& rays, int lane, const segment& ray, float time)
 {
     rays.org_x[lane] = ray.origin.x, rays.org_y[lane] = ray.origin.y, rays.org_z[lane] = ray.origin.z;
     rays.dir_x[lane] = ray.direction.x, rays.dir_y[lane] = ray.direction.y, rays.dir_z[lane] = ray.direction.z;

@@ -93,7 +93,7 @@ struct tracer::state {
     float offset = 0;
 
     // A spot light's ray is the segment up to the light, a directional one has no end.
-    way to_light(const receiver& from, const moving_camera& light, float time) const
+    segment to_light(const receiver& from, const moving_camera& light, float time) const
     {
         const glm::vec3 origin = from.position + offset * from.normal;
         if (!light.open.perspective()) return {origin, glm::vec3(-light.open.forward), endless};
@@ -101,17 +101,17 @@ struct tracer::state {
         return {origin, glm::vec3(place - glm::dvec3(origin)), 1};
     }
 
-    // Returns the cosine between the receiver's normal and the way to the light.
+    // Returns the cosine between the receiver's normal and the direction to the light.
     float aim(RTCRay16& rays, int lane, const receiver& from, const moving_camera& light, float time) const
     {
-        const way ray = to_light(from, light, time);
+        const segment ray = to_light(from, light, time);
         set_ray(rays, lane, ray, time);
         return glm::dot(from.normal, unit(ray.direction));
     }
 
     // Whether nothing that moves comes near: then what the ray meets is the same at all times. Boxes are farther away
     // than rounding can tell.
-    bool always_alike(const way& ray) const
+    bool always_alike(const segment& ray) const
     {
         return std::ranges::none_of(swept, [&](const bounds& box) { return crosses(ray, box, 10 * offset); });
     }
@@ -153,7 +153,7 @@ struct tracer::state {
         return result;
     }
 
-    // What a ray of a packet has met on its way in this direction.
+    // The first point that a ray of a packet has met in this direction.
     hit met(const RTCRayHit16& rays, int lane, const glm::dvec3& direction) const
     {
         hit result;
@@ -287,7 +287,7 @@ reference_picture tracer::photograph(const moving_camera& light, const camera& e
     reference_picture result{{width, height, 1}, {width, height, 0}, {width, height}};
     const auto expose = [&](int x, int y) {
         const view_ray centre = ray_through(eye, {(x + 0.5) / width, (y + 0.5) / height});
-        const way ray{glm::vec3(centre.origin), glm::vec3(centre.direction), endless};
+        const segment ray{glm::vec3(centre.origin), glm::vec3(centre.direction), endless};
         const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
         const bool one_hit = state_->always_alike(ray);
         const hit only = one_hit ? first_hit(centre, 0) : hit{};
