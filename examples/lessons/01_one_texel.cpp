@@ -11,8 +11,7 @@
 
 using format = gnomon::moments4_unorm16; // 64 bits per texel, as in a texture of four 16-bit UNORM channels
 
-// A filter region over two surfaces, a post and the ground behind it. Depths are signed: -1 is the near plane, 1 the
-// far one.
+// A filter region over a post and the ground behind it. Depths are signed: -1 is the near plane, 1 the far plane.
 constexpr std::array depths{-0.52f, -0.50f, -0.48f, 0.28f, 0.29f, 0.30f, 0.31f, 0.32f};
 
 // The exact answer: the share of all depths in front of the receiver. A filter cannot know it without every depth.
@@ -27,8 +26,7 @@ int main()
     // Filtering is a weighted sum of moments: a blur, a mip level, the resolve of many samples or a texture unit.
     const float weight = 1 / float(depths.size());
     gnomon::moments4<float> mean{}; // the means of z, z^2, z^3, z^4
-    for (const float z : depths)    //
-        mean = gnomon::moments4_add(mean, gnomon::moments4_from_depth(z), weight);
+    for (const float z : depths) mean = gnomon::moments4_add(mean, gnomon::moments4_from_depth(z), weight);
 
     // The format turns moments into a texel, by a transform that keeps as much precision as 64 bits can.
     const format::texel texel = format::encode(mean);

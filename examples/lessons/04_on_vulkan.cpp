@@ -38,6 +38,7 @@ void draw(const vulkan::device& gpu)
     const auto uniforms = vulkan::filled<glm::vec4>(gpu, frame, vk::BufferUsageFlagBits::eUniformBuffer);
     const auto taps = vulkan::filled<float>(gpu, gnomon::gaussian_weights(), vk::BufferUsageFlagBits::eStorageBuffer);
 
+    // What they draw into and read: depths from the light, the map, a scratch map for the blur, and the screen.
     const vk::Format depth = vk::Format::eD32Sfloat, unorm16 = vk::Format::eR16G16B16A16Unorm;
     const auto texels = use::eStorage | use::eSampled | use::eTransferSrc | use::eTransferDst;
     const vulkan::image depths(gpu, depth, {side, side}, use::eDepthStencilAttachment | use::eSampled);
@@ -48,6 +49,7 @@ void draw(const vulkan::device& gpu)
                                use::eColorAttachment | use::eTransferSrc);
     const vk::raii::Sampler trilinear = vulkan::trilinear_sampler(gpu);
 
+    // The passes, with the resources of their shaders in the order of the bindings.
     const vulkan::raster_pass from_light(gpu, {{triangles_vert}, {}}, {depths}, 3, {}, sizeof light_rows);
     const vulkan::compute_pass encode(gpu, {encode_comp}, {vulkan::sampled{depths}, vulkan::stored{map}});
     const vulkan::compute_pass blur_x(gpu, {blur_comp}, {vulkan::sampled{map}, vulkan::stored{scratch}, taps}, 8);
