@@ -27,7 +27,7 @@ LANGUAGES = {
 }
 
 # Technique: the headers that it starts from, and for moments how many of them. What else it takes follows from the
-# headers' includes. A header below one of FOLDERS is a technique by itself.
+# headers' includes. A header below one of FOLDERS is a technique by itself, with its storage formats.
 TECHNIQUES = {
     "moments4": (["moments/quantization.h", "storage/moments4.h", "storage/moments4_within.h",
                   "moments/hamburger4.h"], "4"),
@@ -98,7 +98,7 @@ class Packager:
         names = sorted(path.relative_to(self.root).as_posix() for path in self.root.rglob("*.h"))
         names = [name for name in names if not name.startswith("portable")]
         self.headers = {name: Header.read(self.root, name) for name in names}
-        roots = TECHNIQUES | {Path(name).stem: ([name], "") for name in names if Path(name).parts[0] in FOLDERS}
+        roots = TECHNIQUES | {Path(name).stem: (self.with_storage(name), "") for name in names if Path(name).parts[0] in FOLDERS}
         self.packages = {technique: (closure(self.headers, start), count) for technique, (start, count) in roots.items()}
         counted = [headers for headers, count in self.packages.values() if count]
         self.shared = [header for header in counted[0] if all(header in headers for headers in counted)]
@@ -108,6 +108,11 @@ class Packager:
                 raise DialectError(f"{self.root / header.name}: in no technique of package.py")
         self.packages["gnomon"] = (everything, "")
         self.prefix, self.internal = prefix, internal(everything)
+
+    def with_storage(self, name):
+        """The header of a technique and that of its storage formats, which includes it."""
+        storage = f"storage/{Path(name).name}"
+        return [storage] if name.startswith("filters/") and storage in self.headers else [name]
 
     def files(self):
         """(name, text) of every package."""

@@ -35,10 +35,10 @@ template <std::size_t m> struct channels_and_receiver {
         for (auto& s : result) {
             if constexpr (m == 4) {
                 const auto c = theta4(moments4<double>{s[0], s[1], s[2], s[3]});
-                s = {c.b1, c.b2, c.b3, c.b4, s[4]};
+                s = {c.c1, c.c2, c.c3, c.c4, s[4]};
             } else {
                 const auto c = theta6(moments6<double>{s[0], s[1], s[2], s[3], s[4], s[5]});
-                s = {c.b1, c.b2, c.b3, c.b4, c.b5, c.b6, s[6]};
+                s = {c.c1, c.c2, c.c3, c.c4, c.c5, c.c6, s[6]};
             }
         }
         return result;

@@ -34,7 +34,7 @@ struct certified : moments {
     static constexpr bool has_error = true;
     template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
     {
-        return certified4_float(moments4<Real>{b1, b2, b3, b4}, z_f);
+        return moments4_float_intensity(channels4<Real>{b1, b2, b3, b4}, z_f);
     }
 };
 
@@ -43,7 +43,7 @@ struct certified_half : moments {
     static constexpr bool has_error = true;
     template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
     {
-        return certified4_half(moments4<Real>{b1, b2, b3, b4}, z_f);
+        return moments4_half_intensity(channels4<Real>{b1, b2, b3, b4}, z_f);
     }
 };
 
@@ -52,7 +52,7 @@ struct certified_unorm16 : channels {
     static constexpr bool has_error = true;
     template <class Real> static GNOMON_INLINE constexpr Real run(Real c1, Real c2, Real c3, Real c4, Real z_f)
     {
-        return certified4_unorm16(moments4<Real>{c1, c2, c3, c4}, z_f);
+        return moments4_unorm16_intensity(channels4<Real>{c1, c2, c3, c4}, z_f);
     }
 };
 
@@ -62,7 +62,7 @@ struct raised : moments {
     static constexpr bool has_error = true;
     template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
     {
-        return hamburger4_lower(hankel4_raised_from(moments4_float{}, moments4<Real>{b1, b2, b3, b4}), z_f);
+        return hamburger4_lower(hankel4_raised_from(moments4_float{}, channels4<Real>{b1, b2, b3, b4}), z_f);
     }
 };
 
@@ -91,7 +91,7 @@ struct unorm16 : channels {
     static constexpr bool has_error = true;
     template <class Real> static GNOMON_INLINE constexpr Real run(Real c1, Real c2, Real c3, Real c4, Real z_f)
     {
-        return hamburger4_lower(hankel4_from_unorm16(moments4<Real>{c1, c2, c3, c4}), z_f);
+        return hamburger4_lower(hankel4_from_unorm16(channels4<Real>{c1, c2, c3, c4}), z_f);
     }
 };
 
@@ -100,7 +100,7 @@ struct both_bounds : moments {
     static constexpr bool has_error = true;
     template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
     {
-        return bounds_intensity(hamburger4_bounds(hankel4_from_float(moments4<Real>{b1, b2, b3, b4}), z_f),
+        return bounds_intensity(hamburger4_bounds(hankel4_from_float(channels4<Real>{b1, b2, b3, b4}), z_f),
                                 literal<Real>(0.5));
     }
 };
@@ -110,7 +110,7 @@ struct distribution : moments {
     static constexpr auto name = "distribution";
     template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
     {
-        const auto d = hamburger4_distribution(hankel4_from_float(moments4<Real>{b1, b2, b3, b4}), z_f);
+        const auto d = hamburger4_distribution(hankel4_from_float(channels4<Real>{b1, b2, b3, b4}), z_f);
         return (d.depth0 * d.weight0 + d.depth1 * d.weight1) + d.depth2 * d.weight2;
     }
 };
@@ -128,7 +128,7 @@ struct decode : channels {
     static constexpr auto name = "quantization undone";
     template <class Real> static GNOMON_INLINE constexpr Real run(Real c1, Real c2, Real c3, Real c4, Real)
     {
-        const auto b = theta4_inverse(moments4<Real>{c1, c2, c3, c4});
+        const auto b = theta4_inverse(channels4<Real>{c1, c2, c3, c4});
         return (b.b1 + b.b2) + (b.b3 + b.b4);
     }
 };

@@ -36,7 +36,7 @@ struct standard : moments {
     template <class Real>
     static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real b5, Real b6, Real z_f)
     {
-        return hamburger6_lower(hankel6_from_float(moments6<Real>{b1, b2, b3, b4, b5, b6}), z_f);
+        return hamburger6_lower(hankel6_from_float(channels6<Real>{b1, b2, b3, b4, b5, b6}), z_f);
     }
 };
 
@@ -67,7 +67,7 @@ struct unorm16 : channels {
     template <class Real>
     static GNOMON_INLINE constexpr Real run(Real c1, Real c2, Real c3, Real c4, Real c5, Real c6, Real z_f)
     {
-        return hamburger6_lower(hankel6_from_unorm16(moments6<Real>{c1, c2, c3, c4, c5, c6}), z_f);
+        return hamburger6_lower(hankel6_from_unorm16(channels6<Real>{c1, c2, c3, c4, c5, c6}), z_f);
     }
 };
 
@@ -77,7 +77,7 @@ struct both_bounds : moments {
     template <class Real>
     static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real b5, Real b6, Real z_f)
     {
-        const auto bounds = hamburger6_bounds(hankel6_from_float(moments6<Real>{b1, b2, b3, b4, b5, b6}), z_f);
+        const auto bounds = hamburger6_bounds(hankel6_from_float(channels6<Real>{b1, b2, b3, b4, b5, b6}), z_f);
         return bounds_intensity(bounds, literal<Real>(0.5));
     }
 };
@@ -88,7 +88,7 @@ struct distribution : moments {
     template <class Real>
     static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real b5, Real b6, Real z_f)
     {
-        const auto d = hamburger6_distribution(hankel6_from_float(moments6<Real>{b1, b2, b3, b4, b5, b6}), z_f);
+        const auto d = hamburger6_distribution(hankel6_from_float(channels6<Real>{b1, b2, b3, b4, b5, b6}), z_f);
         return (d.depth0 * d.weight0 + d.depth1 * d.weight1) + (d.depth2 * d.weight2 + d.depth3 * d.weight3);
     }
 };
@@ -98,7 +98,7 @@ struct decode : channels {
     template <class Real>
     static GNOMON_INLINE constexpr Real run(Real c1, Real c2, Real c3, Real c4, Real c5, Real c6, Real)
     {
-        const auto b = theta6_inverse(moments6<Real>{c1, c2, c3, c4, c5, c6});
+        const auto b = theta6_inverse(channels6<Real>{c1, c2, c3, c4, c5, c6});
         return (b.b1 + b.b2) + (b.b3 + b.b4) + (b.b5 + b.b6);
     }
 };

@@ -3,7 +3,7 @@
 // A texel holds the means of z, z^2, z^3 and z^4 over all depths z of its filter region: four numbers, however many
 // depths there are. For any receiver they bound the share of these depths that lies in front of it. The lower bound is
 // the shadow intensity: it never darkens a lit surface.
-#include <gnomon/storage/moments_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 #include <algorithm>
 #include <array>
@@ -29,7 +29,7 @@ int main()
     for (const float z : depths) mean = gnomon::moments4_add(mean, gnomon::moments4_from_depth(z), weight);
 
     // The format turns moments into a texel, by a transform that keeps as much precision as 64 bits can.
-    const format::texel texel = format::encode(mean);
+    const format::texel texel = format::encode(format::from_moments(mean));
     std::printf("%zu depths in one texel: %u %u %u %u\n\n", depths.size(), texel[0], texel[1], texel[2], texel[3]);
 
     // A look-up decodes the texel, as a texture unit would, and asks for the intensity at the receiver's depth.

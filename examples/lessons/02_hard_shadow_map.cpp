@@ -10,7 +10,7 @@
 #include <gnomon/passes/blur.hpp>
 #include <gnomon/passes/look_up.hpp>
 #include <gnomon/passes/mips.hpp>
-#include <gnomon/storage/moments_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 #include <glm/geometric.hpp>
 
@@ -45,7 +45,7 @@ int main()
     const auto depths = rasterize_depth<1>(scenery.world, light, side, side);
     std::vector<format::texel> texels(gnomon::mip_texels(side, side)); // room for all mip levels
     for (std::size_t i = 0; i < depths.pixels.size(); ++i)
-        texels[i] = format::encode(gnomon::moments4_from_depth(depths.pixels[i][0]));
+        texels[i] = format::encode(format::from_depth(depths.pixels[i][0]));
 
     // 2. Filter the map: any linear filter will do.
     const gnomon::mip_view<format::texel> mips{texels, side, side};

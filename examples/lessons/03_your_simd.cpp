@@ -7,7 +7,7 @@
 #include "renderer/shade/shading.hpp"
 
 #include <gnomon/passes/look_up.hpp>
-#include <gnomon/storage/moments_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 #include <cstdio>
 
@@ -52,7 +52,7 @@ int main()
     const auto depths = rasterize_depth<1>(scenery.world, scenery.light, side, side);
     std::vector<format::texel> texels(gnomon::mip_texels(side, side));
     for (std::size_t i = 0; i < depths.pixels.size(); ++i)
-        texels[i] = format::encode(gnomon::moments4_from_depth(depths.pixels[i][0]));
+        texels[i] = format::encode(format::from_depth(depths.pixels[i][0]));
     gnomon::build_mips<format>({texels, side, side});
     const auto seen = rasterize_surfaces(scenery.world, scenery.eye, 960, 540);
     const receivers all = receivers_of(seen, scenery.light, side); // what faces the light, with the bias of lesson 2
@@ -60,16 +60,16 @@ int main()
     std::size_t different = 0;
     for (std::size_t i = 0; i < all.size(); i += lanes) {
         const std::size_t count = std::min(lanes, all.size() - i);
-        gnomon::moments4<float> one[lanes]{};
-        pack b1, b2, b3, b4, depth;
+        format::channels<float> one[lanes]{};
+        pack c1, c2, c3, c4, depth;
         for (std::size_t k = 0; k < count; ++k) {
             const auto [u, v, level] = all.places[i + k];
             one[k] = gnomon::trilinear<format>({texels, side, side}, u * side, v * side, level);
-            b1.v[k] = one[k].b1, b2.v[k] = one[k].b2, b3.v[k] = one[k].b3, b4.v[k] = one[k].b4;
+            c1.v[k] = one[k].c1, c2.v[k] = one[k].c2, c3.v[k] = one[k].c3, c4.v[k] = one[k].c4;
             depth.v[k] = all.depths[i + k];
         }
         const pack intensity =
-            format::filtered_intensity(gnomon::moments4<pack>{b1, b2, b3, b4}, depth); // four at once
+            format::filtered_intensity(format::channels<pack>{c1, c2, c3, c4}, depth); // four at once
         for (std::size_t k = 0; k < count; ++k) {
             visibility.pixels[all.pixels[i + k]] = 1 - intensity.v[k];
             different += intensity.v[k] != format::filtered_intensity(one[k], all.depths[i + k]);

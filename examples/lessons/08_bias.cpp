@@ -12,7 +12,7 @@
 #include <gnomon/moments/bounds.h>
 #include <gnomon/passes/blur.hpp>
 #include <gnomon/passes/look_up.hpp>
-#include <gnomon/storage/moments_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 #include <cstdio>
 #include <vector>
@@ -40,7 +40,7 @@ int main()
     const auto depths = rasterize_depth<1>(scenery.world, scenery.light, side, side);
     std::vector<format::texel> texels(gnomon::mip_texels(side, side)), scratch(std::size_t(side) * side);
     for (std::size_t i = 0; i < depths.pixels.size(); ++i)
-        texels[i] = format::encode(gnomon::moments4_from_depth(depths.pixels[i][0]));
+        texels[i] = format::encode(format::from_depth(depths.pixels[i][0]));
     const gnomon::mip_view<format::texel> mips{texels, side, side};
     gnomon::blur<format>(mips.level(0), {scratch, side, side}, mips.level(0), gnomon::gaussian_weights());
     gnomon::build_mips<format>(mips);

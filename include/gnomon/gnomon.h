@@ -38,7 +38,12 @@
 #include "motion/triangle/edge_widening.h"
 #include "motion/triangle/moving_triangle.h"
 #include "motion/triangle/triangle_setup.h"
+#include "storage/convolution.h"
+#include "storage/exponential.h"
+#include "storage/exponential_variance.h"
+#include "storage/layered_variance.h"
 #include "storage/moments4.h"
 #include "storage/moments4_within.h"
 #include "storage/moments6.h"
+#include "storage/variance.h"
 #endif

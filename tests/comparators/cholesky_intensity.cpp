@@ -67,10 +67,10 @@ TEST_CASE("in float, Algorithm 1 has more than ten times the rounding error of t
                                                     z));
     };
     const auto default_route4 = []<class Real>(const moments4<Real>& b, Real z) {
-        return double(hamburger4_lower(hankel4_from_float(b), z));
+        return double(hamburger4_lower(hankel4_from_float(channels4_from_moments(b)), z));
     };
     const auto default_route6 = []<class Real>(const moments6<Real>& b, Real z) {
-        return double(hamburger6_lower(hankel6_from_float(b), z));
+        return double(hamburger6_lower(hankel6_from_float(channels6_from_moments(b)), z));
     };
     for_each_sample([&](std::array<double, 6> b, double z) {
         for (double& moment : b) moment = double(float(moment));

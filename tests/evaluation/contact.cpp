@@ -6,7 +6,7 @@
 #include "renderer/scene/stage.hpp"
 
 #include <gnomon/passes/blur.hpp>
-#include <gnomon/storage/moments_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 #include <doctest/doctest.h>
 

@@ -25,6 +25,10 @@ template <class T> std::array<T, 4> numbers(const moments4<T>& b) { return {b.b1
 template <class T> std::array<T, 6> numbers(const moments6<T>& b) { return {b.b1, b.b2, b.b3, b.b4, b.b5, b.b6}; }
 template <class T> moments4<T> moments(const std::array<T, 4>& b) { return {b[0], b[1], b[2], b[3]}; }
 template <class T> moments6<T> moments(const std::array<T, 6>& b) { return {b[0], b[1], b[2], b[3], b[4], b[5]}; }
+template <class T> std::array<T, 4> numbers(const channels4<T>& c) { return {c.c1, c.c2, c.c3, c.c4}; }
+template <class T> std::array<T, 6> numbers(const channels6<T>& c) { return {c.c1, c.c2, c.c3, c.c4, c.c5, c.c6}; }
+template <class T> channels4<T> channels(const std::array<T, 4>& c) { return {c[0], c[1], c[2], c[3]}; }
+template <class T> channels6<T> channels(const std::array<T, 6>& c) { return {c[0], c[1], c[2], c[3], c[4], c[5]}; }
 
 /// The powers z^1 to z^n in long double.
 template <std::size_t n> std::array<exact, n> powers(exact z)
@@ -35,15 +39,15 @@ template <std::size_t n> std::array<exact, n> powers(exact z)
     return b;
 }
 
-/// The matrix of an affine map of moments.
+/// The matrix of an affine map of n numbers.
 template <std::size_t n, class Map> std::array<std::array<double, n>, n> matrix(Map map)
 {
     std::array<std::array<double, n>, n> a{};
-    const auto origin = numbers(map(moments(std::array<double, n>{})));
+    const auto origin = map(std::array<double, n>{});
     for (std::size_t j = 0; j < n; ++j) {
         std::array<double, n> axis{};
         axis[j] = 1;
-        const auto column = numbers(map(moments(axis)));
+        const auto column = map(axis);
         for (std::size_t i = 0; i < n; ++i) a[i][j] = column[i] - origin[i];
     }
     return a;
@@ -52,7 +56,9 @@ template <std::size_t n, class Map> std::array<std::array<double, n>, n> matrix(
 /// Checks a transform and its inverse in T. Each output is a sum of at most n + 1 rounded terms, for each of the two.
 template <class T, std::size_t n, class Forward, class Back> void check_transform(Forward forward, Back back)
 {
-    const auto a = matrix<n>(forward), inverse = matrix<n>(back);
+    const auto there = [=](const auto& b) { return numbers(forward(moments(b))); };
+    const auto home = [=](const auto& c) { return numbers(back(channels(c))); };
+    const auto a = matrix<n>(there), inverse = matrix<n>(home);
     std::array<double, n> least, most, forward_norm{}, there_and_back{};
     least.fill(2), most.fill(-2);
     for (std::size_t i = 0; i < n; ++i)
@@ -64,8 +70,8 @@ template <class T, std::size_t n, class Forward, class Back> void check_transfor
         std::array<T, n> b;
         const auto want = powers<n>(k / 20000.0L);
         std::transform(want.begin(), want.end(), b.begin(), [](exact x) { return T(x); });
-        const auto c = numbers(forward(moments(b)));
-        const auto returned = numbers(back(moments(c)));
+        const auto c = there(b);
+        const auto returned = home(c);
         for (std::size_t i = 0; i < n; ++i) {
             least[i] = std::min(least[i], double(c[i]));
             most[i] = std::max(most[i], double(c[i]));

@@ -8,7 +8,7 @@
 #include "support/moments_of.hpp"
 #include "support/statistics.hpp"
 
-#include <gnomon/storage/moments_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 #include <doctest/doctest.h>
 
@@ -20,10 +20,13 @@ using namespace gnomon::test;
 
 namespace {
 
-using moments = moments4<float>;
+using channels = channels4<float>;
 
 /// The channels of a distribution, rounded to the format.
-template <class Format> moments stored(const distribution& d) { return Format::decode(Format::encode(moments4_of(d))); }
+template <class Format> channels stored(const distribution& d)
+{
+    return Format::decode(Format::encode(Format::from_moments(moments4_of(d))));
+}
 
 constexpr std::int64_t evaluations = 200'000;
 
@@ -47,7 +50,7 @@ template <class Format, class Intensity> double darkest_filtered(std::int64_t co
     return climb(contact_dimensions, count, 2,
                  [&](const std::vector<double>& place) {
                      const contact s = contact_at(place);
-                     return double(intensity(filtered_moments<Format>(s), float(s.receiver))) - s.below(s.receiver);
+                     return double(intensity(filtered_channels<Format>(s), float(s.receiver))) - s.below(s.receiver);
                  })
         .score;
 }
@@ -62,13 +65,15 @@ template <class Format> void report(const char* route, double darkness, double w
 
 TEST_CASE_TEMPLATE("a lit surface is never darkened", Format, moments4_unorm16, moments4_half, moments4_float)
 {
-    const auto once = [](moments c, float z_f) { return Format::intensity(c, z_f); };
-    const auto passes = [](moments c, float z_f) { return Format::filtered_intensity(c, z_f); };
+    const auto once = [](channels c, float z_f) { return Format::intensity(c, z_f); };
+    const auto passes = [](channels c, float z_f) { return Format::filtered_intensity(c, z_f); };
     report<Format>("certified, one rounding", darkest_once<Format>(evaluations, once), Format::darkening);
     report<Format>("certified, two filter passes", darkest_filtered<Format>(evaluations, passes),
                    Format::filtered_darkening);
-    const auto constant = [](moments c, float z_f) { return hamburger4_lower(Format::factor(c), z_f); };
-    const auto constant_passes = [](moments c, float z_f) { return hamburger4_lower(Format::filtered_factor(c), z_f); };
+    const auto constant = [](channels c, float z_f) { return hamburger4_lower(Format::factor(c), z_f); };
+    const auto constant_passes = [](channels c, float z_f) {
+        return hamburger4_lower(Format::filtered_factor(c), z_f);
+    };
     report<Format>("constant bias, one rounding", darkest_once<Format>(evaluations, constant),
                    Format::bias_weight + stored4_arithmetic_weight);
     report<Format>("constant bias, two filter passes", darkest_filtered<Format>(evaluations, constant_passes),
@@ -86,7 +91,7 @@ TEST_CASE_TEMPLATE("certified contact shadows have no lit specks", Format, momen
         std::vector<double> place(contact_dimensions);
         for (double& x : place) x = bits.uniform(0, 1);
         const contact s = contact_at(place);
-        const moments c = filtered_moments<Format>(s);
+        const channels c = filtered_channels<Format>(s);
         const float z_f = float(s.receiver);
         const float constant = hamburger4_lower(Format::filtered_factor(c), z_f);
         specks += Format::filtered_intensity(c, z_f) < constant - 0.2f;
@@ -97,7 +102,7 @@ TEST_CASE_TEMPLATE("certified contact shadows have no lit specks", Format, momen
 TEST_CASE_TEMPLATE("the climber finds that raised pivots darken", Format, moments4_unorm16, moments4_half,
                    moments4_float)
 {
-    const auto darkening = [](moments c, float z_f) {
+    const auto darkening = [](channels c, float z_f) {
         return hamburger4_lower(bench::hankel4_raised_from(Format{}, c), z_f);
     };
     CHECK(darkest_once<Format>(100 * evaluations, darkening, 0.05) > 0.05);
@@ -120,7 +125,7 @@ template <class Format, class Error> void climb_error(const char* header, const 
 
 template <class Format, class Factor> void climb_bounds(const std::string& name, Factor factor)
 {
-    climb_error<Format>("moments/hamburger4.h", "float, " + name, [&](const moments& c, float z_f) {
+    climb_error<Format>("moments/hamburger4.h", "float, " + name, [&](const channels& c, float z_f) {
         const hamburger_bounds<float> r = hamburger4_bounds(factor(c), z_f);
         const hamburger_bounds<double> exact = hamburger4_bounds(factor(in_double(c)), double(z_f));
         return std::max(std::abs(double(r.lower) - exact.lower), std::abs(double(r.upper) - exact.upper));
@@ -130,7 +135,7 @@ template <class Format, class Factor> void climb_bounds(const std::string& name,
 /// Checks the row of a certificate, with its quantiles over the families.
 template <class Format, class Intensity> void check_certified(const std::string& name, Intensity intensity)
 {
-    const auto error = [&](const moments& c, float z_f) {
+    const auto error = [&](const channels& c, float z_f) {
         return std::abs(double(intensity(c, z_f)) - intensity(in_double(c), double(z_f)));
     };
     climb_error<Format>("storage/moments4.h", "float, " + name, error);
@@ -157,15 +162,18 @@ TEST_CASE("four moments in float have their stated errors where a climb finds th
     climb_bounds<moments4_unorm16>("hankel4_from_unorm16", [](auto c) { return hankel4_from_unorm16(c); });
     climb_bounds<moments4_unorm16>("hankel4_from_unorm16_filtered",
                                    [](auto c) { return hankel4_from_unorm16_filtered(c); });
-    check_certified<moments4_float>("certified4_float", [](auto b, auto z) { return certified4_float(b, z); });
-    check_certified<moments4_float>("certified4_float_filtered",
-                                    [](auto b, auto z) { return certified4_float_filtered(b, z); });
-    check_certified<moments4_half>("certified4_half", [](auto b, auto z) { return certified4_half(b, z); });
-    check_certified<moments4_half>("certified4_half_filtered",
-                                   [](auto b, auto z) { return certified4_half_filtered(b, z); });
-    check_certified<moments4_unorm16>("certified4_unorm16", [](auto c, auto z) { return certified4_unorm16(c, z); });
-    check_certified<moments4_unorm16>("certified4_unorm16_filtered",
-                                      [](auto c, auto z) { return certified4_unorm16_filtered(c, z); });
+    check_certified<moments4_float>("moments4_float_intensity",
+                                    [](auto b, auto z) { return moments4_float_intensity(b, z); });
+    check_certified<moments4_float>("moments4_float_filtered_intensity",
+                                    [](auto b, auto z) { return moments4_float_filtered_intensity(b, z); });
+    check_certified<moments4_half>("moments4_half_intensity",
+                                   [](auto b, auto z) { return moments4_half_intensity(b, z); });
+    check_certified<moments4_half>("moments4_half_filtered_intensity",
+                                   [](auto b, auto z) { return moments4_half_filtered_intensity(b, z); });
+    check_certified<moments4_unorm16>("moments4_unorm16_intensity",
+                                      [](auto c, auto z) { return moments4_unorm16_intensity(c, z); });
+    check_certified<moments4_unorm16>("moments4_unorm16_filtered_intensity",
+                                      [](auto c, auto z) { return moments4_unorm16_filtered_intensity(c, z); });
 }
 
 namespace {
@@ -179,7 +187,7 @@ struct finding {
 template <class Format> void check_finding(const finding& f)
 {
     const float z_f = float(f.second);
-    const moments c = stored<Format>({{double(float(f.first)), double(z_f)}, {f.weight, 1 - f.weight}});
+    const channels c = stored<Format>({{double(float(f.first)), double(z_f)}, {f.weight, 1 - f.weight}});
     CHECK(double(hamburger4_lower(bench::hankel4_raised_from(Format{}, c), z_f)) ==
           doctest::Approx(f.shows).epsilon(0.02));
     CHECK(double(Format::intensity(c, z_f)) <= f.weight + Format::darkening);

@@ -8,7 +8,7 @@
 #include "support/moments_of.hpp"
 #include "support/statistics.hpp"
 
-#include <gnomon/storage/moments_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <doctest/doctest.h>
@@ -22,9 +22,9 @@ using namespace gnomon::test;
 namespace {
 
 /// The channels of a distribution, rounded to the format.
-template <class Format> moments6<float> stored(const distribution& d)
+template <class Format> channels6<float> stored(const distribution& d)
 {
-    return Format::decode(Format::encode(moments6_of(d)));
+    return Format::decode(Format::encode(Format::from_moments(moments6_of(d))));
 }
 
 template <class Format> struct stored_once {
@@ -49,34 +49,34 @@ template <class Format> struct filtered_twice {
     template <class Factor> static double darkness(const std::vector<double>& place, Factor factor)
     {
         const contact s = contact_at(place);
-        const float intensity = hamburger6_lower(factor(filtered_moments<format>(s)), float(s.receiver));
+        const float intensity = hamburger6_lower(factor(filtered_channels<format>(s)), float(s.receiver));
         return double(intensity) - s.below(s.receiver);
     }
 };
 
 struct float_once : stored_once<moments6_float> {
     static constexpr double weight = stored6_float_weight;
-    static hankel6<float> factor(moments6<float> b) { return hankel6_from_float(b); }
+    static hankel6<float> factor(channels6<float> c) { return hankel6_from_float(c); }
 };
 struct float_filtered : filtered_twice<moments6_float> {
     static constexpr double weight = stored6_float_filtered_weight;
-    static hankel6<float> factor(moments6<float> b) { return hankel6_from_float_filtered(b); }
+    static hankel6<float> factor(channels6<float> c) { return hankel6_from_float_filtered(c); }
 };
 struct unorm16_once : stored_once<moments6_unorm16> {
     static constexpr double weight = stored6_unorm16_weight;
-    static hankel6<float> factor(moments6<float> c) { return hankel6_from_unorm16(c); }
+    static hankel6<float> factor(channels6<float> c) { return hankel6_from_unorm16(c); }
 };
 struct unorm16_filtered : filtered_twice<moments6_unorm16> {
     static constexpr double weight = stored6_unorm16_filtered_weight;
-    static hankel6<float> factor(moments6<float> c) { return hankel6_from_unorm16_filtered(c); }
+    static hankel6<float> factor(channels6<float> c) { return hankel6_from_unorm16_filtered(c); }
 };
 struct unorm10_once : stored_once<moments6_unorm10> {
     static constexpr double weight = stored6_unorm10_weight;
-    static hankel6<float> factor(moments6<float> c) { return hankel6_from_unorm10(c); }
+    static hankel6<float> factor(channels6<float> c) { return hankel6_from_unorm10(c); }
 };
 struct unorm10_filtered : filtered_twice<moments6_unorm10> {
     static constexpr double weight = stored6_unorm10_filtered_weight;
-    static hankel6<float> factor(moments6<float> c) { return hankel6_from_unorm10_filtered(c); }
+    static hankel6<float> factor(channels6<float> c) { return hankel6_from_unorm10_filtered(c); }
 };
 
 constexpr std::int64_t evaluations = 200'000;
@@ -87,7 +87,7 @@ template <class Format, class Factor> void climb_error(const std::string& name, 
 {
     const summit top = climb(sight_dimensions, evaluations, 3, [&](const std::vector<double>& place) {
         const sight s = sight_at(place);
-        const moments6<float> c = stored<Format>(s.seen);
+        const channels6<float> c = stored<Format>(s.seen);
         const hamburger_bounds<float> r = hamburger6_bounds(factor(c), float(s.receiver));
         const hamburger_bounds<double> exact = hamburger6_bounds(factor(in_double(c)), s.receiver);
         return std::max(std::abs(double(r.lower) - exact.lower), std::abs(double(r.upper) - exact.upper));
@@ -112,7 +112,9 @@ TEST_CASE_TEMPLATE("a lit surface is never darkened", Preset, float_once, float_
 
 TEST_CASE("the climber finds that raised pivots darken, and the weight for one rounding after three")
 {
-    const auto raised = [](auto b) { return bench::hankel6_raised(b, float(bench::raised6_float_noise)); };
+    const auto raised = [](auto c) {
+        return bench::hankel6_raised(moments6_from_channels(c), float(bench::raised6_float_noise));
+    };
     const auto float_unfiltered = [](auto b) { return hankel6_from_float(b); };
     const auto unorm10_unfiltered = [](auto c) { return hankel6_from_unorm10(c); };
     const auto darkest = [](auto preset, auto factor) {
@@ -196,9 +198,10 @@ TEST_CASE("hankel6_minor has its stated error where a climb finds the largest")
 
 TEST_CASE("six moments in float have their stated errors where a climb finds the largest")
 {
-    climb_error<moments6_float>("float, hankel6_constant_bias at 5e-6", [](auto b) {
-        using T = decltype(b.b1);
-        return hankel6_constant_bias(b, T(bias6_raw_b2), T(bias6_raw_b4), T(bias6_raw_b6), T(5e-6f));
+    climb_error<moments6_float>("float, hankel6_constant_bias at 5e-6", [](auto c) {
+        using T = decltype(c.c1);
+        return hankel6_constant_bias(moments6_from_channels(c), T(bias6_raw_b2), T(bias6_raw_b4), T(bias6_raw_b6),
+                                     T(5e-6f));
     });
     climb_error<moments6_float>("float, hankel6_from_float", [](auto b) { return hankel6_from_float(b); });
     climb_error<moments6_float>("float, hankel6_from_float_filtered",

@@ -7,8 +7,8 @@
 #include "support/moments_of.hpp"
 #include "support/oracle.hpp"
 
+#include <gnomon/storage/formats.hpp>
 #include <gnomon/storage/moments4_within.h>
-#include <gnomon/storage/moments_formats.hpp>
 
 #include <doctest/doctest.h>
 
@@ -20,7 +20,7 @@ using namespace gnomon::test;
 
 namespace {
 
-using moments = moments4<float>;
+using channels = channels4<float>;
 
 struct interval {
     float least, greatest;
@@ -44,21 +44,21 @@ template <class Depths> interval known(knowledge k, const Depths& depths)
     }
 }
 
-float within(const moments4_unorm16&, const moments& c, interval i, float z_f)
+float within(const moments4_unorm16&, const channels& c, interval i, float z_f)
 {
-    return certified4_unorm16_within(c, i.least, i.greatest, z_f);
+    return moments4_unorm16_intensity_within(c, i.least, i.greatest, z_f);
 }
-float within(const moments4_half&, const moments& b, interval i, float z_f)
+float within(const moments4_half&, const channels& b, interval i, float z_f)
 {
-    return certified4_half_within(b, i.least, i.greatest, z_f);
+    return moments4_half_intensity_within(b, i.least, i.greatest, z_f);
 }
-float filtered_within(const moments4_unorm16&, const moments& c, interval i, float z_f)
+float filtered_within(const moments4_unorm16&, const channels& c, interval i, float z_f)
 {
-    return certified4_unorm16_filtered_within(c, i.least, i.greatest, z_f);
+    return moments4_unorm16_filtered_intensity_within(c, i.least, i.greatest, z_f);
 }
-float filtered_within(const moments4_half&, const moments& b, interval i, float z_f)
+float filtered_within(const moments4_half&, const channels& b, interval i, float z_f)
 {
-    return certified4_half_filtered_within(b, i.least, i.greatest, z_f);
+    return moments4_half_filtered_intensity_within(b, i.least, i.greatest, z_f);
 }
 
 } // namespace
@@ -69,14 +69,14 @@ TEST_CASE_TEMPLATE("a certificate with the depths of its region never darkens a 
     for (const knowledge k : {signed_depth, eight_bits, exact}) {
         const summit once = climb(sight_dimensions, 100'000, 1, [&](const std::vector<double>& place) {
             const sight s = sight_at(place);
-            const moments c = Format::decode(Format::encode(moments4_of(s.seen)));
+            const channels c = Format::decode(Format::encode(Format::from_moments(moments4_of(s.seen))));
             return double(within(Format{}, c, known(k, s.seen.depths), float(s.receiver))) - s.seen.below(s.receiver);
         });
         const summit passes = climb(contact_dimensions, 50'000, 2, [&](const std::vector<double>& place) {
             const contact s = contact_at(place);
             std::vector<float> depths;
             for (const auto& row : s.depths) depths.insert(depths.end(), row.begin(), row.end());
-            const moments c = filtered_moments<Format>(s);
+            const channels c = filtered_channels<Format>(s);
             return double(filtered_within(Format{}, c, known(k, depths), float(s.receiver))) - s.below(s.receiver);
         });
         std::printf("%s, knowledge %d: darkness %.3g, after two passes %.3g\n", std::string(Format::name).c_str(), k,
@@ -98,7 +98,8 @@ TEST_CASE("the more is known of the depths of a region, the less light leaks, by
             const distribution d = source.draw(family(f));
             const double on = d.depths[std::size_t(source.uniform(0, double(d.depths.size()) * 0.9999999))];
             const std::array<double, 3> receivers = {source.receiver(d), on, source.uniform(-1, 1)};
-            const moments c = moments4_unorm16::decode(moments4_unorm16::encode(moments4_of(d)));
+            const channels c =
+                moments4_unorm16::decode(moments4_unorm16::encode(moments4_unorm16::from_moments(moments4_of(d))));
             for (std::size_t r = 0; r < 3; ++r) {
                 const float z_f = float(receivers[r]);
                 const double truth = d.below(double(z_f));
@@ -127,7 +128,7 @@ TEST_CASE("dither on store and filtering in float leak less, by the stated amoun
     constexpr int count = 4000;
     bit_source bits(11);
     double plain = 0, dithered = 0, darkest = -1;
-    const auto shown = [](const moments& c, double noise, float z_f) {
+    const auto shown = [](const channels& c, double noise, float z_f) {
         return double(certified4_theta_lower(hankel4_stored_as_unorm16(c, float(certified4_unorm16_weight)), c,
                                              float(noise), z_f));
     };
@@ -136,16 +137,16 @@ TEST_CASE("dither on store and filtering in float leak less, by the stated amoun
         for (double& x : place) x = bits.uniform(0, 1);
         const contact s = contact_at(place);
         const auto filtered = [&](double amplitude) {
-            moments sum{};
+            moments4<float> sum{};
             for (std::size_t j = 0; j < 9; ++j)
                 for (std::size_t k = 0; k < 9; ++k) {
-                    moments c = theta4(moments4_from_depth(s.depths[j][k]));
-                    for (float* channel : {&c.b1, &c.b2, &c.b3, &c.b4})
+                    channels c = moments4_unorm16::from_depth(s.depths[j][k]);
+                    for (float* channel : {&c.c1, &c.c2, &c.c3, &c.c4})
                         *channel += float(bits.uniform(-amplitude, amplitude));
-                    const moments stored = moments4_unorm16::decode(moments4_unorm16::encode_channels(c));
-                    sum = moments4_add(sum, stored, s.taps[j] * s.taps[k]);
+                    const channels stored = moments4_unorm16::decode(moments4_unorm16::encode(c));
+                    sum = moments4_add(sum, moments4_from_channels(stored), s.taps[j] * s.taps[k]);
                 }
-            return sum;
+            return channels4_from_moments(sum);
         };
         const float z_f = float(s.receiver);
         distribution seen;

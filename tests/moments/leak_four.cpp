@@ -11,7 +11,7 @@
 #include "support/honest_limit.hpp"
 #include "support/oracle.hpp"
 
-#include <gnomon/storage/moments_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 #include <doctest/doctest.h>
 
@@ -23,6 +23,7 @@ using namespace gnomon::test;
 namespace {
 
 using moments = moments4<float>;
+using channels = channels4<float>;
 
 /// A format: half a code of each channel, b* and r of bias.h, and the vector and weight of the paper, which has no
 /// weight for half floats.
@@ -55,13 +56,13 @@ template <class Format> double norm_of(const Format& f, const quartic& p)
     return storage_of(f).delta * (std::abs(p[1]) + std::abs(p[2]) + std::abs(p[3]) + std::abs(p[4]));
 }
 
-moments raw(const moments4_unorm16&, const moments& c) { return theta4_inverse(c); }
-template <class Format> moments raw(const Format&, const moments& b) { return b; }
+moments raw(const moments4_unorm16&, const channels& c) { return theta4_inverse(c); }
+template <class Format> moments raw(const Format&, const channels& c) { return moments4_from_channels(c); }
 
 enum route { limit, certified, constant, paper, raised_pivots };
 constexpr std::size_t routes = 5;
 
-template <class Format> double shown(route w, const Format& f, const moments& c, double z_f)
+template <class Format> double shown(route w, const Format& f, const channels& c, double z_f)
 {
     const storage s = storage_of(f);
     const float z = float(z_f);
@@ -120,7 +121,8 @@ template <class Format> scores score(const Format& f, const std::vector<view>& l
     scores r;
     for (const view& v : list) {
         const auto b = exact_moments<4>(v.d);
-        const moments c = Format::decode(Format::encode({float(b[1]), float(b[2]), float(b[3]), float(b[4])}));
+        const moments exact{float(b[1]), float(b[2]), float(b[3]), float(b[4])};
+        const channels c = Format::decode(Format::encode(Format::from_moments(exact)));
         for (std::size_t w = 0; w < routes; ++w) {
             const double result = shown(route(w), f, c, v.z_f);
             r.leak[w] += std::max(0.0, v.ideal - result) / double(list.size());

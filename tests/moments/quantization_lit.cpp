@@ -3,8 +3,9 @@
 // the format again.
 #include "support/effort.hpp"
 #include "support/hostile.hpp"
+#include "support/moments_of.hpp"
 
-#include <gnomon/storage/moments_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 #include <doctest/doctest.h>
 
@@ -18,13 +19,6 @@ using namespace gnomon::test;
 
 namespace {
 
-moments4<float> moments_of_depth(const moments4<float>*, float z) { return moments4_from_depth(z); }
-moments6<float> moments_of_depth(const moments6<float>*, float z) { return moments6_from_depth(z); }
-moments4<float> scale(const moments4<float>& b, float w) { return moments4_scale(b, w); }
-moments6<float> scale(const moments6<float>& b, float w) { return moments6_scale(b, w); }
-moments4<float> add(const moments4<float>& sum, const moments4<float>& b, float w) { return moments4_add(sum, b, w); }
-moments6<float> add(const moments6<float>& sum, const moments6<float>& b, float w) { return moments6_add(sum, b, w); }
-
 /// The nine taps of a Gaussian, normalised in float.
 std::array<float, 9> gaussian()
 {
@@ -35,18 +29,13 @@ std::array<float, 9> gaussian()
     return taps;
 }
 
-template <class Format> typename Format::texel surface(float z)
-{
-    return Format::encode(moments_of_depth(static_cast<typename Format::moments*>(nullptr), z));
-}
+template <class Format> typename Format::texel surface(float z) { return Format::encode(Format::from_depth(z)); }
 
 /// The texel that one pass makes of nine.
 template <class Format> typename Format::texel filtered_line(const std::array<typename Format::texel, 9>& row)
 {
     static const std::array<float, 9> taps = gaussian();
-    auto sum = scale(Format::decode(row[0]), taps[0]);
-    for (std::size_t i = 1; i < 9; ++i) sum = add(sum, Format::decode(row[i]), taps[i]);
-    return Format::encode_channels(sum);
+    return Format::encode(weighted_sum<Format>(row, taps));
 }
 
 /// The texel of a plane z + i x + j y over 9x9 texels after both passes.

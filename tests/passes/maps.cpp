@@ -5,8 +5,7 @@
 #include <gnomon/passes/blur.hpp>
 #include <gnomon/passes/look_up.hpp>
 #include <gnomon/passes/mips.hpp>
-#include <gnomon/storage/filters_formats.hpp>
-#include <gnomon/storage/moments_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 #include <doctest/doctest.h>
 
@@ -142,7 +141,7 @@ TEST_CASE("blur is both passes, in place too; padding stays untouched; a constan
     blur<format>(map.view, scratch.view, map.view, weights);
     for (std::size_t y = 0; y < 23; ++y)
         for (std::size_t x = 0; x < 37; ++x) REQUIRE(map.view(x, y) == second.view(x, y));
-    for (auto& t : map.texels) t = format::encode(moments4_from_depth(0.3f));
+    for (auto& t : map.texels) t = format::encode(format::from_depth(0.3f));
     const auto constant = map.texels;
     blur<format>(map.view, scratch.view, map.view, weights);
     CHECK(same_bytes(map.texels, constant));

@@ -3,7 +3,7 @@
 #include "support/effort.hpp"
 #include "support/hostile.hpp"
 
-#include <gnomon/storage/moments_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 #include <doctest/doctest.h>
 
@@ -16,11 +16,7 @@ using namespace gnomon::test;
 
 namespace {
 
-template <class Format> constexpr std::size_t channel_count = sizeof(typename Format::moments) / sizeof(float);
 template <class Format> constexpr std::uint32_t codes = std::is_same_v<Format, moments6_unorm10> ? 1024 : 65536;
-
-std::array<float, 4> numbers(const moments4<float>& b) { return {b.b1, b.b2, b.b3, b.b4}; }
-std::array<float, 6> numbers(const moments6<float>& b) { return {b.b1, b.b2, b.b3, b.b4, b.b5, b.b6}; }
 
 /// A texel that holds the code in every channel, other codes beside it.
 template <class Format> typename Format::texel texel_of(const std::array<std::uint32_t, channel_count<Format>>& code)
@@ -50,9 +46,10 @@ TEST_CASE_TEMPLATE("every code round-trips in every channel", Format, moments4_u
             all[j] = code;
             const auto t = texel_of<Format>(all);
             const auto c = Format::decode(t);
-            REQUIRE(Format::encode_channels(c) == t);
+            REQUIRE(Format::encode(c) == t);
             if (!is_half<Format>)
-                REQUIRE(std::abs(double(numbers(c)[j]) - double(code) / (codes<Format> - 1)) <= 0x1p-24);
+                REQUIRE(std::abs(double(std::bit_cast<channel_array<Format>>(c)[j]) -
+                                 double(code) / (codes<Format> - 1)) <= 0x1p-24);
         }
     }
 }
@@ -64,7 +61,7 @@ TEST_CASE_TEMPLATE("floats are stored as they are", Format, moments4_float, mome
         const auto x = source.draw();
         typename Format::texel t;
         std::copy_n(x.begin(), t.size(), t.begin());
-        const auto back = Format::encode_channels(Format::decode(t));
+        const auto back = Format::encode(Format::decode(t));
         for (std::size_t j = 0; j < t.size(); ++j) REQUIRE((back[j] == t[j] || std::isnan(t[j])));
     }
 }
@@ -92,10 +89,9 @@ TEST_CASE_TEMPLATE("numbers outside the range, and NaN, have a code", Format, mo
 {
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
     const auto filled = [](float x) {
-        typename Format::moments c{};
-        if constexpr (channel_count<Format> == 4) c = {x, x, x, x};
-        else c = {x, x, x, x, x, x};
-        return Format::encode_channels(c);
+        channel_array<Format> c;
+        c.fill(x);
+        return Format::encode(std::bit_cast<format_channels<Format>>(c));
     };
     CHECK(filled(-1) == filled(0));
     CHECK(filled(-infinity) == filled(0));

@@ -11,7 +11,10 @@
 #include "prisms.hpp"
 #include "situations.hpp"
 
-#include <gnomon/filters/convolution.h>
+#include <gnomon/storage/convolution.h>
+#include <gnomon/storage/exponential.h>
+#include <gnomon/storage/layered_variance.h>
+#include <gnomon/storage/variance.h>
 
 #include <array>
 #include <cmath>
@@ -69,6 +72,22 @@ inline constexpr input_family<T> input_families[] = {
     {"moments6", 6, [](auto put, const situation& s, bit_source&) { put(moments6_in<T>(s)); }},
     {"channels4", 4, [](auto put, const situation& s, bit_source&) { put(theta4(moments4_in<T>(s))); }},
     {"channels6", 6, [](auto put, const situation& s, bit_source&) { put(theta6(moments6_in<T>(s))); }},
+    {"channels1", 1,
+     [](auto put, const situation& s, bit_source& bits) {
+         put(mixture<T>(s, bits, [](T z) { return exponential_float_encode(z); }));
+     }},
+    {"channels2", 2,
+     [](auto put, const situation& s, bit_source& bits) {
+         put(mixture<T>(s, bits, [](T z) { return variance_unorm16_encode(z); }));
+     }},
+    {"channels8", 8,
+     [](auto put, const situation& s, bit_source& bits) {
+         put(mixture<T>(s, bits, [](T z) { return layered_variance_unorm16_encode(z); }));
+     }},
+    {"channels32", 32,
+     [](auto put, const situation& s, bit_source& bits) {
+         put(mixture<T>(s, bits, [](T z) { return convolution_unorm8_encode(z); }));
+     }},
     {"interval", 2,
      [](auto put, const situation& s, bit_source& bits) {
          const double reach = std::exp2(bits.uniform(-20, 0));

@@ -4,8 +4,10 @@
 #include "contacts.hpp"
 
 #include <gnomon/moments/moments.h>
+#include <gnomon/storage/format.hpp>
 
-#include <type_traits>
+#include <array>
+#include <bit>
 
 namespace gnomon::test {
 
@@ -45,26 +47,45 @@ template <class T> moments6<double> in_double(const moments6<T>& b)
 {
     return {double(b.b1), double(b.b2), double(b.b3), double(b.b4), double(b.b5), double(b.b6)};
 }
+template <class T> channels4<double> in_double(const channels4<T>& c)
+{
+    return {double(c.c1), double(c.c2), double(c.c3), double(c.c4)};
+}
+template <class T> channels6<double> in_double(const channels6<T>& c)
+{
+    return {double(c.c1), double(c.c2), double(c.c3), double(c.c4), double(c.c5), double(c.c6)};
+}
+
+/// The channels of a distribution, rounded once to the format.
+template <class Format> format_channels<Format> stored_channels(const distribution& d)
+{
+    const auto moments = moments_of<channel_count<Format>>(d);
+    if constexpr (channel_count<Format> == 4)
+        return Format::decode(Format::encode(Format::from_moments(moments4_in<float>(moments))));
+    else return Format::decode(Format::encode(Format::from_moments(moments6_in<float>(moments))));
+}
+
+/// The weighted sum of nine texels' channels, in float.
+template <class Format>
+format_channels<Format> weighted_sum(const std::array<format_texel<Format>, 9>& texels,
+                                     const std::array<float, 9>& taps)
+{
+    channel_array<Format> sum{};
+    for (std::size_t i = 0; i < 9; ++i) {
+        const auto c = std::bit_cast<channel_array<Format>>(Format::decode(texels[i]));
+        for (std::size_t k = 0; k < sum.size(); ++k) sum[k] = sum[k] + c[k] * taps[i];
+    }
+    return std::bit_cast<format_channels<Format>>(sum);
+}
 
 /// The channels at the centre of a scene, rounded to the format when rendered and after each of two filter passes,
 /// which sum in float.
-template <class Format> typename Format::moments filtered_moments(const contact& scene)
+template <class Format> format_channels<Format> filtered_channels(const contact& scene)
 {
-    constexpr bool four = std::is_same_v<typename Format::moments, moments4<float>>;
-    const auto pass = [&](const auto& texels) {
-        typename Format::moments sum{};
-        for (std::size_t i = 0; i < 9; ++i)
-            if constexpr (four) sum = moments4_add(sum, Format::decode(texels[i]), scene.taps[i]);
-            else sum = moments6_add(sum, Format::decode(texels[i]), scene.taps[i]);
-        return Format::encode_channels(sum);
-    };
-    const auto rendered = [](float z) {
-        if constexpr (four) return Format::encode(moments4_from_depth(z));
-        else return Format::encode(moments6_from_depth(z));
-    };
-    std::array<typename Format::texel, 9> row{}, column{};
+    const auto pass = [&](const auto& texels) { return Format::encode(weighted_sum<Format>(texels, scene.taps)); };
+    std::array<format_texel<Format>, 9> row{}, column{};
     for (std::size_t j = 0; j < 9; ++j) {
-        for (std::size_t i = 0; i < 9; ++i) row[i] = rendered(scene.depths[j][i]);
+        for (std::size_t i = 0; i < 9; ++i) row[i] = Format::encode(Format::from_depth(scene.depths[j][i]));
         column[j] = pass(row);
     }
     return Format::decode(pass(column));

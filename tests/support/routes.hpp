@@ -86,7 +86,7 @@ template <class Intensity> struct intensity_route4 : route_shape<1, 0> {
     Intensity intensity;
     template <class Real> results<Real> operator()(const route_numbers<Real>& x) const
     {
-        return {intensity(moments4<Real>{x[0], x[1], x[2], x[3]}, x[6])};
+        return {intensity(channels4<Real>{x[0], x[1], x[2], x[3]}, x[6])};
     }
 };
 
@@ -113,27 +113,30 @@ template <class F> void for_each_route(F f)
         return hankel4_constant_bias(b, GNOMON_TEST_SETTING(bias4_raw_paper_b2),
                                      GNOMON_TEST_SETTING(bias4_raw_paper_b4), GNOMON_TEST_SETTING(3e-7));
     });
-    four("hankel4_from_unorm16", [](auto b) { return hankel4_from_unorm16(b); });
-    four("hankel4_from_half", [](auto b) { return hankel4_from_half(b); });
-    four("hankel4_from_float", [](auto b) { return hankel4_from_float(b); });
-    const auto certified = [&](const char* name, auto intensity) {
+    four("hankel4_from_unorm16", [](auto b) { return hankel4_from_unorm16(channels4_from_moments(b)); });
+    four("hankel4_from_half", [](auto b) { return hankel4_from_half(channels4_from_moments(b)); });
+    four("hankel4_from_float", [](auto b) { return hankel4_from_float(channels4_from_moments(b)); });
+    const auto stored = [&](const char* name, auto intensity) {
         f(intensity_route4<decltype(intensity)>{{}, name, intensity});
     };
-    certified("certified4_unorm16", [](auto b, auto z_f) { return certified4_unorm16(b, z_f); });
-    certified("certified4_half", [](auto b, auto z_f) { return certified4_half(b, z_f); });
-    certified("certified4_half_filtered", [](auto b, auto z_f) { return certified4_half_filtered(b, z_f); });
-    certified("certified4_float", [](auto b, auto z_f) { return certified4_float(b, z_f); });
+    stored("moments4_unorm16_intensity", [](auto b, auto z_f) { return moments4_unorm16_intensity(b, z_f); });
+    stored("moments4_half_intensity", [](auto b, auto z_f) { return moments4_half_intensity(b, z_f); });
+    stored("moments4_half_filtered_intensity",
+           [](auto b, auto z_f) { return moments4_half_filtered_intensity(b, z_f); });
+    stored("moments4_float_intensity", [](auto b, auto z_f) { return moments4_float_intensity(b, z_f); });
     six("hankel6_from_moments", [](auto b) { return hankel6_from_moments(b); });
     six("hankel6_constant_bias", [](auto b) {
         return hankel6_constant_bias(b, GNOMON_TEST_SETTING(bias6_raw_b2), GNOMON_TEST_SETTING(bias6_raw_b4),
                                      GNOMON_TEST_SETTING(bias6_raw_b6), GNOMON_TEST_SETTING(5e-6));
     });
-    six("hankel6_from_unorm10", [](auto b) { return hankel6_from_unorm10(b); });
-    six("hankel6_from_unorm10_filtered", [](auto b) { return hankel6_from_unorm10_filtered(b); });
-    six("hankel6_from_unorm16", [](auto b) { return hankel6_from_unorm16(b); });
-    six("hankel6_from_unorm16_filtered", [](auto b) { return hankel6_from_unorm16_filtered(b); });
-    six("hankel6_from_float", [](auto b) { return hankel6_from_float(b); });
-    six("hankel6_from_float_filtered", [](auto b) { return hankel6_from_float_filtered(b); });
+    six("hankel6_from_unorm10", [](auto b) { return hankel6_from_unorm10(channels6_from_moments(b)); });
+    six("hankel6_from_unorm10_filtered",
+        [](auto b) { return hankel6_from_unorm10_filtered(channels6_from_moments(b)); });
+    six("hankel6_from_unorm16", [](auto b) { return hankel6_from_unorm16(channels6_from_moments(b)); });
+    six("hankel6_from_unorm16_filtered",
+        [](auto b) { return hankel6_from_unorm16_filtered(channels6_from_moments(b)); });
+    six("hankel6_from_float", [](auto b) { return hankel6_from_float(channels6_from_moments(b)); });
+    six("hankel6_from_float_filtered", [](auto b) { return hankel6_from_float_filtered(channels6_from_moments(b)); });
     f(two_point_route{});
 }
 

@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 namespace gnomon::test {
@@ -40,6 +41,20 @@ inline std::vector<situation> draw_situations(std::size_t count, std::uint64_t s
 template <class T> moments4<T> moments4_in(const situation& s) { return moments4_in<T>(s.b); }
 template <class T> moments6<T> moments6_in(const situation& s) { return moments6_in<T>(s.b); }
 
+/// The channels of a format as encode gives them, averaged over two depths.
+template <class T, class Encode> auto mixture(const situation& s, bit_source& bits, Encode encode)
+{
+    auto channels = encode(T(s.texel));
+    const auto other = encode(T(s.b[0]));
+    std::array<T, sizeof channels / sizeof(T)> a, b;
+    std::memcpy(a.data(), &channels, sizeof channels);
+    std::memcpy(b.data(), &other, sizeof other);
+    const T weight = T(bits.uniform(0, 1));
+    for (std::size_t k = 0; k < a.size(); ++k) a[k] = a[k] + weight * (b[k] - a[k]);
+    std::memcpy(&channels, a.data(), sizeof channels);
+    return channels;
+}
+
 template <class T> double any_number(bit_source& bits)
 {
     if (bits.chance(0.1)) return double(bits.below(9)) - 4;
@@ -61,11 +76,11 @@ template <class T> hankel4<T> any_hankel4(const situation& s, bit_source& bits)
         case 0:
             return hankel4_from_moments(b);
         case 1:
-            return hankel4_from_half(b);
+            return hankel4_from_half(channels4_from_moments(b));
         case 2:
             return hankel4_constant_bias(b, T(bias4_raw_b2), T(bias4_raw_b4), T(stored4_float_weight));
         default:
-            return hankel4_from_float(b);
+            return hankel4_from_float(channels4_from_moments(b));
     }
 }
 
@@ -78,7 +93,7 @@ template <class T> hankel6<T> any_hankel6(const situation& s, bit_source& bits)
         case 1:
             return hankel6_constant_bias(b, T(bias6_raw_b2), T(bias6_raw_b4), T(bias6_raw_b6), T(stored6_float_weight));
         default:
-            return hankel6_from_float(b);
+            return hankel6_from_float(channels6_from_moments(b));
     }
 }
 

@@ -4,29 +4,19 @@
 
 #include "percentage_closer.hpp"
 
-#include <gnomon/moments/moments.h>
 #include <gnomon/passes/blur.hpp>
 #include <gnomon/passes/look_up.hpp>
 #include <gnomon/passes/mips.hpp>
 
 #include <array>
 #include <bit>
-#include <concepts>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 namespace gnomon::evaluation {
 
-// What filters average, before any transform of the format.
-template <class Format> typename Format::moments moments_of_depth(float z)
-{
-    if constexpr (requires { Format::moments_of_depth(z); }) return Format::moments_of_depth(z);
-    else if constexpr (std::same_as<typename Format::moments, moments4<float>>) return moments4_from_depth(z);
-    else return moments6_from_depth(z);
-}
-
-template <class Format> class filtered_map {
+template <storage_format Format> class filtered_map {
   public:
     using texel = typename Format::texel;
 
@@ -56,10 +46,10 @@ template <class Format> class filtered_map {
     {
         channel_array<Format> mean{};
         for (const float z : depths) {
-            const auto moments = std::bit_cast<channel_array<Format>>(moments_of_depth<Format>(z));
-            for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += 0.25f * moments[k];
+            const auto channels = std::bit_cast<channel_array<Format>>(Format::from_depth(z));
+            for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += 0.25f * channels[k];
         }
-        return Format::encode(std::bit_cast<typename Format::moments>(mean));
+        return store_channels<Format>(mean);
     }
 
     std::size_t width_, height_;

@@ -1,7 +1,7 @@
 // Convolution shadow maps of 16 terms (Annen et al. 2007).
 #include "filterable.hpp"
 
-#include <gnomon/storage/filters_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 namespace gnomon::evaluation {
 

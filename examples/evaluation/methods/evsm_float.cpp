@@ -1,7 +1,7 @@
 // Exponential variance shadow maps in floats (Lauritzen & McCool 2008).
 #include "filterable.hpp"
 
-#include <gnomon/storage/filters_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 namespace gnomon::evaluation {
 

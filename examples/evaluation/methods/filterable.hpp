@@ -27,19 +27,13 @@
 
 namespace gnomon::evaluation {
 
-// Channels of a format in another arithmetic.
-template <class Channels, class Real> struct rebound;
-template <template <class> class Channels, class Real> struct rebound<Channels<float>, Real> {
-    using type = Channels<Real>;
-};
-
 inline const registered<map_kind> filtered_map_kind{
     map_kind{.id = "filtered", .label = "filtered map with mip levels", .order = 20}};
 
-template <class Format> class filterable_map final : public shadow_map {
+template <storage_format Format> class filterable_map final : public shadow_map {
   public:
     using pack = xsimd::batch<float>;
-    template <class Real> using channels = typename rebound<typename Format::moments, Real>::type;
+    template <class Real> using channels = format_channels<Format, Real>;
 
     filterable_map(const depth_map& depths, std::span<const float> taps) : map_(depths, taps) {}
 
@@ -60,9 +54,7 @@ template <class Format> class filterable_map final : public shadow_map {
 
     template <class Real> static Real intensity(const channels<Real>& filtered, Real z_f)
     {
-        if constexpr (requires { Format::filtered_intensity(filtered, z_f); })
-            return Format::filtered_intensity(filtered, z_f);
-        else return Format::intensity(filtered, z_f);
+        return Format::filtered_intensity(filtered, z_f);
     }
 
   private:
@@ -121,7 +113,7 @@ template <class Format> class filterable_map final : public shadow_map {
     filtered_map<Format> map_;
 };
 
-template <class Format> class filterable final : public filterable_method {
+template <storage_format Format> class filterable final : public filterable_method {
   public:
     explicit filterable(method_facts facts, std::optional<device_form> form = {})
         : filterable_method(completed(std::move(facts)), std::move(form))
@@ -134,19 +126,16 @@ template <class Format> class filterable final : public filterable_method {
 
     channels from_depth(float z) const override
     {
-        return listed(Format::decode(Format::encode(moments_of_depth<Format>(z))));
+        return listed(Format::decode(Format::encode(Format::from_depth(z))));
     }
-    channels store(const channels& mean) const override
-    {
-        return listed(Format::decode(Format::encode_channels(texel(mean))));
-    }
+    channels store(const channels& mean) const override { return listed(Format::decode(Format::encode(texel(mean)))); }
     float intensity(const channels& filtered, float z_f) const override
     {
         return filterable_map<Format>::template intensity<float>(texel(filtered), z_f);
     }
 
   private:
-    using texel_channels = typename Format::moments;
+    using texel_channels = format_channels<Format>;
 
     static method_facts completed(method_facts facts)
     {

@@ -1,7 +1,7 @@
 // Moment shadow maps of four moments in floats.
 #include "filterable.hpp"
 
-#include <gnomon/storage/moments_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 namespace gnomon::evaluation {
 

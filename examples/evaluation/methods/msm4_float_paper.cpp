@@ -2,17 +2,18 @@
 #include "filterable.hpp"
 
 #include <gnomon/comparators/hamburger_cholesky.h>
-#include <gnomon/storage/moments_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 namespace gnomon::evaluation {
 
 namespace {
 
 struct paper_bias : moments4_float {
-    template <class Real> static Real filtered_intensity(const moments4<Real>& channels, Real z_f)
+    template <class Real> static Real filtered_intensity(const channels4<Real>& channels, Real z_f)
     {
-        const moments4<Real> biased = moments4_add_bias(channels, literal<Real>(bias4_raw_paper_b2),
-                                                        literal<Real>(bias4_raw_paper_b4), literal<Real>(3e-7));
+        const moments4<Real> biased =
+            moments4_add_bias(moments4_from_channels(channels), literal<Real>(bias4_raw_paper_b2),
+                              literal<Real>(bias4_raw_paper_b4), literal<Real>(3e-7));
         return hamburger4_cholesky_intensity(biased, z_f);
     }
 };

@@ -2,19 +2,23 @@
 #include "filterable.hpp"
 
 #include <gnomon/comparators/hamburger_cholesky.h>
-#include <gnomon/storage/moments_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 namespace gnomon::evaluation {
 
 namespace {
 
 struct unit_depth : moments4_float {
-    static moments moments_of_depth(float z) { return moments4_from_depth(0.5f * z + 0.5f); }
-    template <class Real> static Real filtered_intensity(moments4<Real> channels, Real z_f)
+    template <class Real> static channels4<Real> from_depth(Real z)
     {
-        for (Real* moment : {&channels.b1, &channels.b2, &channels.b3, &channels.b4})
+        return moments4_float_encode(Real(0.5f) * z + Real(0.5f));
+    }
+    template <class Real> static Real filtered_intensity(const channels4<Real>& channels, Real z_f)
+    {
+        moments4<Real> b = moments4_from_channels(channels);
+        for (Real* moment : {&b.b1, &b.b2, &b.b3, &b.b4})
             *moment = *moment + literal<Real>(2e-6) * (Real(0.5f) - *moment);
-        return hamburger4_cholesky_intensity(channels, Real(0.5f) * z_f + Real(0.5f));
+        return hamburger4_cholesky_intensity(b, Real(0.5f) * z_f + Real(0.5f));
     }
 };
 

@@ -2,14 +2,14 @@
 #include "filterable.hpp"
 
 #include <gnomon/comparators/hamburger_cholesky.h>
-#include <gnomon/storage/moments_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 namespace gnomon::evaluation {
 
 namespace {
 
 struct paper_bias : moments4_unorm16 {
-    template <class Real> static Real filtered_intensity(const moments4<Real>& channels, Real z_f)
+    template <class Real> static Real filtered_intensity(const channels4<Real>& channels, Real z_f)
     {
         const moments4<Real> biased = moments4_add_bias(theta4_inverse(channels), literal<Real>(bias4_theta_paper_b2),
                                                         literal<Real>(bias4_theta_paper_b4), literal<Real>(6e-5));

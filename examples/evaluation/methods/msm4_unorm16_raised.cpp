@@ -7,7 +7,7 @@ namespace gnomon::evaluation {
 namespace {
 
 struct raised_pivots : moments4_unorm16 {
-    template <class Real> static Real filtered_intensity(const moments4<Real>& channels, Real z_f)
+    template <class Real> static Real filtered_intensity(const channels4<Real>& channels, Real z_f)
     {
         return hamburger4_lower(bench::hankel4_raised_from(moments4_unorm16{}, channels), z_f);
     }

@@ -4,7 +4,7 @@
 #ifndef GNOMON_BENCH_RAISED_PIVOTS4_HPP
 #define GNOMON_BENCH_RAISED_PIVOTS4_HPP
 
-#include <gnomon/storage/moments_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 namespace gnomon::bench {
 
@@ -39,17 +39,18 @@ template <class Real> GNOMON_INLINE constexpr hankel4<Real> hankel4_raised_fast(
 }
 
 template <class Real>
-GNOMON_INLINE constexpr hankel4<Real> hankel4_raised_from(const moments4_unorm16&, moments4<Real> c)
+GNOMON_INLINE constexpr hankel4<Real> hankel4_raised_from(const moments4_unorm16&, channels4<Real> c)
 {
     return hankel4_raised_fast(theta4_inverse(c), raised4_unorm16_noise);
 }
-template <class Real> GNOMON_INLINE constexpr hankel4<Real> hankel4_raised_from(const moments4_half&, moments4<Real> b)
+template <class Real> GNOMON_INLINE constexpr hankel4<Real> hankel4_raised_from(const moments4_half&, channels4<Real> c)
 {
-    return hankel4_raised_fast(b, raised4_half_noise);
+    return hankel4_raised_fast(moments4_from_channels(c), raised4_half_noise);
 }
-template <class Real> GNOMON_INLINE constexpr hankel4<Real> hankel4_raised_from(const moments4_float&, moments4<Real> b)
+template <class Real>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_raised_from(const moments4_float&, channels4<Real> c)
 {
-    return hankel4_raised(b, raised4_float_noise);
+    return hankel4_raised(moments4_from_channels(c), raised4_float_noise);
 }
 
 } // namespace gnomon::bench

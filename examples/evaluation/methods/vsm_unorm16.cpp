@@ -1,7 +1,7 @@
 // Variance shadow maps (Donnelly & Lauritzen 2006).
 #include "filterable.hpp"
 
-#include <gnomon/storage/filters_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 namespace gnomon::evaluation {
 

@@ -6,10 +6,8 @@
 #include "evaluation/vulkan/shaders/method_id.h"
 #include "renderer.hpp"
 
-#include <gnomon/storage/filters_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
-#include <array>
-#include <bit>
 #include <map>
 #include <string>
 #include <vector>
@@ -29,15 +27,17 @@ inline const device_method& on_device(const filterable_method& m)
 {
     using format = vk::Format;
     static const std::map<std::string, device_method> known{
-        {"vsm_unorm16", {VSM_32, {format::eR16G16Unorm}, {variance_unorm16::settings<float>().minimum_variance}}},
+        {"vsm_unorm16", {VSM_32, {format::eR16G16Unorm}, {float(variance_unorm16_minimum_variance)}}},
         {"evsm_half",
          {EVSM_64,
           {format::eR16G16B16A16Sfloat},
-          std::bit_cast<std::array<float, 3>>(exponential_variance_half::settings<float>())}},
+          {float(exponential_variance_half_exponent), float(exponential_variance_half_exponent),
+           float(exponential_variance_half_minimum_variance)}}},
         {"evsm_float",
          {EVSM_128,
           {format::eR32G32B32A32Sfloat},
-          std::bit_cast<std::array<float, 3>>(exponential_variance_float::settings<float>())}},
+          {float(exponential_variance_float_positive_exponent), float(exponential_variance_float_negative_exponent),
+           float(exponential_variance_float_minimum_variance)}}},
         {"msm4_unorm16", {MSM_64, {format::eR16G16B16A16Unorm}}},
         {"msm4_float", {MSM_128, {format::eR32G32B32A32Sfloat}}},
         {"msm6_unorm10", {MSM6_60, {format::eA2B10G10R10UnormPack32, format::eA2B10G10R10UnormPack32}}},

@@ -4,7 +4,7 @@
 // in which direction a stored half float is rounded, with how many bits a sampler weighs texels, how positions are
 // interpolated, and how finely corners are snapped to the grid of samples. All but the last move the moments by no more
 // than a few of the formats' roundings, which their biases and minimum variances are made to hide: on a lit surface
-// they show as 1% of intensity at most (storage/filters_formats.hpp). With corners snapped more coarsely than on the CPU, a
+// they show as 1% of intensity at most (storage/formats.hpp). With corners snapped more coarsely than on the CPU, a
 // straight edge may gain or lose one sample in each texel that it crosses, a quarter of a texel under the blur's
 // largest weight. Hence the tolerance: 99% of the receivers keep it, and those that do not lie at an edge of a surface
 // or of a shadow.

@@ -11,6 +11,6 @@ layout(binding = 1) writeonly uniform image2D map;
 void main()
 {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    moments4 b = theta4(moments4_from_depth(depth_from_unit(texelFetch(depths, p, 0).x)));
-    imageStore(map, p, vec4(b.b1, b.b2, b.b3, b.b4)); // the hardware rounds to 16 bits
+    channels4 c = moments4_unorm16_encode(depth_from_unit(texelFetch(depths, p, 0).x));
+    imageStore(map, p, vec4(c.c1, c.c2, c.c3, c.c4)); // the hardware rounds to 16 bits
 }

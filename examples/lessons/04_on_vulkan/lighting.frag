@@ -28,7 +28,7 @@ void main()
         float slope = length(to_light.xyz - cosine * normal) / cosine;
         vec4 t = textureLod(sampler2D(map, trilinear), uv, log2(footprint));
         float receiver = depth - to_light.w * footprint * min(slope, 6);
-        intensity = certified4_unorm16_filtered(moments4(t.x, t.y, t.z, t.w), receiver); // the shadow
+        intensity = moments4_unorm16_filtered_intensity(channels4(t.x, t.y, t.z, t.w), receiver); // the shadow
     }
     vec3 ambient = mix(earth.rgb, sky.rgb, 0.5 + 0.5 * normal.y);
     colour = vec4(albedo * (ambient + (1 - intensity) * max(cosine, 0) * sun.rgb), 1);

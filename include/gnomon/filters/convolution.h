@@ -2,7 +2,7 @@
 // and its Fourier series
 //     1/2 + sum_k w_k sin(a_k (z_f - z)),   w_k = 2 / (pi (2 k - 1)),   a_k = (2 k - 1) span pi / 2,   k = 1..terms,
 // separates into products of functions of z, which the map holds (a cosine and a sine per term), and functions of z_f.
-// Unlike the other filters it is no bound: the truncated series rings and leaves 1/2 at z_f = z.
+// Unlike the other filters the series is no bound: truncated, it rings, and is 1/2 at z_f = z.
 //
 //     phase = convolution_encode(z, settings);          a texel's first cosine and sine
 //     phase = convolution_next(phase);                  its next ones
@@ -13,19 +13,23 @@
 #ifndef GNOMON_FILTERS_CONVOLUTION_H
 #define GNOMON_FILTERS_CONVOLUTION_H
 #include "../numerics/exp.h"
+#include "../numerics/select.h"
 #include "../numerics/trigonometry.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// terms: how many; damping >= 0 attenuates term k by exp(-damping (k / terms)^2) against ringing (Annen et al. 2007).
-/// offset is taken off z_f, so that a surface in its own map lies where the series has come down to 0: the first zero
-/// is at 1.926 / (pi terms span), where the sine integral is pi / 2. span in (0, 1]: the part of a half period that
-/// depths in [-1, 1] fill. Below 1 it keeps a near receiver before a far texel from reaching the next edge of the wave.
+/// The number of terms. damping >= 0 attenuates term k by exp(-damping (k / terms)^2) against ringing (Annen et al.
+/// 2007). offset is subtracted from z_f, so that a surface in its own map lies where the series has come down to 0: the
+/// first zero is at 1.926 / (pi terms span), where the sine integral is pi / 2. span in (0, 1] is the part of a half
+/// period that depths in [-1, 1] fill. A span below 1 keeps a near receiver before a far texel from reaching the next
+/// edge of the wave.
 GNOMON_STRUCT(convolution_settings) { Real terms, damping, offset, span; };
 
 /// Cosine and sine of a_k z, and of the step from one term to the next.
 GNOMON_STRUCT(convolution_phase) { Real cosine, sine, step_cosine, step_sine; };
 
-/// The first term at z, not clamped.
+/// The phase of the first term at z.
+/// Domain: z in [-2, 2].
+/// NaN: NaN.
 GNOMON_KERNEL GNOMON_T(convolution_phase) convolution_phase_at(Real z, GNOMON_SETTING span)
 {
     Real angle = GNOMON_LITERAL(trigonometry_half_pi) * span * z;
@@ -39,13 +43,16 @@ GNOMON_KERNEL GNOMON_T(convolution_phase) convolution_phase_at(Real z, GNOMON_SE
     return r;
 }
 
-/// The first term of the texel of a depth z in [-1, 1], clamped; a NaN makes every term NaN.
+/// The phase of the first term of the texel of a depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane.
 GNOMON_KERNEL GNOMON_T(convolution_phase) convolution_encode(Real z, GNOMON_T(convolution_settings) settings)
 {
-    return convolution_phase_at(clamp_or_nan(z, Real(-1), Real(1)), settings.span);
+    return convolution_phase_at(clamp_or_high(z, Real(-1), Real(1)), settings.span);
 }
 
-/// The next term, by rotation. Error of both values of term k: 8 k 2^-p.
+/// The phase of the next term, by rotation.
+/// Error: of both values of term k, 8 k 2^-p.
 GNOMON_KERNEL GNOMON_T(convolution_phase) convolution_next(GNOMON_T(convolution_phase) phase)
 {
     convolution_phase r = phase;
@@ -54,7 +61,7 @@ GNOMON_KERNEL GNOMON_T(convolution_phase) convolution_next(GNOMON_T(convolution_
     return r;
 }
 
-/// w_k with its damping, k = 1, 2, ...: the same for every texel and receiver, so best computed once.
+/// The weight w_k with its damping, k = 1, 2, ...: constant over texels and receivers, so best computed once.
 GNOMON_KERNEL Real convolution_weight(Real k, GNOMON_T(convolution_settings) settings)
 {
     Real ratio = k / settings.terms;
@@ -69,7 +76,9 @@ GNOMON_STRUCT(convolution_sum)
     Real intensity;
 };
 
-/// No term yet. z_f in [-1, 1], clamped.
+/// The state before the first term.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: lit.
 GNOMON_KERNEL GNOMON_T(convolution_sum) convolution_begin(Real z_f, GNOMON_T(convolution_settings) settings)
 {
     GNOMON_T(convolution_sum) r;
@@ -78,7 +87,7 @@ GNOMON_KERNEL GNOMON_T(convolution_sum) convolution_begin(Real z_f, GNOMON_T(con
     return r;
 }
 
-/// The next term of the filtered map.
+/// The state after the next term of the filtered map.
 GNOMON_KERNEL GNOMON_T(convolution_sum) convolution_add(GNOMON_T(convolution_sum) state, Real cosine, Real sine,
                                                         GNOMON_SETTING weight)
 {
@@ -87,7 +96,10 @@ GNOMON_KERNEL GNOMON_T(convolution_sum) convolution_add(GNOMON_T(convolution_sum
     return state;
 }
 
-/// Shadow intensity in [0, 1]; NaN gives 0, lit. Error against the exact series over 16 terms: 150 2^-p.
+/// Shadow intensity in [0, 1].
+/// NaN: 0, lit.
+/// Error: against the exact series over 16 terms, 150 2^-p.
+/// Source: Annen 2007, Sec. 3
 GNOMON_KERNEL Real convolution_end(GNOMON_T(convolution_sum) state) { return saturate_or_zero(state.intensity); }
 
 GNOMON_NAMESPACE_END

@@ -3,6 +3,7 @@
 #ifndef GNOMON_FILTERS_EXPONENTIAL_H
 #define GNOMON_FILTERS_EXPONENTIAL_H
 #include "../numerics/exp.h"
+#include "../numerics/select.h"
 GNOMON_NAMESPACE_BEGIN
 
 /// E[exp(c z)].
@@ -12,20 +13,26 @@ GNOMON_STRUCT(exponential_moment) { Real warped; };
 /// finite.
 GNOMON_STRUCT(exponential_settings) { Real exponent; };
 
-/// The texel of a depth z in [-1, 1]. Relative error: (c + 2) 2^-p, mostly from rounding c z.
+/// The warped moment of one depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Error: relative, (c + 2) 2^-p, mostly from rounding c z.
 GNOMON_KERNEL GNOMON_T(exponential_moment) exponential_encode(Real z, GNOMON_T(exponential_settings) settings)
 {
     GNOMON_T(exponential_moment) r;
-    r.warped = polynomial_exp(settings.exponent * z);
+    r.warped = polynomial_exp(settings.exponent * clamp_or_high(z, Real(-1), Real(1)));
     return r;
 }
 
-/// Shadow intensity in [0, 1] at depth z_f, never above percentage-closer filtering but for rounding. NaN gives 0, lit.
+/// Shadow intensity in [0, 1] at depth z_f, never above percentage-closer filtering but for rounding.
+/// Domain: any z_f; beyond the far plane as on it.
+/// NaN: 0, lit.
 /// Error: (c + 5) 2^-p (1 - intensity) + 2^-p, p the bits of the significand.
+/// Source: Salvi 2008; Annen 2008; Peters 2017, Sec. 2.2
 GNOMON_KERNEL Real exponential_intensity(GNOMON_T(exponential_moment) filtered, Real z_f,
                                          GNOMON_T(exponential_settings) settings)
 {
-    return saturate_or_zero(Real(1) - filtered.warped * polynomial_exp(-settings.exponent * z_f));
+    return saturate_or_zero(Real(1) - filtered.warped * polynomial_exp(-settings.exponent * gnomon_min(Real(1), z_f)));
 }
 
 GNOMON_NAMESPACE_END

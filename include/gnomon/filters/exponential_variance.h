@@ -15,8 +15,11 @@ GNOMON_STRUCT(exponential_variance_moments) { Real positive, positive_square, ne
 /// keep every product finite.
 GNOMON_STRUCT(exponential_variance_settings) { Real positive_exponent, negative_exponent, minimum_variance; };
 
-/// The texel of a depth z in [-1, 1]. Relative error of each value: (2 c + 4) 2^-p.
-GNOMON_KERNEL GNOMON_T(exponential_variance_moments) exponential_variance_encode(
+/// The warped moments of one depth z.
+/// Domain: z in [-1, 1].
+/// NaN: NaN.
+/// Error: of each value, relative, (2 c + 4) 2^-p.
+GNOMON_DETAIL_KERNEL GNOMON_T(exponential_variance_moments) exponential_variance_warp(
     Real z, GNOMON_T(exponential_variance_settings) settings)
 {
     GNOMON_T(exponential_variance_moments) r;
@@ -27,8 +30,18 @@ GNOMON_KERNEL GNOMON_T(exponential_variance_moments) exponential_variance_encode
     return r;
 }
 
+/// The warped moments of one depth z of the map.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Error: of each value, relative, (2 c + 4) 2^-p.
+GNOMON_KERNEL GNOMON_T(exponential_variance_moments) exponential_variance_encode(
+    Real z, GNOMON_T(exponential_variance_settings) settings)
+{
+    return exponential_variance_warp(clamp_or_high(z, Real(-1), Real(1)), settings);
+}
+
 /// Cantelli's bound with the minimum variance carried through the warp's derivative at the receiver: |c warped|.
-/// Squares of a warped depth near 0 would be denormal, slow and inexact: where receiver and mean are below 1 everything
+/// Squares of a warped depth near 0 would be denormal, slow and inexact. Where receiver and mean are below 1 everything
 /// is scaled by 2^50, exactly. A larger mean needs no scale, and its square could overflow.
 GNOMON_KERNEL Real exponential_variance_side(GNOMON_T(variance_moments) moments, Real warped, Real exponent,
                                              Real minimum_variance)
@@ -41,9 +54,11 @@ GNOMON_KERNEL Real exponential_variance_side(GNOMON_T(variance_moments) moments,
     return cantelli_lower(moments, warped * scale, minimum_variance * (slope * slope));
 }
 
-/// Shadow intensity in [0, 1] at depth z_f, never above percentage-closer filtering but for rounding. A NaN receiver
-/// gives 0, lit; a NaN moment takes the bound of its own warp away, which leaves the other's.
+/// Shadow intensity in [0, 1] at depth z_f, never above percentage-closer filtering but for rounding.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: a NaN receiver gives 0, lit; a NaN moment takes the bound of its own warp away, which leaves the other's.
 /// Error: that of cantelli_lower for the warped depths, with r = (2 c + 8) 2^-p, the larger of both.
+/// Source: Lauritzen 2008; Peters 2017, Sec. 2.2
 GNOMON_KERNEL Real exponential_variance_intensity(GNOMON_T(exponential_variance_moments) filtered, Real z_f,
                                                   GNOMON_T(exponential_variance_settings) settings)
 {
@@ -53,7 +68,7 @@ GNOMON_KERNEL Real exponential_variance_intensity(GNOMON_T(exponential_variance_
     GNOMON_T(variance_moments) negative;
     negative.mean = filtered.negative;
     negative.square = filtered.negative_square;
-    exponential_variance_moments receiver = exponential_variance_encode(z_f, settings);
+    exponential_variance_moments receiver = exponential_variance_warp(clamp_or_nan(z_f, Real(-1), Real(1)), settings);
     return gnomon_max(
         exponential_variance_side(positive, receiver.positive, settings.positive_exponent, settings.minimum_variance),
         exponential_variance_side(negative, receiver.negative, settings.negative_exponent, settings.minimum_variance));

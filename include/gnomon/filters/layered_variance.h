@@ -1,7 +1,7 @@
 // Layered variance shadow maps (Lauritzen & McCool 2008, "Layered variance shadow maps", section 3): depth is cut into
 // layers, and each has a variance shadow map of the depth clamped to it and stretched to [-1, 1]. Clamping keeps the
-// order of depths, so that every layer bounds the shadow intensity from below, and the largest bound holds. What is in
-// front of a layer counts as at its front: only occluders and receivers that share a layer leak light.
+// order of depths, so that every layer bounds the shadow intensity from below, and the largest bound holds. Depths in
+// front of a layer are clamped to its front: only occluders and receivers that share a layer leak light.
 //
 //     state = layered_variance_begin(z_f);
 //     state = layered_variance_add(state, filtered, settings);      for every layer, or just for the receiver's own
@@ -15,29 +15,37 @@ GNOMON_NAMESPACE_BEGIN
 GNOMON_STRUCT(layered_variance_settings) { Real centre, scale, minimum_variance; };
 
 /// The layer's own depth of a depth z, in [-1, 1].
+/// Domain: any z.
+/// NaN: NaN.
 GNOMON_KERNEL Real layered_variance_depth(Real z, GNOMON_T(layered_variance_settings) settings)
 {
     return clamp_or_nan((z - settings.centre) * settings.scale, Real(-1), Real(1));
 }
 
-/// The layer's texel of a depth z in [-1, 1].
+/// The layer's moments of one depth z.
+/// Domain: any z.
+/// NaN: the far end of the layer, which shadows nothing.
 GNOMON_KERNEL GNOMON_T(variance_moments) layered_variance_encode(Real z, GNOMON_T(layered_variance_settings) settings)
 {
     return variance_encode(layered_variance_depth(z, settings));
 }
 
+/// The receiver's depth, and the largest bound so far.
 GNOMON_STRUCT(layered_variance) { Real receiver, intensity; };
 
-/// No layer yet.
+/// The state before the first layer.
+/// Domain: any z_f; beyond the far plane as on it.
+/// NaN: lit.
 GNOMON_KERNEL GNOMON_T(layered_variance) layered_variance_begin(Real z_f)
 {
     GNOMON_T(layered_variance) r;
-    r.receiver = z_f;
+    r.receiver = gnomon_min(Real(1), z_f);
     r.intensity = Real(0);
     return r;
 }
 
-/// One layer with its filtered moments. One with a NaN bounds nothing.
+/// The state after one more layer with its filtered moments.
+/// NaN: a layer with a NaN moment bounds nothing.
 GNOMON_KERNEL GNOMON_T(layered_variance) layered_variance_add(GNOMON_T(layered_variance) state,
                                                               GNOMON_T(variance_moments) filtered,
                                                               GNOMON_T(layered_variance_settings) settings)
@@ -47,8 +55,10 @@ GNOMON_KERNEL GNOMON_T(layered_variance) layered_variance_add(GNOMON_T(layered_v
     return state;
 }
 
-/// Shadow intensity in [0, 1], never above percentage-closer filtering but for rounding. A NaN receiver gives 0, lit.
+/// Shadow intensity in [0, 1], never above percentage-closer filtering but for rounding.
+/// NaN: 0, lit.
 /// Error: that of cantelli_lower for the layers' own depths, with r = 8 2^-p, the largest of all.
+/// Source: Lauritzen 2008, Sec. 3
 GNOMON_KERNEL Real layered_variance_end(GNOMON_T(layered_variance) state) { return saturate_or_zero(state.intensity); }
 
 GNOMON_NAMESPACE_END

@@ -1,6 +1,6 @@
 // Percentage-closer filtering (Reeves, Salesin & Cook 1987; Peters et al. 2017, 2.2): the shadow intensity is the
-// weight of the shadow-map depths in front of the receiver, Z(z < z_f) itself. It is exact for the filter, cannot be
-// filtered beforehand, and is what every other filter here estimates.
+// weight of the shadow-map depths in front of the receiver, Z(z < z_f) itself. This filter is exact, cannot be filtered
+// beforehand, and is what every other filter here estimates.
 //
 //     state = percentage_closer_begin(z_f);
 //     state = percentage_closer_add(state, z, weight);      for every texel of the filter region, weights summing to 1
@@ -10,18 +10,23 @@
 #include "../numerics/select.h"
 GNOMON_NAMESPACE_BEGIN
 
+/// The receiver's depth, and the weight in front of the receiver so far.
 GNOMON_STRUCT(percentage_closer) { Real receiver, shadowed; };
 
-/// No texel yet. Any z_f; whatever needs a depth bias takes it off z_f first.
+/// The state before the first texel. Subtract a depth bias from z_f first (filters/depth_bias.h).
+/// Domain: any z_f; beyond the far plane as on it, so that a map cleared to the far plane shadows nothing.
+/// NaN: lit.
 GNOMON_KERNEL GNOMON_T(percentage_closer) percentage_closer_begin(Real z_f)
 {
     GNOMON_T(percentage_closer) r;
-    r.receiver = z_f;
+    r.receiver = gnomon_min(Real(1), z_f);
     r.shadowed = Real(0);
     return r;
 }
 
-/// One texel with its filter weight. A NaN depth, of the texel or of the receiver, casts no shadow.
+/// The state after one more texel of depth z with its filter weight.
+/// Domain: any z.
+/// NaN: a texel of depth NaN casts no shadow.
 GNOMON_KERNEL GNOMON_T(percentage_closer) percentage_closer_add(GNOMON_T(percentage_closer) state, Real z,
                                                                 GNOMON_SETTING weight)
 {
@@ -29,7 +34,10 @@ GNOMON_KERNEL GNOMON_T(percentage_closer) percentage_closer_add(GNOMON_T(percent
     return state;
 }
 
-/// Shadow intensity in [0, 1], whatever the weights were; a NaN among them gives 0. Error: that of the sum of weights.
+/// Shadow intensity in [0, 1], also where the weights do not sum to 1.
+/// NaN: 0, lit.
+/// Error: that of the sum of weights.
+/// Source: Reeves 1987
 GNOMON_KERNEL Real percentage_closer_end(GNOMON_T(percentage_closer) state) { return saturate_or_zero(state.shadowed); }
 
 GNOMON_NAMESPACE_END

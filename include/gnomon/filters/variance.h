@@ -6,24 +6,28 @@
 #include "../numerics/select.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// E[z] and E[z^2]: a linear combination of texels is one of these again.
+/// E[z] and E[z^2]. Linear combinations of such moments, by weights that sum to 1, are such moments again.
 GNOMON_STRUCT(variance_moments) { Real mean, square; };
 
-/// minimum_variance hides the rounding of the stored moments from the inequality: see storage/filters_formats.hpp. At least 0.
+/// minimum_variance, at least 0, hides the rounding of the stored moments from the inequality (storage/variance.h).
 GNOMON_STRUCT(variance_settings) { Real minimum_variance; };
 
-/// The texel of a depth z in [-1, 1].
+/// The moments of one depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
 GNOMON_KERNEL GNOMON_T(variance_moments) variance_encode(Real z)
 {
     GNOMON_T(variance_moments) r;
-    r.mean = z;
-    r.square = z * z;
+    r.mean = clamp_or_high(z, Real(-1), Real(1));
+    r.square = r.mean * r.mean;
     return r;
 }
 
-/// Cantelli's lower bound on the probability of values below the receiver, in [0, 1]; 0 for a receiver at or before the
-/// mean, and where anything but minimum_variance is NaN. Error, with the rounding of the moments: r (1 + 4 q + sqrt q),
-/// q = (square + receiver^2) / (variance + d^2), r = 4 2^-p.
+/// Cantelli's lower bound in [0, 1] on the probability of values below the receiver; 0 for a receiver at or before the
+/// mean.
+/// NaN: 0, in every argument but minimum_variance.
+/// Error: with the rounding of the moments, r (1 + 4 q + sqrt q), q = (square + receiver^2) / (variance + d^2),
+/// r = 4 2^-p, p the bits of the significand.
 GNOMON_KERNEL Real cantelli_lower(GNOMON_T(variance_moments) moments, Real receiver, GNOMON_SETTING minimum_variance)
 {
     Real variance = gnomon_max(minimum_variance, moments.square - moments.mean * moments.mean);
@@ -31,12 +35,15 @@ GNOMON_KERNEL Real cantelli_lower(GNOMON_T(variance_moments) moments, Real recei
     return saturate_or_zero(d * d / (variance + d * d));
 }
 
-/// Shadow intensity in [0, 1] at depth z_f, never above percentage-closer filtering but for rounding. NaN gives 0, lit.
+/// Shadow intensity in [0, 1] at depth z_f, never above percentage-closer filtering but for rounding.
+/// Domain: any z_f; beyond the far plane as on it.
+/// NaN: 0, lit.
 /// Error: as cantelli_lower.
+/// Source: Donnelly 2006; Peters 2017, Sec. 2.2
 GNOMON_KERNEL Real variance_intensity(GNOMON_T(variance_moments) filtered, Real z_f,
                                       GNOMON_T(variance_settings) settings)
 {
-    return cantelli_lower(filtered, z_f, settings.minimum_variance);
+    return cantelli_lower(filtered, gnomon_min(Real(1), z_f), settings.minimum_variance);
 }
 
 GNOMON_NAMESPACE_END

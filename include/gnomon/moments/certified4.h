@@ -93,14 +93,14 @@ GNOMON_DETAIL_KERNEL Real certificate4_mean(GNOMON_T(certificate4) p, GNOMON_T(m
 
 /// The least possible value of E[p], given channels c of theta4 that are each off by at most noise. The coefficients of
 /// p at the channels are the transpose of theta4_inverse times those at the moments.
-GNOMON_DETAIL_KERNEL Real certificate4_theta_mean(GNOMON_T(certificate4) p, GNOMON_T(moments4) c, GNOMON_SETTING noise)
+GNOMON_DETAIL_KERNEL Real certificate4_theta_mean(GNOMON_T(certificate4) p, GNOMON_T(channels4) c, GNOMON_SETTING noise)
 {
     Real third = Real(0.75) * p.s3;
     Real p1 = GNOMON_LITERAL(theta4_inverse11) * p.s1 - third;
     Real p2 = Real(0.125) * (p.s2 - p.s4);
     Real p3 = GNOMON_LITERAL(theta4_inverse13) * (p.s1 + third);
     Real p4 = p.s2 + p.s4;
-    Real mean = (p.s0 + (p2 * c.b2 + p4 * c.b4)) + (p1 * (c.b1 - Real(0.5)) + p3 * (c.b3 - Real(0.5)));
+    Real mean = (p.s0 + (p2 * c.c2 + p4 * c.c4)) + (p1 * (c.c1 - Real(0.5)) + p3 * (c.c3 - Real(0.5)));
     Real doubt = noise * ((gnomon_abs(p1) + gnomon_abs(p2)) + (gnomon_abs(p3) + gnomon_abs(p4)));
     return p.top - (mean + doubt);
 }
@@ -119,7 +119,7 @@ GNOMON_KERNEL Real certified4_lower(GNOMON_T(hankel4) h, GNOMON_T(moments4) b, G
 /// most noise. h is the matrix of their moments with a bias.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: 0, lit.
-GNOMON_KERNEL Real certified4_theta_lower(GNOMON_T(hankel4) h, GNOMON_T(moments4) c, GNOMON_SETTING noise, Real z_f)
+GNOMON_KERNEL Real certified4_theta_lower(GNOMON_T(hankel4) h, GNOMON_T(channels4) c, GNOMON_SETTING noise, Real z_f)
 {
     certificate4 p = certificate4_make(h, clamp_or_nan(z_f, Real(-1), Real(1)));
     return saturate_or_zero(certificate4_theta_mean(p, c, noise));

@@ -11,6 +11,13 @@ GNOMON_KERNEL Real clamp_or_nan(Real x, GNOMON_SETTING low, GNOMON_SETTING high)
     return gnomon_min(high, gnomon_max(low, x));
 }
 
+/// x clamped to [low, high].
+/// NaN: high.
+GNOMON_KERNEL Real clamp_or_high(Real x, GNOMON_SETTING low, GNOMON_SETTING high)
+{
+    return gnomon_max(low, gnomon_min(x, high));
+}
+
 /// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
 /// NaN: 0, lit.
 GNOMON_KERNEL Real saturate_or_zero(Real x) { return gnomon_min(Real(1), gnomon_max(x, Real(0))); }

@@ -41,7 +41,7 @@ template <class T> struct lines {
 
 /// Blur texels [first, last) of each of `count` lines of `length` texels, a few lines at a time, with the decoded
 /// texels under the taps in a ring.
-template <class Format>
+template <storage_format Format>
 void blur_lines(lines<const format_texel<Format>> source, lines<format_texel<Format>> target, std::size_t length,
                 std::size_t first, std::size_t last, std::size_t count, std::span<const float> weights)
 {
@@ -81,7 +81,7 @@ void blur_lines(lines<const format_texel<Format>> source, lines<format_texel<For
     }
 }
 
-template <class Format>
+template <storage_format Format>
 void expect_blur(map_view<const format_texel<Format>> source, map_view<format_texel<Format>> target,
                  std::span<const float> weights, row_range rows)
 {
@@ -100,7 +100,7 @@ void expect_blur(map_view<const format_texel<Format>> source, map_view<format_te
 
 /// Blur along x into the given rows of target. Target must not overlap source. Weights: an odd number of them, of any
 /// sign.
-template <class Format>
+template <storage_format Format>
 void blur_along_x(map_view<const format_texel<Format>> source, map_view<format_texel<Format>> target,
                   std::span<const float> weights, row_range rows)
 {
@@ -111,7 +111,7 @@ void blur_along_x(map_view<const format_texel<Format>> source, map_view<format_t
 }
 
 /// Blur along y into the given rows of target; reads source rows beyond these. Target must not overlap source.
-template <class Format>
+template <storage_format Format>
 void blur_along_y(map_view<const format_texel<Format>> source, map_view<format_texel<Format>> target,
                   std::span<const float> weights, row_range rows)
 {
@@ -121,7 +121,7 @@ void blur_along_y(map_view<const format_texel<Format>> source, map_view<format_t
 }
 
 /// Blur the whole map along both axes: source to scratch, scratch to target. Target may be source.
-template <class Format>
+template <storage_format Format>
 void blur(map_view<const format_texel<Format>> source, map_view<format_texel<Format>> scratch,
           map_view<format_texel<Format>> target, std::span<const float> weights)
 {

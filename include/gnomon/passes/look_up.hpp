@@ -34,7 +34,7 @@ template <std::size_t n> std::array<float, n> mix(const std::array<float, n>& a,
     return r;
 }
 
-template <class Format>
+template <storage_format Format>
 channel_array<Format> bilinear_channels(map_view<const format_texel<Format>> map, float x, float y)
 {
     const neighbours nx = neighbours_of(x - 0.5f, map.width);
@@ -49,7 +49,8 @@ channel_array<Format> bilinear_channels(map_view<const format_texel<Format>> map
 /// Filtered channels at position (x, y), for the intensity or factor of a format.
 /// Domain: a map with texels, and any position.
 /// NaN: a coordinate counts as 0.
-template <class Format> format_channels<Format> bilinear(map_view<const format_texel<Format>> map, float x, float y)
+template <storage_format Format>
+format_channels<Format> bilinear(map_view<const format_texel<Format>> map, float x, float y)
 {
     return std::bit_cast<format_channels<Format>>(detail::bilinear_channels<Format>(map, x, y));
 }
@@ -57,7 +58,7 @@ template <class Format> format_channels<Format> bilinear(map_view<const format_t
 /// Filtered channels at position (x, y) of a mip chain, interpolated between two levels. Level 0 is the map itself; the
 /// level is clamped to the chain.
 /// NaN: a coordinate or level counts as 0.
-template <class Format>
+template <storage_format Format>
 format_channels<Format> trilinear(mip_view<const format_texel<Format>> mips, float x, float y, float level)
 {
     const detail::neighbours nl = detail::neighbours_of(level, mips.levels());

@@ -1,10 +1,10 @@
 // Rectangles of texels in the caller's memory, with what all passes over them share: shape checks, and texels as arrays
-// of floats. A pass is generic in a storage format (storage/moments_formats.hpp, storage/filters_formats.hpp). It
-// decodes texels, combines them linearly in float and encodes the result, so that every pass rounds to the format, as
-// on a GPU.
+// of floats. A pass is generic in a storage format (storage/format.hpp). It decodes texels, combines them linearly in
+// float and encodes the result, so that every pass rounds to the format, as on a GPU.
 #ifndef GNOMON_PASSES_MAP_VIEW_HPP
 #define GNOMON_PASSES_MAP_VIEW_HPP
 
+#include "../storage/format.hpp"
 #include "expects.hpp"
 
 #include <array>
@@ -37,21 +37,16 @@ struct row_range {
     std::size_t first = 0, last = 0;
 };
 
-template <class Format> using format_texel = typename Format::texel;
-template <class Format> using format_channels = decltype(Format::decode(std::declval<format_texel<Format>>()));
-template <class Format> inline constexpr std::size_t channel_count = sizeof(format_channels<Format>) / sizeof(float);
-template <class Format> using channel_array = std::array<float, channel_count<Format>>;
-
-template <class Format> channel_array<Format> load_channels(const format_texel<Format>& t)
+/// The channels of a texel as numbers.
+template <storage_format Format> channel_array<Format> load_channels(const format_texel<Format>& t)
 {
-    static_assert(std::is_trivially_copyable_v<format_channels<Format>>,
-                  "gnomon: a format decodes into a struct of floats");
     return std::bit_cast<channel_array<Format>>(Format::decode(t));
 }
 
-template <class Format> format_texel<Format> store_channels(const channel_array<Format>& c)
+/// The texel of channels that are numbers.
+template <storage_format Format> format_texel<Format> store_channels(const channel_array<Format>& c)
 {
-    return Format::encode_channels(std::bit_cast<format_channels<Format>>(c));
+    return Format::encode(std::bit_cast<format_channels<Format>>(c));
 }
 
 /// Check that the map has texels, that its rows do not overlap, and that all of them lie in the span.

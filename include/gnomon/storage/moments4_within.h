@@ -1,5 +1,5 @@
-// Certified shadow intensity (certified4.h) where the depths that a filter region has are known to lie in [least,
-// greatest]: from a min-max map beside the moments, with its mip levels, or [-1, 1], which always holds.
+// Certified shadow intensity (certified4.h) where the depths of a filter region are known to lie in [least, greatest]:
+// from a min-max map beside the moments, with its mip levels. [-1, 1] always holds.
 //
 // p then has to be at most 1 in [least, z_f) and at most 0 in [z_f, greatest] only. Where a node of the biased moments
 // lies outside, the canonical distribution on the interval (the Markov moment problem; Krein & Nudelman 1977) has nodes
@@ -8,7 +8,8 @@
 // and p is 1 at least and at x < z_f, 0 at z_f, at x > z_f and at greatest; double at x:
 //     x > z_f:  p = (z - z_f) (z - x)^2 (z - greatest) / ((least - z_f) (least - x)^2 (least - greatest))
 //     x < z_f:  p = 1 - (z - least) (z - x)^2 (k0 + k1 z),  k0 and k1 by p(z_f) = p(greatest) = 0
-// Any x will do, so float arithmetic does. The greater of the two certified means is taken: both are honest.
+// Every x gives an honest p, so float arithmetic suffices. The greater of the two certified means is the result: both
+// are honest.
 #ifndef GNOMON_STORAGE_MOMENTS4_WITHIN_H
 #define GNOMON_STORAGE_MOMENTS4_WITHIN_H
 #include "moments4.h"
@@ -17,7 +18,8 @@ GNOMON_NAMESPACE_BEGIN
 GNOMON_CONSTANT(certified4_gap, 9.5367431640625e-7); // 2^-20, the least that the receiver is before greatest
 
 /// The certificate on [least, greatest] for a receiver z_f inside, from moments b with a bias.
-GNOMON_KERNEL GNOMON_T(certificate4) certificate4_within(GNOMON_T(moments4) b, Real least, Real greatest, Real z_f)
+GNOMON_DETAIL_KERNEL GNOMON_T(certificate4) certificate4_within(GNOMON_T(moments4) b, Real least, Real greatest,
+                                                                Real z_f)
 {
     greatest = gnomon_max(greatest, z_f + GNOMON_LITERAL(certified4_gap));
     Real sum = least + greatest;
@@ -55,28 +57,29 @@ GNOMON_KERNEL GNOMON_T(certificate4) certificate4_within(GNOMON_T(moments4) b, R
     return p;
 }
 
-/// The greater of two certified means as an intensity; all before z_f are in shadow, none before least is.
-GNOMON_KERNEL Real certified4_from_means(Real mean, Real within, Real least, Real greatest, Real z_f)
+/// The greater of two certified means as an intensity in [0, 1]: 1 where every depth is before z_f, 0 where none is.
+/// NaN: 0, lit.
+GNOMON_DETAIL_KERNEL Real certified4_from_means(Real mean, Real within, Real least, Real greatest, Real z_f)
 {
     Real intensity = saturate_or_zero(gnomon_max(within, mean));
     intensity = gnomon_select(least < z_f, intensity, Real(0));
     return gnomon_select(greatest < z_f, Real(1), intensity);
 }
 
-/// Intensity at z_f from the four channels of a 4 x 16 UNORM texel, off by at most noise each.
-GNOMON_KERNEL Real certified4_theta_within(GNOMON_T(moments4) channels, GNOMON_SETTING noise, GNOMON_SETTING alpha,
-                                           Real least, Real greatest, Real z_f)
+/// Shadow intensity at z_f from the channels c of a 4 x 16 UNORM texel, each off by at most noise.
+GNOMON_DETAIL_KERNEL Real certified4_theta_within(GNOMON_T(channels4) c, GNOMON_SETTING noise, GNOMON_SETTING alpha,
+                                                  Real least, Real greatest, Real z_f)
 {
     Real z = clamp_or_nan(z_f, Real(-1), Real(1));
-    moments4 b = theta4_inverse_add_bias(channels, GNOMON_LITERAL(bias4_theta_b2), alpha);
-    Real mean = certificate4_theta_mean(certificate4_make(hankel4_from_moments(b), z), channels, noise);
-    Real within = certificate4_theta_mean(certificate4_within(b, least, greatest, z), channels, noise);
+    moments4 b = theta4_inverse_add_bias(c, GNOMON_LITERAL(bias4_theta_b2), alpha);
+    Real mean = certificate4_theta_mean(certificate4_make(hankel4_from_moments(b), z), c, noise);
+    Real within = certificate4_theta_mean(certificate4_within(b, least, greatest, z), c, noise);
     return certified4_from_means(mean, within, least, greatest, z);
 }
 
-/// The same from moments stored as they are.
-GNOMON_KERNEL Real certified4_raw_within(GNOMON_T(moments4) b, GNOMON_T(moments4) noise, GNOMON_SETTING alpha,
-                                         Real least, Real greatest, Real z_f)
+/// Shadow intensity at z_f from moments b, each off by at most its entry in noise.
+GNOMON_DETAIL_KERNEL Real certified4_raw_within(GNOMON_T(moments4) b, GNOMON_T(moments4) noise, GNOMON_SETTING alpha,
+                                                Real least, Real greatest, Real z_f)
 {
     Real z = clamp_or_nan(z_f, Real(-1), Real(1));
     moments4 c = moments4_add_bias(b, GNOMON_LITERAL(bias4_raw_b2), GNOMON_LITERAL(bias4_raw_b4), alpha);
@@ -85,32 +88,46 @@ GNOMON_KERNEL Real certified4_raw_within(GNOMON_T(moments4) b, GNOMON_T(moments4
     return certified4_from_means(mean, within, least, greatest, z);
 }
 
-/// Intensity at z_f from the channels of a 4 x 16 UNORM texel and the region's least and greatest depth, rounded down
-/// and up where they are stored.
-GNOMON_KERNEL Real certified4_unorm16_within(GNOMON_T(moments4) channels, Real least, Real greatest, Real z_f)
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel and the least and greatest depth of
+/// the region, rounded down and up where they are stored.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+GNOMON_KERNEL Real moments4_unorm16_intensity_within(GNOMON_T(channels4) c, Real least, Real greatest, Real z_f)
 {
-    return certified4_theta_within(channels, GNOMON_LITERAL(certified4_unorm16_noise),
+    return certified4_theta_within(c, GNOMON_LITERAL(certified4_unorm16_noise),
                                    GNOMON_LITERAL(certified4_unorm16_weight), least, greatest, z_f);
 }
 
-/// The same after a filter of two passes; least and greatest are those of all texels that it reads.
-GNOMON_KERNEL Real certified4_unorm16_filtered_within(GNOMON_T(moments4) channels, Real least, Real greatest, Real z_f)
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel, after a filter of two passes;
+/// least and greatest are those of all texels that the filter reads.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+GNOMON_KERNEL Real moments4_unorm16_filtered_intensity_within(GNOMON_T(channels4) c, Real least, Real greatest,
+                                                              Real z_f)
 {
-    return certified4_theta_within(channels, GNOMON_LITERAL(certified4_unorm16_filtered_noise),
+    return certified4_theta_within(c, GNOMON_LITERAL(certified4_unorm16_filtered_noise),
                                    GNOMON_LITERAL(certified4_unorm16_filtered_weight), least, greatest, z_f);
 }
 
-/// Intensity at z_f from moments stored as half floats and the region's least and greatest depth.
-GNOMON_KERNEL Real certified4_half_within(GNOMON_T(moments4) b, Real least, Real greatest, Real z_f)
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel and the least and greatest depth of the
+/// region, rounded down and up where they are stored.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+GNOMON_KERNEL Real moments4_half_intensity_within(GNOMON_T(channels4) c, Real least, Real greatest, Real z_f)
 {
+    moments4 b = moments4_from_channels(c);
     return certified4_raw_within(
         b, moments4_rounding(b, GNOMON_LITERAL(certified4_half_noise), GNOMON_LITERAL(certified4_half_least_noise)),
         GNOMON_LITERAL(certified4_half_weight), least, greatest, z_f);
 }
 
-/// The same after a filter of two passes.
-GNOMON_KERNEL Real certified4_half_filtered_within(GNOMON_T(moments4) b, Real least, Real greatest, Real z_f)
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel, after a filter of two passes; least
+/// and greatest are those of all texels that the filter reads.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+GNOMON_KERNEL Real moments4_half_filtered_intensity_within(GNOMON_T(channels4) c, Real least, Real greatest, Real z_f)
 {
+    moments4 b = moments4_from_channels(c);
     return certified4_raw_within(b,
                                  moments4_rounding_filtered(b, GNOMON_LITERAL(certified4_half_filtered_noise),
                                                             GNOMON_LITERAL(certified4_half_least_noise)),

@@ -24,41 +24,41 @@ exponential_variance_settings settings_of_exponential_variance()
     return s;
 }
 
-moments4 moments4_of(texel t)
+channels4 channels4_of(texel t)
 {
-    moments4 b;
-    b.b1 = t.first.x;
-    b.b2 = t.first.y;
-    b.b3 = t.first.z;
-    b.b4 = t.first.w;
-    return b;
+    channels4 c;
+    c.c1 = t.first.x;
+    c.c2 = t.first.y;
+    c.c3 = t.first.z;
+    c.c4 = t.first.w;
+    return c;
 }
 
 // Of two 10-10-10-2 words the first has the first three channels, else the first image has four.
-moments6 moments6_of(texel t)
+channels6 channels6_of(texel t)
 {
-    moments6 b;
-    b.b1 = t.first.x;
-    b.b2 = t.first.y;
-    b.b3 = t.first.z;
-    b.b4 = method == MSM6_60 ? t.second.x : t.first.w;
-    b.b5 = method == MSM6_60 ? t.second.y : t.second.x;
-    b.b6 = method == MSM6_60 ? t.second.z : t.second.y;
-    return b;
+    channels6 c;
+    c.c1 = t.first.x;
+    c.c2 = t.first.y;
+    c.c3 = t.first.z;
+    c.c4 = method == MSM6_60 ? t.second.x : t.first.w;
+    c.c5 = method == MSM6_60 ? t.second.y : t.second.x;
+    c.c6 = method == MSM6_60 ? t.second.z : t.second.y;
+    return c;
 }
 
-texel texel_of(moments6 b)
+texel texel_of(channels6 c)
 {
     texel t;
-    t.first = vec4(b.b1, b.b2, b.b3, b.b4);
-    t.second = method == MSM6_60 ? vec4(b.b4, b.b5, b.b6, 0) : vec4(b.b5, b.b6, 0, 0);
+    t.first = vec4(c.c1, c.c2, c.c3, c.c4);
+    t.second = method == MSM6_60 ? vec4(c.c4, c.c5, c.c6, 0) : vec4(c.c5, c.c6, 0, 0);
     return t;
 }
 
 // What filters average.
 texel moments_of_depth(float z)
 {
-    texel t = texel_of(moments6_from_depth(z));
+    texel t = texel_of(channels6_from_moments(moments6_from_depth(z)));
     if (method == EVSM_64 || method == EVSM_128) {
         exponential_variance_moments b = exponential_variance_encode(z, settings_of_exponential_variance());
         t.first = vec4(b.positive, b.positive_square, b.negative, b.negative_square);
@@ -71,10 +71,10 @@ texel encode(texel mean)
 {
     if (method == VSM_32) mean.first.x = 0.5 * mean.first.x + 0.5;
     if (method == MSM_64) {
-        moments4 c = theta4(moments4_of(mean));
-        mean.first = vec4(c.b1, c.b2, c.b3, c.b4);
+        channels4 c = theta4(moments4_from_channels(channels4_of(mean)));
+        mean.first = vec4(c.c1, c.c2, c.c3, c.c4);
     }
-    if (method == MSM6_60 || method == MSM6_96) mean = texel_of(theta6(moments6_of(mean)));
+    if (method == MSM6_60 || method == MSM6_96) mean = texel_of(theta6(moments6_from_channels(channels6_of(mean))));
     return mean;
 }
 
@@ -94,9 +94,9 @@ float intensity(texel filtered, float z_f)
         b.negative_square = filtered.first.w;
         return exponential_variance_intensity(b, z_f, settings_of_exponential_variance());
     }
-    if (method == MSM_64) return certified4_unorm16_filtered(moments4_of(filtered), z_f);
-    if (method == MSM_128) return certified4_float_filtered(moments4_of(filtered), z_f);
-    if (method == MSM6_60) return hamburger6_lower(hankel6_from_unorm10_filtered(moments6_of(filtered)), z_f);
-    if (method == MSM6_96) return hamburger6_lower(hankel6_from_unorm16_filtered(moments6_of(filtered)), z_f);
-    return hamburger6_lower(hankel6_from_float_filtered(moments6_of(filtered)), z_f);
+    if (method == MSM_64) return moments4_unorm16_filtered_intensity(channels4_of(filtered), z_f);
+    if (method == MSM_128) return moments4_float_filtered_intensity(channels4_of(filtered), z_f);
+    if (method == MSM6_60) return moments6_unorm10_filtered_intensity(channels6_of(filtered), z_f);
+    if (method == MSM6_96) return moments6_unorm16_filtered_intensity(channels6_of(filtered), z_f);
+    return moments6_float_filtered_intensity(channels6_of(filtered), z_f);
 }

@@ -1,7 +1,7 @@
-// The filters' storage formats: every code survives the round trip, sizes are as stated, a surface lights itself and
-// shadows what lies behind it after the roundings that the minimum variance allows for.
+// Storage formats of filters by bounds of few numbers: every code survives the round trip, a surface lights itself and
+// shadows what lies behind it after the roundings that the format allows for.
 #include <gnomon/passes/blur.hpp>
-#include <gnomon/storage/filters_formats.hpp>
+#include <gnomon/storage/formats.hpp>
 
 #include <doctest/doctest.h>
 
@@ -18,35 +18,23 @@ using namespace gnomon;
 TEST_CASE_TEMPLATE("stored channels decode and encode to the same code", Format, EVERY_FORMAT)
 {
     using texel = typename Format::texel;
-    CHECK(sizeof(texel) == Format::bytes_per_texel);
-    CHECK(channel_count<Format> == std::tuple_size_v<texel>);
     using code = typename texel::value_type;
     for (std::uint32_t i = 0; i < 65536; ++i) {
         texel t{};
         for (std::size_t k = 0; k < t.size(); ++k) t[k] = code(i % (std::uint32_t(1) << (sizeof(code) < 2 ? 8 : 16)));
         const bool half_nan = Format::name.ends_with("half") && (i & 0x7fff) > 0x7c00;
-        if (!half_nan) REQUIRE(Format::encode_channels(Format::decode(t)) == t);
+        if (!half_nan) REQUIRE(Format::encode(Format::decode(t)) == t);
     }
 }
 
 namespace {
 
-/// A map that shows one depth everywhere, rendered and blurred: three roundings, as minimum_variance_against() counts
-/// them.
+/// The channels of a map that shows one depth everywhere, rendered and blurred: three roundings.
 template <class Format> auto blurred_plane(float z)
 {
-    std::vector<typename Format::texel> map(15 * 15, Format::encode(Format::moments_of_depth(z))), scratch(map);
+    std::vector<typename Format::texel> map(15 * 15, Format::encode(Format::from_depth(z))), scratch(map);
     blur<Format>({map, 15, 15}, {scratch, 15, 15}, {map, 15, 15}, gaussian_weights());
     return Format::decode(map[7 * 15 + 7]);
-}
-
-/// Where nothing lies in front: 1% by the choice of the minimum variance; for the exponential map 84 roundings of its
-/// value 1 and two of the blur; for the series the ripple of 16 terms (at most 0.05 beyond its first zero) and 8 bits.
-template <class Format> double acne()
-{
-    if (Format::method == "convolution") return 0.055;
-    if (Format::method == "exponential") return 100 * 0x1p-24;
-    return 0.01;
 }
 
 } // namespace
@@ -58,15 +46,15 @@ TEST_CASE_TEMPLATE("a surface is lit, what lies in front too, what lies behind i
     for (int i = 0; i < 2000; ++i) {
         const float z = depth(random);
         const auto plane = blurred_plane<Format>(z);
-        CHECK(double(Format::intensity(plane, z)) <= acne<Format>());
+        CHECK(double(Format::filtered_intensity(plane, z)) <= Format::filtered_darkening);
         const float front = -1 + (z + 1) * std::uniform_real_distribution<float>(0, 1)(random);
-        CHECK(double(Format::intensity(plane, front)) <= acne<Format>());
+        CHECK(double(Format::filtered_intensity(plane, front)) <= Format::filtered_darkening);
         const float behind = z + 0.25f + (1 - z) * std::uniform_real_distribution<float>(0, 1)(random);
-        if (behind <= 1) CHECK(double(Format::intensity(plane, behind)) >= 0.94);
+        if (behind <= 1) CHECK(double(Format::filtered_intensity(plane, behind)) >= 0.94);
     }
     const auto cleared = blurred_plane<Format>(1);
-    CHECK(double(Format::intensity(cleared, -1.0f)) <= acne<Format>());
-    CHECK(double(Format::intensity(cleared, 1.0f)) <= acne<Format>());
+    CHECK(double(Format::filtered_intensity(cleared, -1.0f)) <= Format::filtered_darkening);
+    CHECK(double(Format::filtered_intensity(cleared, 1.0f)) <= Format::filtered_darkening);
 }
 
 TEST_CASE_TEMPLATE("NaN in a map or at the receiver is lit", Format, EVERY_FORMAT)
@@ -76,8 +64,8 @@ TEST_CASE_TEMPLATE("NaN in a map or at the receiver is lit", Format, EVERY_FORMA
     channels.fill(nan);
     const auto none = std::bit_cast<format_channels<Format>>(channels);
     CHECK(Format::intensity(none, 0.5f) == 0);
-    CHECK(Format::intensity(Format::decode(Format::encode(Format::moments_of_depth(-0.5f))), nan) == 0);
-    const float from_nan = Format::intensity(Format::decode(Format::encode(Format::moments_of_depth(nan))), 0.5f);
+    CHECK(Format::intensity(Format::decode(Format::encode(Format::from_depth(-0.5f))), nan) == 0);
+    const float from_nan = Format::intensity(Format::decode(Format::encode(Format::from_depth(nan))), 0.5f);
     CHECK(from_nan >= 0);
     CHECK(from_nan <= 1);
 }
@@ -85,8 +73,8 @@ TEST_CASE_TEMPLATE("NaN in a map or at the receiver is lit", Format, EVERY_FORMA
 // Half of a filter region covered: half shadow for the bounds that two depths attain; Markov's after its distance.
 TEST_CASE_TEMPLATE("an occluder over half of the filter region casts half a shadow", Format, EVERY_FORMAT)
 {
-    const auto near = load_channels<Format>(Format::encode(Format::moments_of_depth(-0.5f)));
-    const auto far = load_channels<Format>(Format::encode(Format::moments_of_depth(0.5f)));
+    const auto near = load_channels<Format>(Format::encode(Format::from_depth(-0.5f)));
+    const auto far = load_channels<Format>(Format::encode(Format::from_depth(0.5f)));
     channel_array<Format> mean;
     for (std::size_t k = 0; k < mean.size(); ++k) mean[k] = 0.5f * (near[k] + far[k]);
     const auto filtered = std::bit_cast<format_channels<Format>>(mean);

@@ -1,0 +1,129 @@
+// The one interface of storage formats for maps in main memory, and the kinds of texels that formats are made of. A
+// format is a type: the texel, its channels, and the kernels of storage/*.h that belong to them, so that a map, its filter
+// and its reconstruction cannot be mismatched. storage/formats.hpp lists all.
+//
+//     using format = gnomon::moments4_unorm16;
+//     format::texel t = format::encode(format::from_depth(z));                  // while rendering the map
+//     float shadow = format::intensity(format::decode(t), z_f);                 // floats or packs
+//
+// Filters are linear in the channels: decode, average, encode.
+#ifndef GNOMON_STORAGE_FORMAT_HPP
+#define GNOMON_STORAGE_FORMAT_HPP
+
+#include "../moments/channels.h"
+#include "../numerics/half.hpp"
+#include "../numerics/unorm.hpp"
+
+#include <array>
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+
+namespace gnomon {
+
+template <class Format> using format_texel = typename Format::texel;
+
+/// The struct of the channels, as decode returns it: numbers of type Real and nothing else.
+template <class Format, class Real = float> using format_channels = typename Format::template channels<Real>;
+
+/// Types and functions that every storage format has:
+///     texel, channels<Real>        what the map holds, and what a texture unit returns
+///     name, id                     in words, and for programs: [a-z0-9_]
+///     bytes_per_texel
+///     from_depth(z)                the channels of one depth
+///     encode(channels), decode(texel)
+///     intensity(channels, z_f)     the shadow after one rounding to the format, from any linear filter
+///     filtered_intensity           the shadow after a filter of two passes that store their results in the format
+///     darkening                    the most by which a lit surface is darkened by intensity
+///     filtered_darkening           the most by which a lit surface is darkened by filtered_intensity
+///     border(), clear()            channels and texel that shadow nothing
+// clang-format off
+template <class Format> concept storage_format = requires(float z, double w, const format_texel<Format>& t,
+                                                          const format_channels<Format>& c,
+                                                          const format_channels<Format, double>& d) {
+    requires std::is_trivially_copyable_v<format_texel<Format>>;
+    requires std::is_trivially_copyable_v<format_channels<Format>>;
+    requires Format::bytes_per_texel == sizeof(format_texel<Format>);
+    { Format::name } -> std::convertible_to<std::string_view>;
+    { Format::id } -> std::convertible_to<std::string_view>;
+    { Format::from_depth(z) } -> std::same_as<format_channels<Format>>;
+    { Format::from_depth(w) } -> std::same_as<format_channels<Format, double>>;
+    { Format::encode(c) } -> std::same_as<format_texel<Format>>;
+    { Format::decode(t) } -> std::same_as<format_channels<Format>>;
+    { Format::intensity(c, z) } -> std::same_as<float>;
+    { Format::intensity(d, w) } -> std::same_as<double>;
+    { Format::filtered_intensity(c, z) } -> std::same_as<float>;
+    { Format::filtered_intensity(d, w) } -> std::same_as<double>;
+    { Format::border() } -> std::same_as<format_channels<Format>>;
+    { Format::clear() } -> std::same_as<format_texel<Format>>;
+    { Format::darkening } -> std::convertible_to<double>;
+    { Format::filtered_darkening } -> std::convertible_to<double>;
+};
+// clang-format on
+
+/// The number of channels, and an array of them in order.
+template <class Format> inline constexpr std::size_t channel_count = sizeof(format_channels<Format>) / sizeof(float);
+template <class Format> using channel_array = std::array<float, channel_count<Format>>;
+
+/// The texel that shadows nothing, of a format that has from_depth and encode: a depth on the far plane.
+template <class Format> struct far_plane {
+    static constexpr auto border() { return Format::from_depth(1.0f); }
+    static constexpr auto clear() { return Format::encode(border()); }
+};
+
+/// A texel with a code of its own for each channel, in order.
+template <template <class...> class Channels, class Code> struct coded_texel {
+    template <class Real> using channels = Channels<Real>;
+    static constexpr std::size_t count = sizeof(channels<float>) / sizeof(float);
+    using texel = std::array<Code, count>;
+    static constexpr std::size_t bytes_per_texel = sizeof(texel);
+};
+
+/// UNORM codes of the given number of bits.
+template <template <class...> class Channels, int bits> struct unorm_texel : coded_texel<Channels, unorm_code<bits>> {
+    using typename coded_texel<Channels, unorm_code<bits>>::texel;
+    static constexpr texel encode(const Channels<float>& c)
+    {
+        const auto numbers = std::bit_cast<std::array<float, texel{}.size()>>(c);
+        texel t{};
+        for (std::size_t k = 0; k < t.size(); ++k) t[k] = unorm_encode<bits>(numbers[k]);
+        return t;
+    }
+    static constexpr Channels<float> decode(const texel& t)
+    {
+        std::array<float, texel{}.size()> numbers{};
+        for (std::size_t k = 0; k < t.size(); ++k) numbers[k] = unorm_decode<bits>(t[k]);
+        return std::bit_cast<Channels<float>>(numbers);
+    }
+};
+
+/// Half floats.
+template <template <class...> class Channels> struct half_texel : coded_texel<Channels, std::uint16_t> {
+    using typename coded_texel<Channels, std::uint16_t>::texel;
+    static constexpr texel encode(const Channels<float>& c)
+    {
+        const auto numbers = std::bit_cast<std::array<float, texel{}.size()>>(c);
+        texel t{};
+        for (std::size_t k = 0; k < t.size(); ++k) t[k] = half_encode(numbers[k]);
+        return t;
+    }
+    static constexpr Channels<float> decode(const texel& t)
+    {
+        std::array<float, texel{}.size()> numbers{};
+        for (std::size_t k = 0; k < t.size(); ++k) numbers[k] = half_decode(t[k]);
+        return std::bit_cast<Channels<float>>(numbers);
+    }
+};
+
+/// Floats.
+template <template <class...> class Channels> struct float_texel : coded_texel<Channels, float> {
+    using typename coded_texel<Channels, float>::texel;
+    static constexpr texel encode(const Channels<float>& c) { return std::bit_cast<texel>(c); }
+    static constexpr Channels<float> decode(const texel& t) { return std::bit_cast<Channels<float>>(t); }
+};
+
+} // namespace gnomon
+#endif
