@@ -58,7 +58,7 @@ GNOMON_KERNEL Real exponential_variance_side(GNOMON_T(variance_moments) moments,
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: a NaN receiver gives 0, lit; a NaN moment takes the bound of its own warp away, which leaves the other's.
 /// Error: that of cantelli_lower for the warped depths, with r = (2 c + 8) 2^-p, the larger of both.
-/// Source: Lauritzen 2008; Peters 2017, Sec. 2.2
+/// Source: Lauritzen & McCool 2008; Peters 2017, Sec. 2.2
 GNOMON_KERNEL Real exponential_variance_intensity(GNOMON_T(exponential_variance_moments) filtered, Real z_f,
                                                   GNOMON_T(exponential_variance_settings) settings)
 {

@@ -58,7 +58,7 @@ GNOMON_KERNEL GNOMON_T(layered_variance) layered_variance_add(GNOMON_T(layered_v
 /// Shadow intensity in [0, 1], never above percentage-closer filtering but for rounding.
 /// NaN: 0, lit.
 /// Error: that of cantelli_lower for the layers' own depths, with r = 8 2^-p, the largest of all.
-/// Source: Lauritzen 2008, Sec. 3
+/// Source: Lauritzen & McCool 2008, Sec. 3
 GNOMON_KERNEL Real layered_variance_end(GNOMON_T(layered_variance) state) { return saturate_or_zero(state.intensity); }
 
 GNOMON_NAMESPACE_END

@@ -37,7 +37,7 @@ GNOMON_KERNEL GNOMON_T(percentage_closer) percentage_closer_add(GNOMON_T(percent
 /// Shadow intensity in [0, 1], also where the weights do not sum to 1.
 /// NaN: 0, lit.
 /// Error: that of the sum of weights.
-/// Source: Reeves 1987
+/// Source: Reeves, Salesin & Cook 1987
 GNOMON_KERNEL Real percentage_closer_end(GNOMON_T(percentage_closer) state) { return saturate_or_zero(state.shadowed); }
 
 GNOMON_NAMESPACE_END

@@ -39,7 +39,7 @@ GNOMON_KERNEL Real cantelli_lower(GNOMON_T(variance_moments) moments, Real recei
 /// Domain: any z_f; beyond the far plane as on it.
 /// NaN: 0, lit.
 /// Error: as cantelli_lower.
-/// Source: Donnelly 2006; Peters 2017, Sec. 2.2
+/// Source: Donnelly & Lauritzen 2006; Peters 2017, Sec. 2.2
 GNOMON_KERNEL Real variance_intensity(GNOMON_T(variance_moments) filtered, Real z_f,
                                       GNOMON_T(variance_settings) settings)
 {

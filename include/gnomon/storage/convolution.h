@@ -4,9 +4,9 @@
 //   format         bytes   channels                            write                       read
 //   32 x 8 UNORM    32     (1 + value) / 2: 16 cosines, sines  convolution_unorm8_encode   convolution_unorm8_intensity
 //
-// A texel is eight textures of four channels: cosine and sine of term 1, then of term 2, and so on. The series is neither
-// damped nor sharpened. Its span leaves a 16th of the half period free, and its offset is that of
-// convolution_settings. A lit surface is darkened by the ripple of 16 terms and by rounding to 8 bits.
+// A texel is eight textures of four channels (Klehm, Seidel & Eisemann 2014): cosine and sine of term 1, then of term 2,
+// and so on. The series is neither damped nor sharpened. Its span leaves a 16th of the half period free, and its offset
+// is that of convolution_settings. A lit surface is darkened by the ripple of 16 terms and by rounding to 8 bits.
 #ifndef GNOMON_STORAGE_CONVOLUTION_H
 #define GNOMON_STORAGE_CONVOLUTION_H
 #include "../filters/convolution.h"

@@ -5,9 +5,10 @@
 //   4 x half      8     5.54 5.54   exponential_variance_half_encode    exponential_variance_half_intensity
 //   4 x float    16     40   5.54   exponential_variance_float_encode   exponential_variance_float_intensity
 //
-// The channels are the four members of exponential_variance_moments, in their order. The minimum variance is 99 e^2, as
-// in storage/variance.h, with e three roundings of a depth: a relative rounding of r in a warped value moves the depth by
-// r / c. To 4 x float the rounding of the depth, a float too, is added.
+// The exponents are those of Peters et al. 2017, Figure 4. The channels are the four members of
+// exponential_variance_moments, in their order. The minimum variance is 99 e^2, as in storage/variance.h, with e three
+// roundings of a depth: a relative rounding of r in a warped value moves the depth by r / c. To 4 x float the rounding of
+// the depth, a float too, is added.
 #ifndef GNOMON_STORAGE_EXPONENTIAL_VARIANCE_H
 #define GNOMON_STORAGE_EXPONENTIAL_VARIANCE_H
 #include "../filters/exponential_variance.h"
@@ -51,7 +52,6 @@ GNOMON_DETAIL_KERNEL Real exponential_variance_of_channels(GNOMON_T(channels4) c
 /// Domain: any z, limited to [-1, 1].
 /// NaN: the far plane, which shadows nothing.
 /// Error: as exponential_variance_encode.
-/// Source: Peters 2017, Fig. 4
 GNOMON_KERNEL GNOMON_T(channels4) exponential_variance_half_encode(Real z)
 {
     GNOMON_T(exponential_variance_settings) settings;
@@ -77,7 +77,6 @@ GNOMON_KERNEL Real exponential_variance_half_intensity(GNOMON_T(channels4) c, Re
 /// Domain: any z, limited to [-1, 1].
 /// NaN: the far plane, which shadows nothing.
 /// Error: as exponential_variance_encode.
-/// Source: Peters 2017, Fig. 4
 GNOMON_KERNEL GNOMON_T(channels4) exponential_variance_float_encode(Real z)
 {
     GNOMON_T(exponential_variance_settings) settings;
