@@ -3,7 +3,7 @@
 #include "core/measure.hpp"
 #include "support/hostile.hpp"
 
-#include <gnomon/motion/receiver/moving_receiver.h>
+#include <gnomon/passes/range/shutters.hpp>
 
 namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {
 
@@ -77,7 +77,7 @@ struct receiver_static : path_and_range {
         using real = std::common_type_t<Reals...>;
         const std::array<real, 16> x{operands...};
         const auto state = static_receiver_begin(x[2], x[4], x[0], x[1]);
-        return static_receiver_end(static_receiver_add_box(state, range(&x[11])));
+        return static_receiver_end(add_range(state, range(&x[11]), box_shutter{}));
     }
 };
 
@@ -90,7 +90,7 @@ struct receiver_behind : path_and_range {
         const range_summary<real> total{x[13], x[13], x[12], real(3)};
         const auto state = static_receiver_begin(x[2], x[4], real(0), real(1));
         const real behind = static_receiver_is_behind(state, total);
-        return behind * static_receiver_end(static_receiver_add_summary(state, total));
+        return behind * static_receiver_end(static_receiver_add(state, total.shadowed));
     }
 };
 
@@ -102,7 +102,7 @@ struct receiver_moving : path_and_range {
         using real = std::common_type_t<Reals...>;
         const std::array<real, 16> x{operands...};
         const auto state = moving_receiver_begin(path(x), x[0], x[1]);
-        return moving_receiver_end(moving_receiver_add_box(state, range(&x[11])));
+        return moving_receiver_end(add_range(state, range(&x[11]), box_shutter{}));
     }
 };
 
@@ -115,7 +115,7 @@ struct receiver_filtered : path_and_range {
         const std::array<real, 16> x{operands...};
         auto state = moving_receiver_begin(path(x), x[0], x[1]);
         state.u0 = x[11], state.v0 = x[12], state.u1 = x[12], state.v1 = x[11];
-        return moving_receiver_end(moving_receiver_filter_box(state, range(&x[11])));
+        return moving_receiver_end(add_filtered_range(state, range(&x[11]), box_shutter{}));
     }
 };
 

@@ -1,9 +1,10 @@
 // Receivers in a map of ranges that no cache holds: squares cross the map at random, and receivers are among them. The
-// baseline is the fold of the kernels, tap after tap and list after list.
+// baseline is the fold of the kernels, tap after tap and list after list; that of compact lists is the plain lists.
 #define GNOMON_BENCH_ARITHMETIC exact
 #include "core/measure.hpp"
 #include "support/hostile.hpp"
 
+#include <gnomon/passes/range/compact.hpp>
 #include <gnomon/passes/range/look_up.hpp>
 #include <gnomon/passes/range/resolve.hpp>
 
@@ -22,6 +23,9 @@ std::pair<float, float> times_inside(float point, float a, float b, float half)
     const float t = (point - half - a) / (b - a), u = (point + half - a) / (b - a);
     return {std::max(std::min(t, u), 0.f), std::min(std::max(t, u), 1.f)};
 }
+
+/// A box shutter for which look-ups take no shortcuts.
+struct folded_box : box_shutter {};
 
 class squares_map {
   public:
@@ -66,6 +70,9 @@ class squares_map {
         first_.push_back(static_cast<std::uint32_t>(ranges_.size()));
         totals_.resize(first.size() - 1);
         set_summaries(lists(), std::span(totals_), range_ids::surfaces);
+        begins_.resize(compact_capacity(lists())), bodies_.resize(begins_.size());
+        list_begins_.resize(totals_.size()), groups_.resize(totals_.size() / compact_spans::group);
+        compact_ = compact_ranges(lists(), {begins_, bodies_, groups_, list_begins_});
         for (std::size_t i = 0; i < receivers; ++i) {
             const float x = number(0, side), y = number(0, side), z = number(-1, 1);
             const float u = x + number(-longest, longest), v = y + number(-longest, longest);
@@ -80,24 +87,22 @@ class squares_map {
     }
 
     range_map<float> lists() const { return {side, side, first_, ranges_}; }
+    compact_range_map compact() const { return {side, side, compact_}; }
+    compact_range_map compact_with_totals() const { return {side, side, compact_, totals_}; }
     range_map<float> with_totals() const { return {side, side, first_, ranges_, totals_}; }
 
     /// The look-up of moving receivers with a box shutter, counted by cells of their paths.
-    template <class... Add> work moving(const range_map<float>& map, const Add&... add)
+    template <class Map, class... Shutter> work moving(const Map& map, const Shutter&... shutter)
     {
-        return each(cells_ / receivers,
-                    [=, this](std::size_t i) { shadows_[i] = moving_intensity(map, paths_[i], 0.f, 1.f, 1, add...); });
-    }
-    /// The look-up of moving receivers by the fold.
-    work moving_by_fold()
-    {
-        return moving(lists(), [](const moving_receiver<float>& s, const depth_time_range<float>& r) {
-            return moving_receiver_filter_box(s, r);
+        return each(cells_ / receivers, [=, this](std::size_t i) {
+            shadows_[i] = moving_intensity(map, paths_[i], 0.f, 1.f, 1, shutter...);
         });
     }
+    /// The look-up of moving receivers by the fold.
+    work moving_by_fold() { return moving(lists(), folded_box{}); }
 
     /// The look-up of static receivers, many at a time.
-    work statically(const range_map<float>& map)
+    template <class Map> work statically(const Map& map)
     {
         return {[=, this, begin = start()]() mutable {
                     const auto next = std::span(placed_).subspan(begin, at_once);
@@ -110,10 +115,7 @@ class squares_map {
     work static_by_fold()
     {
         return each(1, [this](std::size_t i) {
-            const auto add = [](const static_receiver<float>& s, const depth_time_range<float>& r) {
-                return static_receiver_add_box(s, r);
-            };
-            shadows_[i] = static_intensity(lists(), placed_[i].x, placed_[i].y, placed_[i].state, 1, add);
+            shadows_[i] = static_intensity(lists(), placed_[i].x, placed_[i].y, placed_[i].state, 1, folded_box{});
         });
     }
 
@@ -135,6 +137,10 @@ class squares_map {
     std::vector<std::uint32_t> first_;
     std::vector<depth_time_range<float>> ranges_;
     std::vector<range_summary<float>> totals_;
+    std::vector<std::uint16_t> begins_, list_begins_;
+    std::vector<std::uint64_t> bodies_;
+    std::vector<std::uint32_t> groups_;
+    compact_spans compact_;
     std::vector<receiver_path<float>> paths_;
     std::vector<placed_receiver<float>> placed_;
     std::vector<float> shadows_;
@@ -164,7 +170,14 @@ squares_map& scene()
         [] { return scene().static_by_fold(); }) &&
     add_comparison(
         "receivers/at rest/totals", [] { return scene().statically(scene().with_totals()); },
-        [] { return scene().static_by_fold(); });
+        [] { return scene().static_by_fold(); }) &&
+    add_comparison(
+        "receivers/static/compact against lists", [] { return scene().statically(scene().compact()); },
+        [] { return scene().statically(scene().lists()); }) &&
+    add_comparison(
+        "receivers/static/compact with summaries against lists with summaries",
+        [] { return scene().statically(scene().compact_with_totals()); },
+        [] { return scene().statically(scene().with_totals()); });
 
 } // namespace
 

@@ -44,7 +44,13 @@ int main()
     gnomon::texel_sweep sweep = gnomon::texel_sweep_begin(path);
     for (bool more = true; more; sweep = gnomon::texel_sweep_next(sweep)) {
         state = gnomon::moving_receiver_texel(state, sweep);
-        for (const range& r : map[std::size_t(sweep.column)].ranges) state = gnomon::moving_receiver_add_box(state, r);
+        for (const range& r : map[std::size_t(sweep.column)].ranges) {
+            const range hidden = gnomon::moving_receiver_occluding_part(state, r);       // in front of the receiver
+            const float share0 = gnomon::shutter_box(hidden.t0, state.begin, state.end); // of the exposure's light
+            const float share1 = gnomon::shutter_box(hidden.t1, state.begin, state.end);
+            state =
+                gnomon::moving_receiver_add(state, gnomon::receiver_lost_light(hidden, path.depth.id, share0, share1));
+        }
         more = sweep.t_end < sweep.t_last;
     }
     const float exact = gnomon::moving_receiver_end(state);

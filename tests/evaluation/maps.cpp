@@ -170,7 +170,7 @@ TEST_CASE("kinds of maps take the memory that they say, in the order that they s
     CHECK(same_maps(exact(), exact_ranges(stage.world, stage.light, resolution)));
     CHECK(same_maps(prisms, prism_ranges(stage.world, stage.light, resolution)));
     CHECK(same_maps(interval_lists(exact(), 4), interval_lists(exact(), 4)));
-    CHECK(packed.spans.bodies == compact_ranges(resolved).spans.bodies);
+    CHECK(packed.bodies == compact_ranges(resolved).bodies);
     const auto casters = caster_ranges(stage.world, stage.light, resolution);
     const auto packed_casters = compact_ranges(casters);
     CHECK(casters.bytes < resolved.bytes);

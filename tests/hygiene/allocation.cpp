@@ -110,6 +110,10 @@ TEST_CASE("no pass over ranges allocates")
     std::array<std::uint32_t, 16> texels{};
     std::array<std::uint32_t, map::texels(12, 9) + 1> first{};
     std::array<depth_time_range<float>, texels.size()> some{}, ranges{};
+    std::array<std::uint16_t, 2 * texels.size() + 1> begins{};
+    std::array<std::uint64_t, begins.size()> bodies{};
+    std::array<std::uint32_t, map::texels(12, 9) / compact_spans::group> groups{};
+    std::array<std::uint16_t, map::texels(12, 9)> list_begins{};
     const std::array<placed_receiver<float>, 2> receivers{{{0, 1, {}}, {2, 3, {}}}};
     std::array<float, 2> shadows{};
     const receiver_path<float> path{{0, 1, 0, 0, 4}, 1, 1, 1, 5, 6, 1};
@@ -121,6 +125,14 @@ TEST_CASE("no pass over ranges allocates")
     static_intensities<float>(lists, receivers, shadows);
     const float shadow = static_intensity(lists, 0.5f, 0.5f, static_receiver_begin(0.f, 4.f, 0.f, 1.f)) +
                          moving_intensity(lists, path, 0.f, 1.f) + sampled_intensity(lists, path, 0.f, 16.f);
+    some.fill({});
+    const auto surfaces = resolve_ranges<float>(loose, spans, range_ids::surfaces);
+    for (std::size_t i = 0; i < surfaces.size(); ++i) some[i] = range_of<float>(loose, surfaces[i]);
+    sort_into_lists<float>(texels, some, first, ranges);
+    const compact_range_map compact{12, 9, compact_ranges(lists, {begins, bodies, groups, list_begins})};
+    const float same = static_intensity(compact, 0.5f, 0.5f, static_receiver_begin(0.f, 4.f, 0.f, 1.f)) +
+                       moving_intensity(compact, path, 0.f, 1.f);
     CHECK(allocations == before);
     CHECK(shadow > 0);
+    CHECK(same > 0);
 }

@@ -40,7 +40,7 @@ nlohmann::json cube_costs(const cube_case& at, int resolution)
         row["maps"].push_back(facts_of(m, m.ranges.size(), exact.pairs));
     };
     const auto add_packed = [&](const compact_shadow_map& m) {
-        row["maps"].push_back(facts_of(m, m.spans.begins.size(), exact.pairs));
+        row["maps"].push_back(facts_of(m, m.begins.size(), exact.pairs));
     };
     add(exact);
     add(covered_ranges(exact));

@@ -182,34 +182,20 @@ range_shadow_map cover_first_ranges(const range_shadow_map& exact)
 compact_shadow_map compact_ranges(const range_shadow_map& resolved)
 {
     compact_shadow_map result{{resolved.method + ", packed", "10 B spans", resolved.resolution}};
-    const std::size_t texels = texels_of(resolved.resolution);
     const double spent = least_seconds([&] {
-        result.spans.clear();
-        for (std::size_t i = 0; i < texels; ++i) compact_list(list_of(resolved, i), result.spans);
+        const std::size_t room = compact_capacity(resolved.map()), texels = texels_of(resolved.resolution);
+        result.begins.resize(room), result.bodies.resize(room);
+        result.groups.resize((texels + compact_spans::group - 1) / compact_spans::group), result.lists.resize(texels);
+        const compact_memory memory{result.begins, result.bodies, result.groups, result.lists};
+        const std::size_t used = gnomon::compact_ranges(resolved.map(), memory).begins.size();
+        result.begins.resize(used), result.bodies.resize(used);
     });
     result.totals = resolved.totals;
     if (!result.totals.empty()) result.format += ", 16 B totals";
     result.build_ms = resolved.build_ms + 1e3 * spent;
     result.pairs = resolved.pairs;
-    result.bytes = result.spans.bytes() + result.totals.size() * sizeof(range_summary<float>);
+    result.bytes = result.map().spans.bytes() + result.totals.size() * sizeof(range_summary<float>);
     return result;
-}
-
-float static_intensity(const compact_shadow_map& map, float x, float y, static_receiver<float> state)
-{
-    const auto size = float(map.resolution);
-    for_each_tap({x, y}, [&](float column, float row, float weight) {
-        if (!(column >= 0 && row >= 0 && column < size && row < size)) return;
-        const std::size_t texel =
-            range_map<float>::texel(std::size_t(map.resolution), std::size_t(column), std::size_t(row));
-        state = static_receiver_set_weight(state, weight);
-        const bool told = !map.totals.empty();
-        if (told && receiver_is_in_front(state.depth, map.totals[texel]) > 0) return;
-        if (told && static_receiver_is_behind(state, map.totals[texel]) > 0)
-            state = static_receiver_add_summary(state, map.totals[texel]);
-        else for_each_span(map.spans, texel, [&](const range& r) { state = static_receiver_add_box(state, r); });
-    });
-    return static_receiver_end(state);
 }
 
 } // namespace gnomon::evaluation

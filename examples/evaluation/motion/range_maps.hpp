@@ -3,10 +3,10 @@
 // or those of surfaces.
 #pragma once
 
-#include "compact_spans.hpp"
 #include "renderer/scene/moving_scene.hpp"
 
 #include <gnomon/motion/receiver/static_receiver.h>
+#include <gnomon/passes/range/compact.hpp>
 #include <gnomon/passes/range/map.hpp>
 
 #include <cstddef>
@@ -86,15 +86,19 @@ range_shadow_map covered_prism_ranges(const renderer::moving_scene& world, const
 // sum of what all threads have spent. Throws std::invalid_argument for another capacity.
 range_shadow_map interval_lists(const range_shadow_map& exact, int capacity);
 
-// Resolved ranges and their totals in half the memory (compact_spans.hpp).
+// Resolved ranges and their summaries in half the memory, which look-ups read directly.
 struct compact_shadow_map : map_facts {
-    compact_spans spans{};
+    std::vector<std::uint16_t> begins{}, lists{}; // as in compact_spans
+    std::vector<std::uint64_t> bodies{};
+    std::vector<std::uint32_t> groups{};
     std::vector<range_summary<float>> totals{}; // of each texel, or none
+
+    compact_range_map map() const
+    {
+        return {std::size_t(resolution), std::size_t(resolution), {begins, bodies, groups, lists}, totals};
+    }
 };
 compact_shadow_map compact_ranges(const range_shadow_map& resolved);
-
-// The share of a receiver at rest at a place of the map that is shadowed, from the packed lists themselves.
-float static_intensity(const compact_shadow_map& map, float x, float y, static_receiver<float> state);
 
 std::size_t texels_of(int resolution);
 

@@ -180,23 +180,21 @@ class resting_comparison {
     void add_packed(const resting_points& at, const compact_shadow_map& map)
     {
         add_analytic(at, map, [&](const light_receiver& r) {
-            return 1 - static_intensity(map, r.path.x0 / r.path.w0, r.path.y0 / r.path.w0, whole_exposure(r));
+            return 1 -
+                   gnomon::static_intensity(map.map(), r.path.x0 / r.path.w0, r.path.y0 / r.path.w0, whole_exposure(r));
         });
     }
 
     // A shutter that opens and closes evenly.
     void add_tent(const resting_points& at, const range_shadow_map& map)
     {
-        const auto tent = [](const static_receiver<float>& s, const depth_time_range<float>& r) {
-            return static_receiver_add_tent(s, r);
-        };
         const std::vector<light_receiver> receivers = receivers_of(at);
         std::vector<float> found(receivers.size());
         const double spent = least_seconds([&] {
             for (std::size_t i = 0; i < found.size(); ++i) {
                 const receiver_path<float>& p = receivers[i].path;
                 found[i] = 1 - gnomon::static_intensity(map.map(), p.x0 / p.w0, p.y0 / p.w0,
-                                                        whole_exposure(receivers[i]), 1, tent);
+                                                        whole_exposure(receivers[i]), 1, tent_shutter{});
             }
         });
         add(at,

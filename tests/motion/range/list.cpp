@@ -4,7 +4,7 @@
 #include "support/hostile.hpp"
 
 #include <gnomon/motion/range/range_list.h>
-#include <gnomon/motion/receiver/static_receiver.h>
+#include <gnomon/passes/range/shutters.hpp>
 
 #include <doctest/doctest.h>
 
@@ -354,8 +354,8 @@ TEST_CASE_TEMPLATE("a receiver at rest under a resolved list", T, float, double)
         // aside.
         static_receiver<T> by_box = at_rest, by_tent = at_rest;
         for (const auto& range : resolved.ranges) {
-            by_box = static_receiver_add_box(by_box, range);
-            by_tent = static_receiver_add_tent(by_tent, range);
+            by_box = add_range(by_box, range, box_shutter{});
+            by_tent = add_range(by_tent, range, tent_shutter{});
         }
         CHECK(std::abs(double(static_receiver_end(by_box)) - box) <= 16.0 / times + 1e-4);
         CHECK(std::abs(double(static_receiver_end(by_tent)) - tent) <= 32.0 / times + 2e-4);

@@ -108,7 +108,7 @@ TEST_CASE_TEMPLATE("facing: a path in parts", T, float, double)
         texel_sweep<T> sweep = texel_sweep_begin(part);
         const depth_time_range<T> occluder{T(0.125), T(1), T(-1), T(-1), T(2)};
         for (bool more = true; more;) {
-            state = moving_receiver_add_box(moving_receiver_texel(state, sweep), occluder);
+            state = add_range(moving_receiver_texel(state, sweep), occluder, box_shutter{});
             more = sweep.t_end < part.depth.t1;
             sweep = texel_sweep_next(sweep);
         }

@@ -250,7 +250,7 @@ TEST_CASE_TEMPLATE("moving receiver: at rest it is the static one", T, float, do
             for (const auto& r : map.at(column + T(k % 2), row + T(k / 2))) rests = s.add(rests, r);
         }
         // Positions up to 12 have 8 roundings (receiver_path_at), so weights of two axes 16 in all; each of 4 x 7
-        // ranges at most 41 of the largest response (moving_receiver_part) and 32 (static_receiver_end).
+        // ranges at most 41 of the largest response (moving_receiver_filtered_light) and 32 (static_receiver_end).
         const wide error = (2 * 4 * 8 * 12 + 4 * 7 * 73) * s.largest() * rounding<T>;
         REQUIRE(std::abs(wide(filtered(map, p, s)) - wide(static_receiver_end(rests))) <= error);
     }

@@ -4,7 +4,7 @@
 
 #include "support/hostile.hpp"
 
-#include <gnomon/motion/receiver/moving_receiver.h>
+#include <gnomon/passes/range/shutters.hpp>
 
 #include <algorithm>
 #include <array>
@@ -30,8 +30,8 @@ template <class T> std::vector<depth_time_range<T>> resolved_list(bit_source& bi
     return list;
 }
 
-enum class response { box, tent, given };
-inline constexpr std::array responses{response::box, response::tent, response::given};
+enum class response { box, tent, piecewise };
+inline constexpr std::array responses{response::box, response::tent, response::piecewise};
 
 /// A shutter as kernels have it and as it is defined.
 template <class T> struct test_shutter {
@@ -66,23 +66,17 @@ template <class T> struct test_shutter {
         for (std::size_t k = 0; k < 8; ++k) sum += eighths()[k] * std::clamp(8 * x - wide(k), 0.0L, 1.0L);
         return sum;
     }
-    auto add(const static_receiver<T>& state, const depth_time_range<T>& r) const
+    template <class Receiver> Receiver add(const Receiver& state, const depth_time_range<T>& r) const
     {
-        return kind == response::box    ? static_receiver_add_box(state, r)
-               : kind == response::tent ? static_receiver_add_tent(state, r)
-                                        : static_receiver_add_piecewise(state, r, weights);
-    }
-    auto add(const moving_receiver<T>& state, const depth_time_range<T>& r) const
-    {
-        return kind == response::box    ? moving_receiver_add_box(state, r)
-               : kind == response::tent ? moving_receiver_add_tent(state, r)
-                                        : moving_receiver_add_piecewise(state, r, weights);
+        return kind == response::box    ? add_range(state, r, box_shutter{})
+               : kind == response::tent ? add_range(state, r, tent_shutter{})
+                                        : add_range(state, r, piecewise_shutter<T>{weights});
     }
     auto filter(const moving_receiver<T>& state, const depth_time_range<T>& r) const
     {
-        return kind == response::box    ? moving_receiver_filter_box(state, r)
-               : kind == response::tent ? moving_receiver_filter_tent(state, r)
-                                        : moving_receiver_filter_piecewise(state, r, weights);
+        return kind == response::box    ? add_filtered_range(state, r, box_shutter{})
+               : kind == response::tent ? add_filtered_range(state, r, tent_shutter{})
+                                        : add_filtered_range(state, r, piecewise_shutter<T>{weights});
     }
 };
 

@@ -130,7 +130,7 @@ TEST_CASE_TEMPLATE("given weights: the integral of their density, and a box wher
     bit_source bits(23);
     for (std::int64_t i = 0; i < effort(100); ++i) {
         const T a = T(bits.uniform(0, 0.5)), b = T(bits.uniform(0.5, 1));
-        const auto s = any_shutter(response::given, a, b, bits);
+        const auto s = any_shutter(response::piecewise, a, b, bits);
         CHECK(shutter_piecewise(a, a, b, s.weights) == 0);
         CHECK(shutter_piecewise(b, a, b, s.weights) == 1);
         CHECK(shutter_piecewise(nan_of<T>, a, b, s.weights) == 0);

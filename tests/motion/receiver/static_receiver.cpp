@@ -155,10 +155,10 @@ TEST_CASE_TEMPLATE("range_summary: what a list hides from a receiver behind it, 
         total.id = T(range_nothing);
         REQUIRE(static_receiver_is_behind(seen_by(id), total) == (id == T(range_nothing) ? 0 : 1));
         REQUIRE(static_receiver_is_behind(at_once, total) == 1);
-        at_once = static_receiver_add_summary(at_once, total);
+        at_once = static_receiver_add(at_once, total.shadowed);
         wide expected = 0;
         for (const auto& r : list) expected += wide(weight) * std::max(wide(r.t1) - wide(r.t0), wide(0));
-        for (const auto& r : list) one_by_one = static_receiver_add_box(one_by_one, r);
+        for (const auto& r : list) one_by_one = add_range(one_by_one, r, box_shutter{});
         const wide error = wide(list.size()) * 2 * wide(std::numeric_limits<T>::epsilon());
         REQUIRE(std::abs(wide(at_once.shadowed) - expected) <= error);
         REQUIRE(std::abs(wide(one_by_one.shadowed) - expected) <= 9 * error);

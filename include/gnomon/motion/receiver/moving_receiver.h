@@ -1,44 +1,53 @@
-// The shadow that falls on a receiver that moves, in closed form: what Palmer 2011 leaves for the future (chapter 5,
-// Analytical Dynamic Receivers). A texel sweep says which texel it is in from when to when; in each, a range of the
-// texel's resolved list is in front of the receiver's line of depth for a time as in static_receiver.h, which is the
-// case of one texel and a level line. Exact but for rounding, where his 2 samples per texel are not.
+// The shadow on a moving receiver while the shutter is open, in closed form: the Analytical Dynamic Receivers that
+// Palmer 2011 leaves as future work (chapter 5). A texel sweep (texel_sweep.h) finds the texels that the receiver
+// passes and the times that it spends in each. In each texel, a range of the resolved list is in front of the
+// receiver's depth line for a time in closed form, as in static_receiver.h, which is the case of one texel and a level
+// line. Exact except for rounding, where Palmer takes 2 samples for each texel.
 //
 //     state = moving_receiver_begin(path, begin, end);
-//     for each texel of a texel sweep of the path:
-//         state = moving_receiver_texel(state, sweep);
-//         state = moving_receiver_add_box(state, range);    or _add_tent, _add_given; for every range of the texel
+//     for each texel of a texel sweep of the path: state = moving_receiver_texel(state, sweep);
+//         for every range of the texel:
+//             hidden = moving_receiver_occluding_part(state, range);
+//             share0 = shutter_box(hidden.t0, state.begin, state.end);   and share1 at hidden.t1; or shutter_tent,
+//                                                                        shutter_piecewise
+//             state = moving_receiver_add(state, receiver_lost_light(hidden, path.depth.id, share0, share1));
 //     intensity = moving_receiver_end(state);
 //
-// Filtered: between the centres of texels the bilinear weights of the receiver's position are products of two lines in
-// time, and the response of a shutter is a line at a time, so what a range hides is worth the integral of a product of
-// three lines. With percentage-closer filtering of K x K bilinear look-ups (K = 1: bilinear filtering alone):
+// With filtering, the weight of a texel changes along the path. Between the centres of texels the bilinear weights of
+// the receiver's position are products of two functions that are linear in time, and the response of a shutter is
+// piecewise linear. So the light lost to a range is the integral of a product of three lines. Percentage-closer
+// filtering of K x K bilinear look-ups (K = 1 is bilinear filtering alone):
 //     for each texel of a texel sweep of receiver_path_shift(path, -K / 2, -K / 2), i and j from 0 to K:
 //         state = moving_receiver_tap(state, sweep, i, j, K);
-//         state = moving_receiver_filter_box(state, range);  or _tent, _given; for every range of texel (column + i,
-//                                                            row + j)
-// It is the mean of K x K receivers by bilinear filtering, each on the path shifted by whole texels.
+//         for every range of texel (column + i, row + j):
+//             hidden = moving_receiver_occluding_part(state, range);
+//             lost = moving_receiver_filtered_light(state, hidden, state.begin, state.end, 1, 0);   for a box; for a
+//                 tent the sum for two halves of the exposure, for a piecewise shutter that for eight parts
+//             state = moving_receiver_add(state, lost);
+// The result is the mean of K x K receivers with bilinear filtering, each on the path shifted by whole texels.
 #ifndef GNOMON_MOTION_RECEIVER_MOVING_RECEIVER_H
 #define GNOMON_MOTION_RECEIVER_MOVING_RECEIVER_H
 #include "static_receiver.h"
 #include "texel_sweep.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// The receiver's line of depth, when the shutter opens and closes, from when to when it is in a texel, the texel's
-/// weights along the two axes at both of these times, and the share of its light that is gone so far.
+/// The receiver's depth line; the times at which the shutter opens and closes; the times at which the receiver enters
+/// and leaves the current texel; the texel's weights along both axes at these two times; and the share of the light
+/// that is lost so far.
 GNOMON_STRUCT(moving_receiver)
 {
-    GNOMON_T(depth_time_range) course;
+    GNOMON_T(depth_time_range) depth;
     Real begin, end, t0, t1, u0, v0, u1, v1, shadowed;
 };
 
-/// No texel yet. From begin to end as of shutter_exposure_make. A path that lasts for a part of the exposure loses light
-/// in that part alone; divide by what the shutter lets in meanwhile. Whatever needs a depth bias takes it off both
-/// depths first.
+/// Begin without a texel. The exposure lasts from begin to end, as of shutter_exposure_make. A depth bias, if one is
+/// needed, is subtracted from both depths of the path first. A path that lasts for a part of the exposure loses light
+/// only in that part: divide the result by the shutter's share of that part.
 GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_begin(GNOMON_T(receiver_path) path, Real begin, Real end)
 {
     shutter_exposure open = shutter_exposure_make(begin, end);
     GNOMON_T(moving_receiver) r;
-    r.course = path.depth;
+    r.depth = path.depth;
     r.begin = open.begin;
     r.end = open.end;
     r.t0 = path.depth.t0;
@@ -51,7 +60,7 @@ GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_begin(GNOMON_T(receiver_
     return r;
 }
 
-/// The ranges to come are of the sweep's texel.
+/// Begin the ranges of the sweep's texel.
 GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_texel(GNOMON_T(moving_receiver) state,
                                                               GNOMON_T(texel_sweep) sweep)
 {
@@ -60,9 +69,10 @@ GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_texel(GNOMON_T(moving_re
     return state;
 }
 
-/// The ranges to come are of texel (column + i, row + j) of the (K + 1) x (K + 1) around a cell between centres, on a
-/// path shifted by -K / 2. Weights go from one end of the cell to the other in a line, which in perspective is a chord:
-/// with w changing r-fold in the cell, its error is (sqrt(r) - 1) / (sqrt(r) + 1) of how far u and v go in it.
+/// Begin the ranges of texel (column + i, row + j) of the (K + 1) x (K + 1) texels around a cell between texel centres,
+/// with the sweep of a path shifted by -K / 2. look_ups is K.
+/// Error: weights are linear in time in a cell, which in perspective is a chord: if w changes r-fold in the cell, its
+/// error is (sqrt(r) - 1) / (sqrt(r) + 1) of the change of u and v in the cell.
 GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_tap(GNOMON_T(moving_receiver) state,
                                                             GNOMON_T(texel_sweep) sweep, GNOMON_SETTING i,
                                                             GNOMON_SETTING j, GNOMON_SETTING look_ups)
@@ -78,48 +88,32 @@ GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_tap(GNOMON_T(moving_rece
     return state;
 }
 
-/// One range, for a shutter that opens and closes at once.
-GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_add_box(GNOMON_T(moving_receiver) state,
-                                                                GNOMON_T(depth_time_range) r)
+/// The part of r that occludes the receiver in the current texel, possibly empty.
+/// Error: that of range_occluding_part.
+GNOMON_KERNEL GNOMON_T(depth_time_range) moving_receiver_occluding_part(GNOMON_T(moving_receiver) state,
+                                                                        GNOMON_T(depth_time_range) r)
 {
-    depth_time_range hidden = range_occluding_part(r, state.course, state.t0, state.t1);
-    Real share0 = shutter_box(hidden.t0, state.begin, state.end);
-    Real share1 = shutter_box(hidden.t1, state.begin, state.end);
-    state.shadowed = state.shadowed + receiver_lost_light(hidden, state.course.id, share0, share1);
-    return state;
+    return range_occluding_part(r, state.depth, state.t0, state.t1);
 }
 
-/// One range, for a shutter that opens and closes evenly.
-GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_add_tent(GNOMON_T(moving_receiver) state,
-                                                                 GNOMON_T(depth_time_range) r)
+/// Add the share of the light that is lost to one range.
+GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_add(GNOMON_T(moving_receiver) state, Real lost)
 {
-    depth_time_range hidden = range_occluding_part(r, state.course, state.t0, state.t1);
-    Real share0 = shutter_tent(hidden.t0, state.begin, state.end);
-    Real share1 = shutter_tent(hidden.t1, state.begin, state.end);
-    state.shadowed = state.shadowed + receiver_lost_light(hidden, state.course.id, share0, share1);
-    return state;
-}
-
-/// One range, for a shutter with given weights.
-GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_add_piecewise(GNOMON_T(moving_receiver) state,
-                                                                      GNOMON_T(depth_time_range) r,
-                                                                      GNOMON_T(shutter_weights) w)
-{
-    depth_time_range hidden = range_occluding_part(r, state.course, state.t0, state.t1);
-    Real share0 = shutter_piecewise(hidden.t0, state.begin, state.end, w);
-    Real share1 = shutter_piecewise(hidden.t1, state.begin, state.end, w);
-    state.shadowed = state.shadowed + receiver_lost_light(hidden, state.course.id, share0, share1);
+    state.shadowed = state.shadowed + lost;
     return state;
 }
 
 GNOMON_CONSTANT(receiver_twelfth, 0.083333333333333333333); // Dawn divides by 12 like this, too
 
-/// What is lost while a range hides the receiver, in a part of the exposure in which the shutter's response is a line:
-/// response + slope x at the share x of the exposure, from time start to time stop; by the weights of
-/// moving_receiver_tap. With P and Q lines from a to b, the mean of P Q is (2 P_a Q_a + P_a Q_b + P_b Q_a + 2 P_b Q_b)
-/// / 6, and the mean of three lines alike; nothing cancels.
-GNOMON_KERNEL Real moving_receiver_part(GNOMON_T(moving_receiver) state, GNOMON_T(depth_time_range) hidden, Real start,
-                                        Real stop, Real response, Real slope)
+/// Share of the light that the receiver loses while `hidden` occludes it, weighted as of moving_receiver_tap, in a part
+/// of the exposure in which the shutter's response is a line: response + slope x at the share x of the exposure, from
+/// time start to time stop. Add up the results for all parts: response 1 for a box; slope 4, then response 4 and slope
+/// -4 for the two halves of a tent; response 8 w.w0, ..., 8 w.w7 for the eighths of a piecewise shutter. With P and Q
+/// lines from a to b, the mean of P Q is (2 P_a Q_a + P_a Q_b + P_b Q_a + 2 P_b Q_b) / 6, and the mean of three lines
+/// is similar; nothing cancels.
+/// Error: that of moving_receiver_end.
+GNOMON_KERNEL Real moving_receiver_filtered_light(GNOMON_T(moving_receiver) state, GNOMON_T(depth_time_range) hidden,
+                                                  Real start, Real stop, Real response, Real slope)
 {
     Real a = gnomon_max(hidden.t0, start);
     Real b = gnomon_min(hidden.t1, stop);
@@ -139,62 +133,17 @@ GNOMON_KERNEL Real moving_receiver_part(GNOMON_T(moving_receiver) state, GNOMON_
         Real bb = u_b * v_b;
         Real twelvefold = (response + slope * share_a) * (Real(3) * aa + ab + bb) +
                           (response + slope * share_b) * (aa + ab + Real(3) * bb);
-        Real share = receiver_lost_light(hidden, state.course.id, share_a, share_b);
+        Real share = receiver_lost_light(hidden, state.depth.id, share_a, share_b);
         lost = gnomon_select(some, share * twelvefold * GNOMON_LITERAL(receiver_twelfth), lost);
     }
     return lost;
 }
 
-/// One range of a tap, for a shutter that opens and closes at once.
-GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_filter_box(GNOMON_T(moving_receiver) state,
-                                                                   GNOMON_T(depth_time_range) r)
-{
-    depth_time_range hidden = range_occluding_part(r, state.course, state.t0, state.t1);
-    state.shadowed = state.shadowed + moving_receiver_part(state, hidden, state.begin, state.end, Real(1), Real(0));
-    return state;
-}
-
-/// One range of a tap, for a shutter that opens and closes evenly.
-GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_filter_tent(GNOMON_T(moving_receiver) state,
-                                                                    GNOMON_T(depth_time_range) r)
-{
-    depth_time_range hidden = range_occluding_part(r, state.course, state.t0, state.t1);
-    Real halfway = shutter_time(state.begin, state.end, Real(0.5));
-    Real opening = moving_receiver_part(state, hidden, state.begin, halfway, Real(0), Real(4));
-    Real closing = moving_receiver_part(state, hidden, halfway, state.end, Real(4), Real(-4));
-    state.shadowed = state.shadowed + (opening + closing);
-    return state;
-}
-
-/// One range of a tap, for a shutter with given weights.
-GNOMON_KERNEL GNOMON_T(moving_receiver) moving_receiver_filter_piecewise(GNOMON_T(moving_receiver) state,
-                                                                         GNOMON_T(depth_time_range) r,
-                                                                         GNOMON_T(shutter_weights) w)
-{
-    depth_time_range hidden = range_occluding_part(r, state.course, state.t0, state.t1);
-    Real none = Real(0);
-    Real t1 = shutter_time(state.begin, state.end, Real(0.125));
-    Real t2 = shutter_time(state.begin, state.end, Real(0.25));
-    Real t3 = shutter_time(state.begin, state.end, Real(0.375));
-    Real t4 = shutter_time(state.begin, state.end, Real(0.5));
-    Real t5 = shutter_time(state.begin, state.end, Real(0.625));
-    Real t6 = shutter_time(state.begin, state.end, Real(0.75));
-    Real t7 = shutter_time(state.begin, state.end, Real(0.875));
-    Real lost = moving_receiver_part(state, hidden, state.begin, t1, Real(8) * w.w0, none);
-    lost = lost + moving_receiver_part(state, hidden, t1, t2, Real(8) * w.w1, none);
-    lost = lost + moving_receiver_part(state, hidden, t2, t3, Real(8) * w.w2, none);
-    lost = lost + moving_receiver_part(state, hidden, t3, t4, Real(8) * w.w3, none);
-    lost = lost + moving_receiver_part(state, hidden, t4, t5, Real(8) * w.w4, none);
-    lost = lost + moving_receiver_part(state, hidden, t5, t6, Real(8) * w.w5, none);
-    lost = lost + moving_receiver_part(state, hidden, t6, t7, Real(8) * w.w6, none);
-    lost = lost + moving_receiver_part(state, hidden, t7, state.end, Real(8) * w.w7, none);
-    state.shadowed = state.shadowed + lost;
-    return state;
-}
-
-/// Shadow intensity in [0, 1] over the whole shutter. A NaN hides nothing. Error for each range as for a receiver at
-/// rest (static_receiver_end), filtered 97 2^-p instead of 32; further those of when texels are entered and left
-/// (texel_border_share), or of weights (receiver_path_at, and moving_receiver_tap in perspective).
+/// Shadow intensity in [0, 1] over the whole exposure.
+/// NaN: a range with a NaN adds nothing, and a receiver with one is lit.
+/// Error: for each range that of static_receiver_end, filtered with 97 2^-p instead of 32; and that of the times at
+/// which the path enters and leaves texels (texel_border_share), or of weights (receiver_path_at, and
+/// moving_receiver_tap in perspective).
 GNOMON_KERNEL Real moving_receiver_end(GNOMON_T(moving_receiver) state) { return saturate_or_zero(state.shadowed); }
 
 GNOMON_NAMESPACE_END

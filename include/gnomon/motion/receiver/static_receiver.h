@@ -1,27 +1,29 @@
-// The shadow that falls on a receiver at rest while the shutter is open: every range in front of it hides it for a time
-// that is known in closed form, and the shutter says what that time is worth. Exact, where stochastic shadow maps
-// sample. Ranges must not overlap in time, as those of a resolved list do not: else a time counts more than once.
-// (Hong & Oh's shadow test, integrated; Palmer 2011, chapter 4.)
+// The shadow on a static receiver while the shutter is open, in closed form. Every range in front of the receiver
+// occludes it for a time that is known in closed form, and the shutter (shutter.h) turns that time into a share of the
+// light: exact, where stochastic shadow maps take samples. Ranges must not overlap in time, as in a resolved list; else
+// the overlap counts twice. (Hong & Oh's shadow test, integrated over time; Palmer 2011, chapter 4.)
 //
 //     state = static_receiver_begin(z_f, id, begin, end);
-//     state = static_receiver_add_box(state, range);        or _add_tent, _add_given; for every range of the texel
+//     for every range of the texel:
+//         hidden = static_receiver_occluding_part(state, range);
+//         share0 = shutter_box(hidden.t0, state.begin, state.end);   and share1 at hidden.t1; or shutter_tent,
+//                                                                    shutter_piecewise
+//         state = static_receiver_add(state, receiver_lost_light(hidden, id, share0, share1));
 //     intensity = static_receiver_end(state);
 //
 // Percentage-closer filtering of K x K bilinear look-ups around texel position (x, y) reads K + 1 texels along either
-// axis. With x - K / 2 = column + u, column a whole number and u in [0, 1), before the ranges of texel (column + i,
-// row + j), i and j from 0 to K:
+// axis. With x - K / 2 = column + u, column a whole number and u in [0, 1), and y alike, set the weight of texel
+// (column + i, row + j), i and j from 0 to K, before its ranges:
 //     state = static_receiver_set_weight(state, texel_weight(u, i, K) * texel_weight(v, j, K));
 //
 // A list may have a second layer (passes/range/resolve.hpp), for receivers whose own range is in front:
 //     front = range_empty(range_nothing);
-//     for every range of the texel, in order: if range_is_second_layer(front, range), leave it out unless front.id ==
-//     id; else front = range
+//     for every range of the texel, in order:
+//         if range_is_second_layer(front, range), leave range out unless front.id == id; else front = range
 //
-// Most receivers are behind all ranges of a texel, above all where its backdrop is left out (passes/range/resolve.hpp),
-// or in front of all. They need no list, only its total, four numbers a texel:
-//     total = range_summary_begin(-1);   total = range_summary_add(total, range);        for every range of the texel
-//     if (receiver_is_in_front(z_f, total) > 0) nothing is added
-//     if (static_receiver_is_behind(state, total) > 0) state = static_receiver_add_summary(state, total);
+// A receiver behind all ranges of a texel, or in front of all, needs no list, only its summary (range_summary.h):
+//     if (receiver_is_in_front(z_f, summary) > 0) nothing is added
+//     if (static_receiver_is_behind(state, summary) > 0) state = static_receiver_add(state, summary.shadowed);
 #ifndef GNOMON_MOTION_RECEIVER_STATIC_RECEIVER_H
 #define GNOMON_MOTION_RECEIVER_STATIC_RECEIVER_H
 #include "../../numerics/texel_filter.h"
@@ -29,12 +31,12 @@
 #include "shutter.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// Depth and id of the receiver, when the shutter opens and closes, what the next ranges weigh, and the share of its
-/// light that is gone so far.
+/// Depth and id of the receiver, the times at which the shutter opens and closes, the weight of the ranges to come, and
+/// the share of the light that is lost so far.
 GNOMON_STRUCT(static_receiver) { Real depth, id, begin, end, weight, shadowed; };
 
-/// No range yet. Any z_f; whatever needs a depth bias takes it off z_f first. From begin to end as of
-/// shutter_exposure_make: in any order, and what is there at a moment where they are the same.
+/// Begin without a range, for any depth z_f, less the depth bias if one is needed. The exposure lasts from begin to
+/// end, as of shutter_exposure_make.
 GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_begin(Real z_f, Real id, Real begin, Real end)
 {
     shutter_exposure open = shutter_exposure_make(begin, end);
@@ -48,14 +50,15 @@ GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_begin(Real z_f, Real id,
     return r;
 }
 
-/// The weight of the ranges to come, in [0, 1]; those of all texels sum to 1.
+/// Set the weight of the ranges to come, in [0, 1]. The weights of all texels sum to 1.
 GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_set_weight(GNOMON_T(static_receiver) state, Real weight)
 {
     state.weight = saturate_or_zero(weight);
     return state;
 }
 
-/// When the range hides it while the shutter is open.
+/// The part of r that occludes the receiver while the shutter is open, possibly empty.
+/// Error: that of range_occluding_part.
 GNOMON_KERNEL GNOMON_T(depth_time_range) static_receiver_occluding_part(GNOMON_T(static_receiver) state,
                                                                         GNOMON_T(depth_time_range) r)
 {
@@ -68,73 +71,42 @@ GNOMON_KERNEL GNOMON_T(depth_time_range) static_receiver_occluding_part(GNOMON_T
     return range_occluding_part(r, level, state.begin, state.end);
 }
 
-/// The light lost between two shares of what the shutter lets in, where the range that hides it has another id; 0 for
-/// NaN.
+/// Share of the light that a receiver with the given id loses while `hidden` occludes it, in [0, 1]. The shutter has
+/// let in the shares share0 and share1 of the exposure's light at the begin and at the end of hidden. A range of the
+/// receiver's own id occludes nothing.
+/// NaN: 0.
 GNOMON_KERNEL Real receiver_lost_light(GNOMON_T(depth_time_range) hidden, Real id, Real share0, Real share1)
 {
     return gnomon_select(hidden.id == id, Real(0), saturate_or_zero(share1 - share0));
 }
 
-/// One range, for a shutter that opens and closes at once.
-GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_add_box(GNOMON_T(static_receiver) state,
-                                                                GNOMON_T(depth_time_range) r)
+/// Add the share of the light that is lost to one range, or to all ranges of a texel (summary.shadowed).
+GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_add(GNOMON_T(static_receiver) state, Real lost)
 {
-    depth_time_range hidden = static_receiver_occluding_part(state, r);
-    Real share0 = shutter_box(hidden.t0, state.begin, state.end);
-    Real share1 = shutter_box(hidden.t1, state.begin, state.end);
-    state.shadowed = state.shadowed + state.weight * receiver_lost_light(hidden, state.id, share0, share1);
+    state.shadowed = state.shadowed + state.weight * lost;
     return state;
 }
 
-/// One range, for a shutter that opens and closes evenly.
-GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_add_tent(GNOMON_T(static_receiver) state,
-                                                                 GNOMON_T(depth_time_range) r)
+/// 1 if no range is in front of depth z_f, else 0. z_f is the depth of a receiver, or the farther end of its path.
+GNOMON_KERNEL Real receiver_is_in_front(Real z_f, GNOMON_T(range_summary) summary)
 {
-    depth_time_range hidden = static_receiver_occluding_part(state, r);
-    Real share0 = shutter_tent(hidden.t0, state.begin, state.end);
-    Real share1 = shutter_tent(hidden.t1, state.begin, state.end);
-    state.shadowed = state.shadowed + state.weight * receiver_lost_light(hidden, state.id, share0, share1);
-    return state;
+    return gnomon_select(z_f <= summary.nearest, Real(1), Real(0));
 }
 
-/// One range, for a shutter with given weights.
-GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_add_piecewise(GNOMON_T(static_receiver) state,
-                                                                      GNOMON_T(depth_time_range) r,
-                                                                      GNOMON_T(shutter_weights) w)
-{
-    depth_time_range hidden = static_receiver_occluding_part(state, r);
-    Real share0 = shutter_piecewise(hidden.t0, state.begin, state.end, w);
-    Real share1 = shutter_piecewise(hidden.t1, state.begin, state.end, w);
-    state.shadowed = state.shadowed + state.weight * receiver_lost_light(hidden, state.id, share0, share1);
-    return state;
-}
-
-/// 1 where no range is in front of depth z_f, as of a receiver, or of both ends of its course: nothing is lost.
-GNOMON_KERNEL Real receiver_is_in_front(Real z_f, GNOMON_T(range_summary) total)
-{
-    return gnomon_select(z_f <= total.nearest, Real(1), Real(0));
-}
-
-/// 1 where the total is all that the receiver needs: it is behind all ranges, exposed from 0 to 1, and none of them can
-/// be its own.
-GNOMON_KERNEL Real static_receiver_is_behind(GNOMON_T(static_receiver) state, GNOMON_T(range_summary) total)
+/// 1 if the summary decides: the receiver is behind all ranges, its exposure is the whole shutter interval, and none of
+/// the ranges can be its own; else 0.
+GNOMON_KERNEL Real static_receiver_is_behind(GNOMON_T(static_receiver) state, GNOMON_T(range_summary) summary)
 {
     GNOMON_MASK whole = state.begin <= Real(0) && Real(1) <= state.end;
-    GNOMON_MASK own = total.id == GNOMON_LITERAL(range_mixed) || total.id == state.id;
-    return gnomon_select(whole && total.farthest < state.depth && !own, Real(1), Real(0));
+    GNOMON_MASK own = summary.id == GNOMON_LITERAL(range_mixed) || summary.id == state.id;
+    return gnomon_select(whole && summary.farthest < state.depth && !own, Real(1), Real(0));
 }
 
-/// All ranges at once. Error: 4 2^-p for each of them.
-GNOMON_KERNEL GNOMON_T(static_receiver) static_receiver_add_summary(GNOMON_T(static_receiver) state,
-                                                                    GNOMON_T(range_summary) total)
-{
-    state.shadowed = state.shadowed + state.weight * total.shadowed;
-    return state;
-}
-
-/// Shadow intensity in [0, 1] over the whole shutter. A NaN hides nothing. Error for each range: its weight times the
-/// largest response (1 for a box, 2 for a tent, 8 times the largest given weight) times 32 2^-p and the time for which
-/// the range is within 26 z 2^-p of the receiver (range_occluding_part), over the duration of the shutter.
+/// Shadow intensity in [0, 1] over the whole exposure.
+/// NaN: a range with a NaN adds nothing, and a receiver with one is lit.
+/// Error: for each range its weight times the largest response (1 for a box, 2 for a tent, 8 times the largest weight
+/// of a piecewise one), times 32 2^-p and the time for which the range is within 26 z 2^-p of the receiver
+/// (range_occluding_part) over the duration of the exposure; 4 2^-p for each range of a summary.
 GNOMON_KERNEL Real static_receiver_end(GNOMON_T(static_receiver) state) { return saturate_or_zero(state.shadowed); }
 
 GNOMON_NAMESPACE_END

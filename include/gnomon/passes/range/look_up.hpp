@@ -1,8 +1,9 @@
-// The shadow that a receiver gets from a map of depth-time ranges, with percentage-closer filtering of K x K bilinear
-// look-ups: K = 1 is bilinear filtering. At one time, by samples in time, at rest in closed form, and on its way in
-// closed form; the kernels are those of motion/, this is their loop over texels and lists. Shadow intensity, 0 lit and
-// 1 in shadow. All that lies outside of the map is lit. Closed forms are of resolved lists in order of time; a shutter
-// that opens and closes at once asks totals first, where the map has them.
+// Shadow intensity of a receiver in a map of depth-time ranges, with percentage-closer filtering of K x K bilinear
+// look-ups; K = 1 is bilinear filtering. At one time, by samples in time, and in closed form for a static or a moving
+// receiver. The kernels are those of motion/; this is their loop over texels and lists. Outside of the map everything
+// is lit. A map is a range_map, or any type with its members texel, operator[], prefetch_... and summaries, such as
+// compact_range_map (compact.hpp). Closed forms need resolved lists in order of time. With a box shutter they read
+// summaries first, if the map has them.
 #ifndef GNOMON_PASSES_RANGE_LOOK_UP_HPP
 #define GNOMON_PASSES_RANGE_LOOK_UP_HPP
 
@@ -19,45 +20,35 @@
 
 namespace gnomon {
 
-/// What a shutter that opens and closes at once takes, for the look-ups below; a lambda does it for any other shutter.
-struct box_shutter {
-    template <class T> static_receiver<T> operator()(const static_receiver<T>& s, const depth_time_range<T>& r) const
-    {
-        return static_receiver_add_box(s, r);
-    }
-    template <class T> moving_receiver<T> operator()(const moving_receiver<T>& s, const depth_time_range<T>& r) const
-    {
-        return moving_receiver_filter_box(s, r);
-    }
-};
-
-/// A receiver at rest at texel position (x, y); add(state, range) is the shutter.
-template <class T, class Add = box_shutter>
-T static_intensity(const range_map<T>& map, T x, T y, static_receiver<T> state, int look_ups = 1, const Add& add = {})
+/// Shadow intensity of a static receiver at texel position (x, y), for a shutter as of shutters.hpp.
+/// Error: static_receiver_end.
+template <class Map, class T, class Shutter = box_shutter>
+T static_intensity(const Map& map, T x, T y, static_receiver<T> state, int look_ups = 1, const Shutter& shutter = {})
 {
     detail::for_each_static_texel(map, x, y, look_ups, [&](T weight, std::size_t texel) {
         state = static_receiver_set_weight(state, weight);
-        if constexpr (std::is_same_v<Add, box_shutter>) {
-            if (map.summaries.empty() || !detail::add_total_box(state, map.summaries[texel]))
+        if constexpr (std::is_same_v<Shutter, box_shutter>) {
+            if (map.summaries.empty() || !detail::add_summary_box(state, map.summaries[texel]))
                 detail::add_list_box(state, map[texel]);
         } else
             detail::for_each_counted(map[texel], state.id,
-                                     [&](const depth_time_range<T>& r) { state = add(state, r); });
+                                     [&](const depth_time_range<T>& r) { state = add_range(state, r, shutter); });
     });
     return static_receiver_end(state);
 }
 
-/// static_intensity(map, x, y, state, look_ups) of each receiver, whose taps are read many at a time. Without totals it
-/// has the same bits; what totals say is added first.
-template <class T>
-void static_intensities(const range_map<T>& map, std::span<const placed_receiver<T>> receivers, std::span<T> shadows,
+/// Shadow intensities of many static receivers, each as of static_intensity(map, x, y, state, look_ups), with taps read
+/// many at a time. The bits are the same for a map without summaries; the order of sums differs with summaries, which
+/// are added first.
+template <class T, class Map>
+void static_intensities(const Map& map, std::span<const placed_receiver<T>> receivers, std::span<T> shadows,
                         int look_ups = 1)
 {
     GNOMON_EXPECTS(shadows.size() == receivers.size(), mismatch("static_intensities", "shadows.size()", shadows.size(),
                                                                 "receivers.size()", receivers.size()));
     check_shape(map, "static_intensities");
     for (std::size_t i = 0; i < receivers.size(); ++i) shadows[i] = receivers[i].state.shadowed;
-    detail::static_taps<T> taps(map, receivers, shadows);
+    detail::static_taps<T, Map> taps(map, receivers, shadows);
     for (std::size_t i = 0; i < receivers.size(); ++i)
         detail::for_each_static_texel(map, receivers[i].x, receivers[i].y, look_ups,
                                       [&](T weight, std::size_t texel) { taps.add(i, weight, texel); });
@@ -65,18 +56,19 @@ void static_intensities(const range_map<T>& map, std::span<const placed_receiver
     for (T& s : shadows) s = saturate_or_zero(s);
 }
 
-/// A receiver on its way from time t0 to t1 of the path, in the exposure from begin to end. Error: moving_receiver_end.
-template <class T, class Add = box_shutter>
-T moving_intensity(const range_map<T>& map, const receiver_path<T>& path, T begin, T end, int look_ups = 1,
-                   const Add& add = {})
+/// Shadow intensity of a moving receiver from time t0 to time t1 of its path, in the exposure from begin to end.
+/// Error: moving_receiver_end.
+template <class Map, class T, class Shutter = box_shutter>
+T moving_intensity(const Map& map, const receiver_path<T>& path, T begin, T end, int look_ups = 1,
+                   const Shutter& shutter = {})
 {
     const T k = T(look_ups);
     const receiver_path<T> shifted = receiver_path_shift(path, T(-0.5) * k, T(-0.5) * k);
-    texel_sweep<T> sweep = texel_sweep_over(shifted, -k, -k, T(map.width), T(map.height)); // beyond is lit
+    texel_sweep<T> sweep = texel_sweep_over(shifted, -k, -k, T(map.width), T(map.height)); // outside of the map is lit
     if (!(sweep.t_begin < sweep.t_last)) return T(0);
     moving_receiver<T> state = moving_receiver_begin(path, begin, end);
-    if constexpr (std::is_same_v<Add, box_shutter>) {
-        detail::moving_taps<T> taps(map, state, look_ups);
+    if constexpr (std::is_same_v<Shutter, box_shutter>) {
+        detail::moving_taps<T, Map> taps(map, state, look_ups);
         texel_position<T> at = receiver_path_at(shifted, sweep.t_begin);
         T z = range_depth(path.depth, sweep.t_begin), passed = shutter_box(sweep.t_begin, state.begin, state.end);
         for (;; sweep = texel_sweep_next(sweep)) {
@@ -100,7 +92,7 @@ T moving_intensity(const range_map<T>& map, const receiver_path<T>& path, T begi
                 if (map[texel].empty()) return;
                 state = moving_receiver_tap(state, sweep, T(i), T(j), k);
                 detail::for_each_counted(map[texel], path.depth.id, [&](const depth_time_range<T>& r) {
-                    if (r.t0 < sweep.t_end && sweep.t_begin < r.t1) state = add(state, r);
+                    if (r.t0 < sweep.t_end && sweep.t_begin < r.t1) state = add_filtered_range(state, r, shutter);
                 });
             });
             if (!(sweep.t_end < sweep.t_last)) return moving_receiver_end(state);
@@ -108,8 +100,9 @@ T moving_intensity(const range_map<T>& map, const receiver_path<T>& path, T begi
     }
 }
 
-/// At one time; lists need not be resolved.
-template <class T> T intensity_at(const range_map<T>& map, const receiver_path<T>& path, T t, T bias, int look_ups = 1)
+/// Shadow intensity at time t of a receiver on a path. Lists need not be resolved.
+template <class Map, class T>
+T intensity_at(const Map& map, const receiver_path<T>& path, T t, T bias, int look_ups = 1)
 {
     const T z = range_depth(path.depth, t);
     const texel_position<T> at = receiver_path_at(path, t);
@@ -123,9 +116,10 @@ template <class T> T intensity_at(const range_map<T>& map, const receiver_path<T
     return saturate_or_zero(shadow);
 }
 
-/// By n = max(2 |p_e - p_s|, 5) samples in time, at most `most` (Palmer 2011, 4.1), in the middle of their strata.
-template <class T>
-T sampled_intensity(const range_map<T>& map, const receiver_path<T>& path, T bias, T most, int look_ups = 1)
+/// Shadow intensity by n = max(2 |p_e - p_s|, 5) samples in time, at most `most`, in the middle of their strata.
+/// Source: Palmer 2011, Sec. 4.1
+template <class Map, class T>
+T sampled_intensity(const Map& map, const receiver_path<T>& path, T bias, T most, int look_ups = 1)
 {
     const T n = receiver_sample_count(path, most);
     sampled_receiver<T> state = sampled_receiver_begin(n);

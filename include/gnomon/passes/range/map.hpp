@@ -15,6 +15,18 @@
 
 namespace gnomon {
 
+namespace detail {
+
+/// Begin to load memory that will be read soon.
+inline void prefetch([[maybe_unused]] const void* place)
+{
+#if defined(__GNUC__)
+    __builtin_prefetch(place);
+#endif
+}
+
+} // namespace detail
+
 /// A promise about ids. A receiver ignores the ranges of its own id.
 enum class range_ids {
     /// No point of an id's surface is behind another point of that surface, as seen from the light, at any time: an id
@@ -56,6 +68,11 @@ template <class T> struct range_map {
     {
         return (*this)[texel(width, x, y)];
     }
+
+    /// Begin to load where list i begins, then its first range, or range n of a list: steps of a look-up.
+    void prefetch_begin(std::size_t i) const { detail::prefetch(&first[i]); }
+    void prefetch_list(std::size_t i) const { detail::prefetch(ranges.data() + first[i]); }
+    static void prefetch_range(std::span<const depth_time_range<T>> list, std::size_t n) { detail::prefetch(&list[n]); }
 };
 
 /// Check the sizes of a map's arrays.
