@@ -68,6 +68,7 @@ GNOMON_KERNEL GNOMON_T(range_cover) range_cover_add(GNOMON_T(range_cover) state,
 }
 
 /// The cover, or an empty range with the id -1: the best range if no other one is ever nearer than its farther end.
+/// Source: Hong & Oh 2017
 GNOMON_KERNEL GNOMON_T(depth_time_range) range_cover_end(GNOMON_T(range_cover) state)
 {
     GNOMON_MASK covers = gnomon_max(state.best.z0, state.best.z1) <= state.front;

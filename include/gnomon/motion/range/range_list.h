@@ -97,6 +97,7 @@ GNOMON_DETAIL_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_place(GNOMON_LIST
 /// are.
 /// Domain: times in [0, 1], depths in [-1, 1], a capacity of at most 16.
 /// NaN: a range with a NaN, or with a depth beyond 2^60, is not inserted.
+/// Source: Gribel 2010; Hong & Oh 2017
 GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_insert(GNOMON_LIST_T(range_list) list,
                                                                GNOMON_T(depth_time_range) r)
 {
@@ -243,6 +244,7 @@ GNOMON_DETAIL_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_append(GNOMON_LIS
 
 /// The lower envelope of the list: disjoint ranges in order of time, which static_receiver.h adds up. Ranges that do
 /// not fit are merged with a neighbour, and counted. Empty ranges come first.
+/// Source: Palmer 2011, Sec. 2.4
 GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_resolve(GNOMON_LIST_T(range_list) list)
 {
     Real t = Real(0);

@@ -144,6 +144,7 @@ GNOMON_KERNEL Real moving_receiver_filtered_light(GNOMON_T(moving_receiver) stat
 /// Error: for each range that of static_receiver_end, filtered with 97 2^-p instead of 32; and that of the times at
 /// which the path enters and leaves texels (texel_border_share), or of weights (receiver_path_at, and
 /// moving_receiver_tap in perspective).
+/// Source: Palmer 2011, Sec. 5
 GNOMON_KERNEL Real moving_receiver_end(GNOMON_T(moving_receiver) state) { return saturate_or_zero(state.shadowed); }
 
 GNOMON_NAMESPACE_END

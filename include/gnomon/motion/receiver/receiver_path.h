@@ -127,6 +127,7 @@ GNOMON_KERNEL GNOMON_T(sampled_receiver) sampled_receiver_add(GNOMON_T(sampled_r
 /// Shadow intensity in [0, 1]: the mean of all samples.
 /// Error: that of sampling: up to 1 / n for each time at which the shadow comes or goes, half of that with samples in
 /// the middle.
+/// Source: Palmer 2011, Sec. 4.1
 GNOMON_KERNEL Real sampled_receiver_end(GNOMON_T(sampled_receiver) state)
 {
     return saturate_or_zero(state.shadowed / state.samples);

@@ -50,12 +50,14 @@ GNOMON_KERNEL Real shutter_time(Real begin, Real end, GNOMON_SETTING share)
 /// begin == end the share is 0 up to that time and 1 after it.
 /// Domain: begin <= end.
 /// NaN: 0.
+/// Source: Palmer 2011, Eq. 2.1
 GNOMON_KERNEL Real shutter_box(Real t, Real begin, Real end) { return saturate_or_zero((t - begin) / (end - begin)); }
 
 /// Share of the exposure's light that a shutter which opens and closes evenly, wide open halfway, has let in by time t,
 /// in [0, 1].
 /// Domain: begin <= end.
 /// NaN: 0.
+/// Source: Palmer 2011, Eq. 2.1
 GNOMON_KERNEL Real shutter_tent(Real t, Real begin, Real end)
 {
     Real x = shutter_box(t, begin, end);
@@ -107,6 +109,7 @@ GNOMON_KERNEL GNOMON_T(shutter_weights) shutter_weights_make(GNOMON_T(shutter_we
 /// evenly. In [0, 1] for any weights, from shutter_weights_make or not, and exactly 1 from the end of the exposure on.
 /// Domain: begin <= end.
 /// Error: 16 2^-p.
+/// Source: Palmer 2011, Eq. 2.1
 GNOMON_KERNEL Real shutter_piecewise(Real t, Real begin, Real end, GNOMON_T(shutter_weights) w)
 {
     Real x = Real(8) * shutter_box(t, begin, end);

@@ -107,6 +107,7 @@ GNOMON_KERNEL Real static_receiver_is_behind(GNOMON_T(static_receiver) state, GN
 /// Error: for each range its weight times the largest response (1 for a box, 2 for a tent, 8 times the largest weight
 /// of a piecewise one), times 32 2^-p and the time for which the range is within 26 z 2^-p of the receiver
 /// (range_occluding_part) over the duration of the exposure; 4 2^-p for each range of a summary.
+/// Source: Hong & Oh 2018, Sec. 5; Palmer 2011, Sec. 4
 GNOMON_KERNEL Real static_receiver_end(GNOMON_T(static_receiver) state) { return saturate_or_zero(state.shadowed); }
 
 GNOMON_NAMESPACE_END

@@ -147,6 +147,7 @@ GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_over(GNOMON_T(receiver_path) pat
 }
 
 /// The next texel: a neighbour along either axis. After the last texel that texel again, for no time.
+/// Source: Amanatides & Woo 1987
 GNOMON_KERNEL GNOMON_T(texel_sweep) texel_sweep_next(GNOMON_T(texel_sweep) sweep)
 {
     GNOMON_MASK sideways = sweep.across_column <= sweep.across_row && sweep.across_column <= Real(1);

@@ -54,6 +54,7 @@ GNOMON_DETAIL_KERNEL Real moving_edge_size(GNOMON_T(moving_edge) e)
 /// Domain: the largest coefficient is between 2^-50 and 2^58 in float; none for larger ones.
 /// NaN: none.
 /// Error: the times are exact for coefficients that differ by 16 2^-p of the largest.
+/// Source: Gribel 2010; Palmer 2011, Sec. 2.1
 GNOMON_KERNEL GNOMON_T(edge_intervals) moving_edge_inside(GNOMON_T(moving_edge) e, GNOMON_SETTING facing)
 {
     Real side = gnomon_select(facing < Real(0), Real(-1), Real(1));
@@ -212,6 +213,7 @@ GNOMON_KERNEL GNOMON_T(coverage_intervals) intersect_edge_intervals(GNOMON_T(edg
 /// Domain: none for coefficients that moving_edge_inside refuses.
 /// NaN: none.
 /// Error: that of moving_edge_inside.
+/// Source: Gribel 2010; Palmer 2011, Sec. 2.1
 GNOMON_KERNEL GNOMON_T(coverage_intervals) moving_coverage(GNOMON_T(moving_edges) e, GNOMON_SETTING facing)
 {
     edge_intervals a = moving_edge_inside(e.a, facing);

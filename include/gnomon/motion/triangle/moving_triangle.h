@@ -77,6 +77,7 @@ GNOMON_DETAIL_KERNEL GNOMON_T(moving_edge) moving_edge_make(GNOMON_T(sheared_ver
 /// around the sample.
 /// Error: 32 2^-p (X_i Y_j + Y_i X_j) for a coefficient; the covered times are exact for coefficients that differ by as
 /// much; X = max(|x| + |s_x w|) and Y = max(|y| + |s_y w|) over the shutter's ends, p the bits of the significand.
+/// Source: Akenine-Moller 2007; Laine & Karras 2011
 GNOMON_KERNEL GNOMON_T(moving_edges) moving_triangle_edges(GNOMON_T(moving_triangle) m, Real s_x, Real s_y)
 {
     sheared_vertex a = moving_vertex_shear(m.a, s_x, s_y);
@@ -273,6 +274,7 @@ GNOMON_DETAIL_KERNEL GNOMON_T(depth_trial) depth_trial_next(GNOMON_T(depth_trial
 /// missed: where the triangle turns edge-on, no line fits. A tolerance below 0 gives 32 pieces.
 /// NaN: a NaN tolerance gives 32 pieces; passed is then 0.
 /// Error: that of moving_depth_line, for the deviation.
+/// Source: Palmer 2011, Sec. 5
 GNOMON_KERNEL GNOMON_T(depth_piece) moving_depth_piece(GNOMON_T(moving_triangle) m, GNOMON_T(moving_edges) e,
                                                        Real begin, Real end, Real passed, GNOMON_SETTING divided,
                                                        GNOMON_SETTING tolerance)
