@@ -158,8 +158,7 @@ GNOMON_KERNEL GNOMON_T(distribution4) hamburger6_distribution(GNOMON_T(hankel6) 
     Real inverse = Real(1) / hamburger6_kernel(h, p);
     Real side = gnomon_select(p.p3 > Real(0), Real(-1), Real(1));
     hamburger6_cubic n = hamburger6_other_nodes(h, p, hamburger6_derivatives(h, p), inverse, side);
-    // The largest root. Dividing the cubic by it leaves a quadratic for the other two, which
-    // Halley's iteration refines.
+    // The largest root. Division by it leaves a quadratic for the other two, which Halley's iteration refines.
     Real t1 = cubic_largest_root(n.b, n.c, n.d);
     // The division starts at the end that does not cancel: at the highest power for a small root, else at the lowest.
     GNOMON_MASK large = (t1 * t1) * t1 > -n.d;

@@ -15,8 +15,8 @@ GNOMON_STRUCT(distribution2) { Real depth1, depth2, weight1, weight2; };
 
 GNOMON_CONSTANT(two_point_least_variance, 1.1920928955078125e-7); // 2^-23
 
-/// The distribution of two depths with the moments b1, b2 and b3. It is a single depth b1 if the variance is at most
-/// least_variance, which should be the largest error of a variance of 0 by rounding: two_point_least_variance for
+/// The distribution of two depths with the moments b1, b2 and b3; a single depth b1 if the variance is at most
+/// least_variance. That should be the largest variance by rounding of a single depth: two_point_least_variance for
 /// moments stored as floats.
 /// Domain: moments of depths in [-1, 1]. For moments of no such distribution depths may lie outside, but in [-8193,
 /// 8193]: depths more than 2^13 apart are replaced by the single depth b1, clamped to [-1, 1].

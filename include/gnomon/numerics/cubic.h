@@ -20,7 +20,7 @@ GNOMON_CONSTANT(cubic_minus_third, -0.33333333333333331);
 /// The result of a Halley step as a fraction, whose denominator is positive.
 GNOMON_STRUCT(cubic_step) { Real numerator, denominator; };
 
-/// A step of Halley's iteration from t on t^3 + b t^2 + c t + d, without the division. Stays at t at a multiple root.
+/// The result of a step of Halley's iteration from t on t^3 + b t^2 + c t + d, before division; t at a multiple root.
 GNOMON_DETAIL_KERNEL GNOMON_T(cubic_step) cubic_halley_step(Real b, Real c, Real d, Real t)
 {
     Real tb = t + b;
@@ -35,7 +35,7 @@ GNOMON_DETAIL_KERNEL GNOMON_T(cubic_step) cubic_halley_step(Real b, Real c, Real
     return x;
 }
 
-/// t after a step of Halley's iteration on t^3 + b t^2 + c t + d.
+/// The result of a step of Halley's iteration from t on t^3 + b t^2 + c t + d.
 GNOMON_DETAIL_KERNEL Real cubic_halley(Real b, Real c, Real d, Real t)
 {
     cubic_step x = cubic_halley_step(b, c, d, t);
