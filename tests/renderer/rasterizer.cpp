@@ -56,7 +56,7 @@ std::vector<glm::vec3> jittered_plane(unsigned seed, int pixels, float tilt)
     return result;
 }
 
-// How many of the triangles cover each sample.
+// The number of triangles that cover each sample.
 template <int Samples> std::vector<int> coverage(const std::vector<glm::vec3>& plane, const camera& eye, int pixels)
 {
     std::vector<int> count(static_cast<std::size_t>(pixels * pixels * Samples));

@@ -1,5 +1,5 @@
-// What the renderer's Vulkan promises: compute passes with their constants, complaints of the validation layer kept,
-// times in order, and a clear word where there is no driver.
+// The renderer's Vulkan: compute passes with their constants, complaints of the validation layer, mip levels, matrices
+// of shaders, and a clear error without a driver.
 #include "device.hpp"
 #include "probe.h"
 #include "renderer/vulkan/scene.hpp"

@@ -38,7 +38,7 @@ template <class Key> auto value_at(std::span<const Key> keys, double ticks)
         "an animation leaves out the {} of node \"{}\", which its matrix does not tell", what, node.mName.C_Str()));
 }
 
-// True where axes of length one are not square to each other, by more than what files of four digits round.
+// True if axes of length one are not perpendicular, by more than the rounding of files with four digits.
 bool is_sheared(const glm::dmat3& axes)
 {
     return !(std::max({std::abs(glm::dot(axes[0], axes[1])), std::abs(glm::dot(axes[1], axes[2])),

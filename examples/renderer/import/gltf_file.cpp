@@ -15,8 +15,8 @@ namespace gnomon::renderer {
 
 namespace {
 
-// The first complaint of tinygltf that matters: the format allows a skin without matrices, and a channel without a node
-// says nothing.
+// The first relevant complaint of tinygltf: the format allows a skin without matrices, and a channel without a node is
+// ignored.
 std::string first_complaint(std::string_view complaints)
 {
     while (!complaints.empty()) {
@@ -29,7 +29,7 @@ std::string first_complaint(std::string_view complaints)
     return {};
 }
 
-// An element of a view: where the first one is, and how far it is to the next.
+// The elements of a view: the offset of the first one and the distance to the next.
 struct strided {
     const unsigned char* first;
     std::size_t stride;

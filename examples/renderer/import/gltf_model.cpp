@@ -52,13 +52,13 @@ std::vector<glm::dvec3> morphed(const Model& model, const Primitive& from, const
     return result;
 }
 
-// Which joints of its skin carry each corner of a primitive, and how much: as many of both for each corner.
+// The joints that move each vertex of a primitive, and their weights: as many of both for each vertex.
 struct binding {
     std::vector<std::uint32_t> joints;
     std::vector<double> weights;
 };
 
-// A set of four for each corner. Refuses triangles of whose corners no joint carries one.
+// A set of four joints for each vertex. Refuses triangles with a vertex that no joint moves.
 std::vector<binding> bindings_of(const Model& model, const Primitive& from, std::size_t corners,
                                  const std::vector<glm::uvec3>& triangles)
 {
@@ -94,8 +94,8 @@ std::vector<glm::dmat4> joint_matrices(const Model& model, const tinygltf::Skin&
     return matrices;
 }
 
-// From the coordinates of a primitive's corners to the world's: one matrix for all, or one for each where joints carry
-// them. Weights are divided by their sum.
+// Matrices from the coordinates of a primitive to those of the world: one for all vertices, or one for each if joints
+// move them. Weights are divided by their sum.
 std::vector<glm::dmat4> corner_matrices(const Model& model, const Primitive& from, std::size_t node,
                                         std::size_t corners, const std::vector<glm::uvec3>& triangles,
                                         const gltf_pose& at)
@@ -114,8 +114,7 @@ std::vector<glm::dmat4> corner_matrices(const Model& model, const Primitive& fro
     return sums;
 }
 
-// Triangles of a list, a strip or a fan; none of points and lines. Every second triangle of a strip turns the other
-// way.
+// The triangles of a list, a strip or a fan; none of points and lines. Every second triangle of a strip is reversed.
 std::vector<glm::uvec3> triangles_of(const Model& model, const Primitive& from, std::size_t corners)
 {
     std::vector<std::uint32_t> order;

@@ -34,7 +34,7 @@ std::string one_line(std::string text)
 
 bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// Leaves out triangles that have a corner nowhere at either time.
+// Leaves out triangles with a vertex that is not finite at either time.
 void drop_undrawable(model_part& part)
 {
     std::erase_if(part.triangles, [&](const glm::uvec3& t) {
@@ -43,7 +43,7 @@ void drop_undrawable(model_part& part)
     });
 }
 
-// Moves corners that no triangle uses to one that is used, so that they do not count in the bounds.
+// Moves unused vertices to a used one, so that they do not extend the bounds.
 void gather_unused(model_part& part)
 {
     std::vector<bool> used(part.open.size());
@@ -89,7 +89,7 @@ moving_scene normalised(std::string name, const std::vector<model_part>& parts)
     return model;
 }
 
-// True for a glTF file, but for version 1, which is another format and Assimp's.
+// True for a glTF file of version 2. Version 1 is another format, which Assimp reads.
 bool is_gltf(const std::filesystem::path& file)
 {
     std::string extension = file.extension().string();

@@ -34,13 +34,14 @@ struct distance_plane {
     double at(double x, double y) const { return a + b * x + c * y; }
 };
 
-// One convex part of a triangle, ready to be sampled: inside is where all edges a x + b y + c >= 0, in subpixels.
+// A convex part of a triangle, prepared for sampling. A sample is inside if a x + b y + c >= 0 for all edges, in
+// subpixels.
 struct setup {
     struct edge {
         std::int64_t a, b, c;
     };
     std::array<edge, 3> edges;
-    glm::ivec2 first, last; // pixels that it may cover, both included
+    glm::ivec2 first, last; // pixels that the part may cover, both included
     distance_plane plane;
     double q_min, q_max; // at the corners, which extrapolation to a sample never exceeds
     triangle_id id;
@@ -93,8 +94,8 @@ struct polygon {
     std::size_t count = 0;
 };
 
-// Sutherland and Hodgman: keeps the side where inside(corner) >= 0. A cut is always reckoned from the inner corner, so
-// that two triangles get the same new corner on the edge that they share.
+// Clips a polygon to the side with inside(corner) >= 0 (Sutherland & Hodgman 1974). A cut is computed from the inner
+// corner, so that two triangles get the same new corner on the edge that they share.
 template <class Distance> void clip(polygon& shape, const Distance& inside)
 {
     polygon result;
@@ -150,7 +151,7 @@ void append_setups(const scene& world, triangle_id id, const viewport& view, fac
     std::array<subpixel, std::tuple_size_v<decltype(part.corners)>> snapped;
     double nearest = view.eye.far_distance, farthest = view.eye.near_distance;
     for (std::size_t i = 0; i < part.count; ++i) {
-        // Of a triangle of astronomical size, rounding may leave cut corners outside of what they were cut to.
+        // Rounding may leave the cut corners of a huge triangle outside of the guard band.
         const glm::dvec4& corner = part.corners[i];
         const double distance = std::clamp(corner.z, view.eye.near_distance, view.eye.far_distance);
         const glm::dvec2 from_centre = glm::dvec2(corner) / (view.eye.perspective() ? distance : 1);
@@ -254,7 +255,7 @@ void rasterize(const scene& world, const viewport& view, faces visible, const Fr
     });
 }
 
-// Cleared to the far plane and an id behind all others.
+// A tile, cleared to the far plane and to an id behind all others.
 struct visible_triangle {
     float depth = 1;
     triangle_id id{~0u, ~0u};
@@ -337,7 +338,7 @@ image<surface> rasterize_surfaces(const scene& world, const camera& eye, int wid
     const viewport view{eye, {width, height}};
     image<visible_triangle> seen(width, height);
     rasterize<1>(world, view, visible, [&](int x, int y, int, double q, triangle_id id) {
-        // Of equal depths the lowest id wins, in whichever order threads have set them up.
+        // At equal depths the lowest id wins, so that the order of threads does not count.
         const visible_triangle candidate{static_cast<float>(linear_depth(eye, view.distance(q))), id};
         if (candidate < seen(x, y)) seen(x, y) = candidate;
     });

@@ -106,8 +106,8 @@ moving_stage staged(const moving_scene& casters, moving_scene world, const lamp&
     return result;
 }
 
-// The ground holds all casters and shadows, and a quarter as much again on each side. One of light and caster stands
-// still in each scene, so that the shadow of a corner moves on a straight line, and its ends bound it.
+// A ground that holds all casters and shadows, and a quarter of their extent more on each side. In each scene either
+// the light or the caster is static, so the shadow of a vertex moves along a straight line between its two ends.
 moving_stage on_ground(const moving_scene& casters, const lamp& light, const view& eye, double aspect, interests places)
 {
     bounds covered = bounds_of(casters);
@@ -154,8 +154,8 @@ moving_camera spot_light(const moving_scene& casters, const moving_scene& world,
             perspective_view_from(position, position + direction, positions_at(world, last), glm::half_pi<double>(), 1);
         nearest = std::min(nearest, light.open.near_distance);
         farthest = std::max(farthest, light.open.far_distance);
-        // In this view at right angles 2 (u, v) - 1 is x / z and y / z, ratios of linear functions of time and so
-        // greatest at an end.
+        // In this view of 90 degrees, 2 (u, v) - 1 is (x / z, y / z): ratios of linear functions of time, which are
+        // largest at an end.
         for (const glm::vec3& corner : positions_at(casters, last)) {
             if (!(view_distance(light.open, corner) > 0))
                 throw std::invalid_argument("spot light: a caster is not in front of it");

@@ -15,11 +15,11 @@ namespace gnomon::renderer {
 namespace {
 
 constexpr std::size_t most_of_a_part = 20'000;
-constexpr double flatness = 0x1p-20; // of the mesh's extent: what coordinates in float are rounded by, several times
+constexpr double flatness = 0x1p-20; // of the mesh's extent: several roundings of coordinates in float
 
 constexpr std::uint32_t nobody = ~0u;
 
-// The triangles of one mesh at three times, with one number for corners that are always at one place.
+// The triangles of one mesh at three times. Vertices that coincide at all of these times get one number.
 class moving_surface {
   public:
     moving_surface(const mesh& open, std::span<const glm::vec3> closing) : triangles_(open.triangles)
@@ -49,7 +49,7 @@ class moving_surface {
             }
     }
 
-    // Of each triangle the first one of its surface.
+    // The first triangle of the surface of each triangle.
     std::vector<std::uint32_t> surfaces() const
     {
         const std::vector<std::uint32_t> parts = grown([](std::uint32_t, std::uint32_t) { return true; });
@@ -69,7 +69,7 @@ class moving_surface {
         bool forwards; // along the edge, from its lower corner
     };
 
-    // From each triangle that nothing has reached yet, over edges to those that join(seed, triangle) takes.
+    // Visits, from each triangle not yet visited, the neighbours over edges for which join(seed, triangle) is true.
     template <class Join> std::vector<std::uint32_t> grown(const Join& join) const
     {
         std::vector<std::uint32_t> result(triangles_.size(), nobody), waiting;
@@ -91,8 +91,8 @@ class moving_surface {
         return result;
     }
 
-    // The distance of a corner in front of a triangle, times the length of its normal, and that length; at one of the
-    // times.
+    // The distance of a vertex in front of a triangle, times the length of the triangle's normal, and that length, at
+    // one of the times.
     std::pair<double, double> distance(const glm::uvec3& of, std::uint32_t corner, std::size_t time) const
     {
         const glm::dvec3 a = places_[of.x][time];
@@ -111,7 +111,7 @@ class moving_surface {
         return true;
     }
 
-    // True where every edge has two triangles, one on either side.
+    // True if every edge has two triangles, one on either side.
     bool is_closed(std::span<const std::uint32_t> part) const
     {
         for (const std::uint32_t t : part)
@@ -122,7 +122,7 @@ class moving_surface {
         return true;
     }
 
-    // True where all corners are behind all triangles.
+    // True if all vertices are behind all triangles.
     bool is_convex(std::span<const std::uint32_t> part) const
     {
         if (part.size() > most_of_a_part) return false;
@@ -140,7 +140,7 @@ class moving_surface {
         return true;
     }
 
-    std::vector<std::array<glm::dvec3, 3>> places_; // of each corner, at shutter open, halfway and at close
+    std::vector<std::array<glm::dvec3, 3>> places_; // of each vertex, at shutter open, halfway and at close
     std::vector<glm::uvec3> triangles_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<side>> edges_;
     double tolerance_ = 0;

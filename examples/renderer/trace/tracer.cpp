@@ -101,7 +101,7 @@ struct tracer::state {
         return {origin, glm::vec3(place - glm::dvec3(origin)), 1};
     }
 
-    // Returns the cosine between the receiver's normal and the direction to the light.
+    // The cosine between the receiver's normal and the direction to the light.
     float aim(RTCRay16& rays, int lane, const receiver& from, const moving_camera& light, float time) const
     {
         const segment ray = to_light(from, light, time);
@@ -109,8 +109,8 @@ struct tracer::state {
         return glm::dot(from.normal, unit(ray.direction));
     }
 
-    // Whether nothing that moves comes near: then what the ray meets is the same at all times. Boxes are farther away
-    // than rounding can tell.
+    // True if no moving mesh comes near the ray: then the ray meets the same point at all times. Boxes are farther away
+    // than the rounding of the test.
     bool always_alike(const segment& ray) const
     {
         return std::ranges::none_of(swept, [&](const bounds& box) { return crosses(ray, box, 10 * offset); });

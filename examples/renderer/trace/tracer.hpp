@@ -77,8 +77,8 @@ class tracer {
     // Distance along the normal at which a ray starts: a few roundings of the scene's diagonal.
     float offset() const;
 
-    // What a static camera sees through the centre of each pixel at `samples` times, one in each of as many equal parts
-    // of [0, 1], chosen by the index of the pixel. Parallel over pixels.
+    // The picture of a static camera: rays through the centre of each pixel at `samples` times, one in each of as many
+    // equal parts of [0, 1], chosen by the index of the pixel. Parallel over pixels.
     reference_picture photograph(const moving_camera& light, const camera& eye, int width, int height,
                                  int samples) const;
 
