@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compiles the examples of README.md and docs/shaders.md, so that what a newcomer copies works.
+"""Compiles the examples of README.md, docs/lessons.md and docs/shaders.md, so that what a newcomer copies works.
 
 usage: examples.py ROOT PACKAGES               prints what a compiler has against an example; exit code 1 if there is any
        examples.py ROOT PACKAGES CHECKER...    the example in WGSL by a checker that takes a folder
@@ -24,6 +24,9 @@ EXAMPLES = {
     "README.md": {
         "Use it in C++": (".cpp", ["g++", *CXX, "-c"]),
         "Use it in GLSL": (".frag", GLSLANG),
+    },
+    "docs/lessons.md": {
+        "A filter of your own": (".cpp", ["g++", *CXX, "-c"]),
     },
     "docs/shaders.md": {
         "Vulkan": (".frag", GLSLANG),
