@@ -70,7 +70,7 @@ struct five_samples : path_and_range {
 };
 
 struct receiver_static : path_and_range {
-    static constexpr auto name = "receiver at rest, one range";
+    static constexpr auto name = "static receiver, one range";
     static constexpr bool has_error = true;
     template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
     {
@@ -82,7 +82,7 @@ struct receiver_static : path_and_range {
 };
 
 struct receiver_behind : path_and_range {
-    static constexpr auto name = "receiver at rest behind a total";
+    static constexpr auto name = "static receiver behind a summary";
     template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
     {
         using real = std::common_type_t<Reals...>;

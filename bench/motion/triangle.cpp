@@ -173,7 +173,7 @@ struct vertex_depths : field_and_sample {
 };
 
 struct field_depths : field_and_sample {
-    static constexpr auto name = "two depths of a field";
+    static constexpr auto name = "two depths of a setup";
     template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
     {
         using real = std::common_type_t<Reals...>;
@@ -194,7 +194,7 @@ struct vertex_line : field_and_sample {
 };
 
 struct field_line : field_and_sample {
-    static constexpr auto name = "line of a field's depth";
+    static constexpr auto name = "line of a setup's depth";
     template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
     {
         using real = std::common_type_t<Reals...>;
@@ -214,7 +214,7 @@ struct vertex_piece : field_and_sample {
 };
 
 struct field_piece : field_and_sample {
-    static constexpr auto name = "piece of a field's depth";
+    static constexpr auto name = "piece of a setup's depth";
     template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
     {
         using real = std::common_type_t<Reals...>;

@@ -155,21 +155,21 @@ squares_map& scene()
 
 [[maybe_unused]] const bool registered =
     add_comparison(
-        "receivers/a cell of a way/fold", [] { return scene().moving_by_fold(); },
+        "receivers/a cell of a path/fold", [] { return scene().moving_by_fold(); },
         [] { return scene().moving_by_fold(); }) &&
     add_comparison(
-        "receivers/a cell of a way/lists", [] { return scene().moving(scene().lists()); },
+        "receivers/a cell of a path/lists", [] { return scene().moving(scene().lists()); },
         [] { return scene().moving_by_fold(); }) &&
     add_comparison(
-        "receivers/a cell of a way/totals", [] { return scene().moving(scene().with_totals()); },
+        "receivers/a cell of a path/totals", [] { return scene().moving(scene().with_totals()); },
         [] { return scene().moving_by_fold(); }) &&
     add_comparison(
-        "receivers/at rest/fold", [] { return scene().static_by_fold(); }, [] { return scene().static_by_fold(); }) &&
+        "receivers/static/fold", [] { return scene().static_by_fold(); }, [] { return scene().static_by_fold(); }) &&
     add_comparison(
-        "receivers/at rest/lists", [] { return scene().statically(scene().lists()); },
+        "receivers/static/lists", [] { return scene().statically(scene().lists()); },
         [] { return scene().static_by_fold(); }) &&
     add_comparison(
-        "receivers/at rest/totals", [] { return scene().statically(scene().with_totals()); },
+        "receivers/static/totals", [] { return scene().statically(scene().with_totals()); },
         [] { return scene().static_by_fold(); }) &&
     add_comparison(
         "receivers/static/compact against lists", [] { return scene().statically(scene().compact()); },

@@ -3,6 +3,7 @@
 
 #include "support/distributions.hpp"
 #include "support/effort.hpp"
+#include "support/rounding.hpp"
 
 #include <gnomon/filters/convolution.h>
 #include <gnomon/filters/exponential.h>
@@ -20,6 +21,7 @@
 
 using namespace gnomon;
 using gnomon::test::distribution;
+using gnomon::test::u;
 
 namespace {
 
@@ -28,7 +30,6 @@ constexpr wide pi = 3.14159265358979323846L;
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 /// A distribution has at most 81 weights that sum to 1 but for rounding.
 constexpr double rounding_of_weights = 81 * 0x1p-53;
-template <class T> constexpr double u = double(std::numeric_limits<T>::epsilon()) / 2;
 
 /// E[f(z)] in extended precision, rounded once to T.
 template <class T, class F> T expectation(const distribution& d, F f)

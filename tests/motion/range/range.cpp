@@ -2,6 +2,7 @@
 // they shadow against the definition, asked at many times.
 #include "support/effort.hpp"
 #include "support/hostile.hpp"
+#include "support/rounding.hpp"
 
 #include <gnomon/motion/range/range.h>
 
@@ -14,11 +15,11 @@
 
 using namespace gnomon;
 using gnomon::test::bit_source;
+using gnomon::test::u;
 
 namespace {
 
 using wide = long double;
-template <class T> constexpr double u = double(std::numeric_limits<T>::epsilon()) / 2;
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 template <class T> T any_time(bit_source& bits)
@@ -90,7 +91,8 @@ TEST_CASE_TEMPLATE("range_clip: the times asked for, the same depths; in two par
     });
 }
 
-TEST_CASE_TEMPLATE("range_crossing: of clipped ranges, within the stated error, and an order on either side", T, float, double)
+TEST_CASE_TEMPLATE("range_crossing: of clipped ranges, within the stated error, and an order on either side", T, float,
+                   double)
 {
     for_each_range<T>(100'000, [](const depth_time_range<T>& a, bit_source& bits) {
         const auto b = any_range<T>(bits);

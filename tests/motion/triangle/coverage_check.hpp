@@ -2,6 +2,7 @@
 #pragma once
 
 #include "support/hostile.hpp"
+#include "support/rounding.hpp"
 
 #include <gnomon/motion/triangle/coverage_intervals.h>
 
@@ -15,7 +16,6 @@
 namespace gnomon::test {
 
 using exact = long double;
-template <class T> constexpr double u = double(std::numeric_limits<T>::epsilon()) / 2;
 
 struct interval {
     double begin, end;
