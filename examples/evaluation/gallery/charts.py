@@ -1,29 +1,66 @@
-"""The gallery's charts, drawn from what the drivers left behind."""
+"""Draws the panels of chart blocks: points, lines, steps, bands and rules, with their labels."""
+
+import math
+from dataclasses import dataclass
+from itertools import cycle
 
 import matplotlib
+import numpy
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-from matplotlib.lines import Line2D
-from matplotlib.ticker import FuncFormatter, LogLocator, SymmetricalLogLocator
+import colours
+import labels
+from scales import set_axis, thin_ticks, wrapped
 
-plt.rcParams.update({
-    "font.family": "sans-serif", "font.size": 10, "axes.spines.top": False, "axes.spines.right": False,
-    "axes.grid": True, "grid.color": "#e6e6e6", "axes.axisbelow": True, "svg.hashsalt": "gnomon", "svg.fonttype": "none",
-})
+WIDTH, HEIGHT, DPI = 4.5, 3.8, 96  # of a panel: inches, and the pixels of one
+MARKERS = {"circle": "o", "square": "s", "triangle": "^", "diamond": "D", "down": "v", "plus": "P", "cross": "X",
+           "star": "*", "none": ""}
+DASHES = ("", "5 2", "1.5 1.5", "6 2 1.5 2")
+AREA, LARGEST_AREA = 36, 250  # of a mark, in square points; the largest where marks have sizes
+GROWTH, GROWTHS = 1.15, 8  # a chart whose labels do not fit grows
+LINED = ("line", "steps")
 
-FAMILY_COLOURS = {"PCF": "#222222", "VSM": "#8c6d31", "LVSM": "#c49a4a", "ESM": "#9467bd", "EVSM": "#d62728", "CSM": "#7f7f7f",
-                  "MSM": "#1f77b4", "MSM6": "#2ca02c"}
-ERRORS = {"leak": "leak (mean of what is too bright)", "acne": "acne (mean of what is too dark)", "rmse": "RMSE"}
+STYLE = {"font.family": "DejaVu Sans", "font.size": 8.5, "axes.spines.top": False, "axes.spines.right": False,
+         "axes.grid": True, "grid.color": colours.GRID, "axes.axisbelow": True, "axes.edgecolor": colours.QUIET,
+         "axes.labelcolor": colours.INK, "text.color": colours.INK, "xtick.color": colours.QUIET,
+         "ytick.color": colours.QUIET, "xtick.labelcolor": colours.INK, "ytick.labelcolor": colours.INK,
+         "svg.hashsalt": "gnomon", "svg.fonttype": "path"}
 
 
-def save(figure, folder, name):
-    """Writes PNG and SVG aside, then renames them."""
-    for suffix, options in (("png", {"dpi": 110}), ("svg", {"metadata": {"Date": None}})):
-        part = folder / f"{name}.{suffix}.part"
-        figure.savefig(part, format=suffix, **options)
-        part.replace(folder / f"{name}.{suffix}")
-    plt.close(figure)
+@dataclass
+class Look:
+    """How all series of one label look in all panels of a chart."""
+    colour: str
+    marker: str
+    dashes: str
+    style: str
+
+
+def looks(panels):
+    """The look of each label of a chart. Two labels that share a colour differ in marker and dashes."""
+    found, own, used = {}, cycle(colours.SERIES), {}
+    for series in (series for panel in panels for series in panel["series"]):
+        label = series["label"]
+        if label in found:
+            continue
+        colour = colours.readable(series["colour"] if "colour" in series else next(own))
+        alike = used.setdefault((colour, series["style"] in LINED), [])
+        marker = series.get("marker") or list(MARKERS)[len(alike) % 8 if series["style"] == "points" else -1]
+        dashes = DASHES[len(alike) % len(DASHES)] if series["style"] in LINED else ""
+        if series.get("dashed"):
+            dashes = DASHES[2]
+        if not series.get("labelled"):
+            alike.append(label)
+        found[label] = Look(colour, marker, dashes, series["style"])
+    return found
+
+
+def coordinates(points, which):
+    """All values of points along an axis, "x" or "y"."""
+    found = (value for point, style in points for value in
+             (point[:1] if which == "x" else point[1:] if style == "band" else point[1:2]))
+    return [value for value in found if value is not None]
 
 
 def pareto_front(points):
@@ -35,112 +72,121 @@ def pareto_front(points):
     return front
 
 
-def overlap(a, b):
-    return max(0, min(a[2], b[2]) - max(a[0], b[0])) * max(0, min(a[3], b[3]) - max(a[1], b[1]))
+class Areas:
+    """From the third number of a point to the area of its mark, for all panels of a chart."""
+
+    def __init__(self, panels):
+        points = [point for panel in panels for series in panel["series"] if series["style"] == "points"
+                  for point in series["points"]]
+        self.largest = max((point[2] for point in points if len(point) > 2 and point[2] is not None), default=0)
+
+    def __call__(self, size=None):
+        return max(LARGEST_AREA * size / self.largest, 6) if size and self.largest > 0 else AREA
 
 
-def place_labels(axes, points, labels):
-    """Puts each label where it hides the fewest points and other labels; points are x, y, radius in points."""
-    renderer = axes.figure.canvas.get_renderer()
-    scale = axes.figure.dpi / 72
-    frame = axes.get_window_extent(renderer).extents
-    centres = [axes.transData.transform((x, y)) for x, y, _ in points]
-    taken = [(x - r * scale, y - r * scale, x + r * scale, y + r * scale) for (x, y), (_, _, r) in zip(centres, points)]
-    for (x, y, radius), (px, py), label in zip(points, centres, labels):
-        text = axes.annotate(label, (x, y), (0, 0), textcoords="offset points", ha="center", va="center", fontsize=8, color=colour(label),
-                             arrowprops={"arrowstyle": "-", "lw": 0.4, "color": colour(label)})
-        extent = text.get_window_extent(renderer)
-        width, height = extent.width / 2, extent.height / 2
-        candidates = []
-        for reach in (2, 10, 22, 36):
-            for side, up in ((1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)):
-                distance = (radius + reach) * scale
-                dx, dy = side * (distance + width), up * (distance + height)
-                box = (px + dx - width, py + dy - height, px + dx + width, py + dy + height)
-                outside = 4 * width * height - overlap(box, frame)
-                hidden = sum(overlap(box, other) for other in taken)
-                candidates.append((hidden + 10 * outside + 4 * reach, dx / scale, dy / scale, reach, box))
-        _, dx, dy, reach, box = min(candidates)
-        text.set_position((dx, dy))
-        text.arrow_patch.set_visible(reach > 2)
-        taken.append(box)
-
-
-def set_error_scale(axes, errors):
-    """Logarithmic, and linear below 1e-5 where there are such errors; every decade has some labelled ticks."""
-    ticks = (1, 2, 5)
-    if min(errors) > 1e-5:
-        axes.set_yscale("log")
-        axes.yaxis.set_major_locator(LogLocator(subs=ticks))
+def draw_series(axes, series, look, area):
+    """Draws one series; returns its points that can be drawn."""
+    style, colour = series["style"], look.colour
+    if style == "rule":
+        points = [[x, None] if x is not None else [None, y] for x, y in series["points"]]
     else:
-        axes.set_yscale("symlog", linthresh=1e-5, linscale=0.4)
-        axes.yaxis.set_major_locator(SymmetricalLogLocator(base=10, linthresh=1e-5))
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda y, _: "" if 0 < y < 9e-6 else f"{y:g}"))
-    axes.yaxis.set_minor_formatter(FuncFormatter(lambda y, _: ""))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
+        points = [point for point in series["points"] if None not in point]
+    line = {"color": colour, "lw": 1.6, "zorder": 2}
+    if look.dashes:
+        line["dashes"] = [float(length) for length in look.dashes.split()]
+    if style == "rule":
+        for x, y in points:
+            rule = {**line, "lw": 1}
+            axes.axhline(y, **rule) if x is None else axes.axvline(x, **rule)
+    elif style == "band":
+        x, low, high = zip(*points) if points else ((), (), ())
+        axes.fill_between(x, low, high, color=colour, alpha=0.22, lw=0, zorder=1)
+    elif style == "points":
+        axes.scatter([p[0] for p in points], [p[1] for p in points], s=[area(*p[2:]) for p in points], c=colour,
+                     marker=MARKERS[look.marker], alpha=0.8, edgecolors=colours.SURFACE, linewidths=0.6, zorder=3)
+    else:
+        axes.plot([p[0] for p in points], [p[1] for p in points], marker=MARKERS[look.marker], ms=4.5,
+                  drawstyle="steps-post" if style == "steps" else "default", **line)
+    return points
 
 
-def colour(method):
-    return FAMILY_COLOURS.get(method.split()[0], "#17becf")
+def along(corners, steps=False):
+    """Points on the lines between corners, in pixels."""
+    ends = numpy.array(corners)
+    if steps:
+        ends = numpy.repeat(ends, 2, axis=0)[:-1]
+        ends[1::2, 0] = ends[2::2, 0]
+    return [a + (b - a) * t for a, b in zip(ends[:-1], ends[1:]) for t in numpy.linspace(0, 1, 24)]
 
 
-def speed_against_accuracy(rows, folder, name, title):
-    """rows: one for each method, all with the same reference."""
-    figure, panels = plt.subplots(1, 3, figsize=(14, 5.4))
-    figure.subplots_adjust(left=0.06, right=0.99, top=0.9, bottom=0.2, wspace=0.22)
-    figure.suptitle(title)
-    for axes, (key, label) in zip(panels, ERRORS.items()):
-        axes.set_xscale("log")
-        set_error_scale(axes, [row[key] for row in rows])
-        axes.set_xlabel("ns per receiver, one thread, kernel alone")
-        axes.set_ylabel(label)
-        front = pareto_front([(row["ns_per_receiver"], row[key]) for row in rows])
-        axes.step(*zip(*front), where="post", color="#bbbbbb", lw=1.5, zorder=1)
-        areas = [12 * row["bytes_per_texel"] for row in rows]
-        axes.scatter([row["ns_per_receiver"] for row in rows], [row[key] for row in rows], s=areas,
-                     c=[colour(row["method"]) for row in rows], alpha=0.75,
-                     edgecolors="white", zorder=2)
-        axes.margins(x=0.2, y=0.12)
-    figure.canvas.draw()
-    for axes, key in zip(panels, ERRORS):
-        points = [(row["ns_per_receiver"], row[key], (12 * row["bytes_per_texel"]) ** 0.5 / 2) for row in rows]
-        place_labels(axes, points, [row["method"] for row in rows])
-    sizes = [Line2D([], [], marker="o", lw=0, color="#cccccc", markersize=(12 * b) ** 0.5, label=f"{b} bytes per texel")
-             for b in (4, 16, 32)]
-    front = Line2D([], [], color="#bbbbbb", label="Pareto front")
-    figure.legend(handles=[front, *sizes], loc="lower center", ncols=4, frameon=False)
-    save(figure, folder, name)
+def rule_place(axes, x, y):
+    """Where the label of a rule belongs, in pixels: at the top of an upright one, at the right of a level one."""
+    right, top = axes.transAxes.transform((0.98, 0.97))
+    if x is None:
+        return right, axes.transData.transform((1, y))[1]
+    return axes.transData.transform((x, 1))[0], top
 
 
-def steps(depths, weights):
-    """The distribution function of some depths, ready to be drawn from -1 to 1."""
-    xs, ys, sum_ = [-1.2], [0.0], 0.0
-    for z, w in sorted(zip(depths, weights)):
-        xs += [z, z]
-        ys += [sum_, sum_ + w]
-        sum_ += w
-    return xs + [1.2], ys + [sum_]
+def marks_and_labels(axes, panel, found, area, drawn):
+    """What labels must not hide, the points of lines, and the labels."""
+    scale = axes.figure.dpi / 72
+    marks, trail, wanted = [], [], []
+    for series, points in zip(panel["series"], drawn):
+        look, style = found[series["label"]], series["style"]
+        colour = colours.readable(look.colour, colours.TEXT)
+        if style == "rule":
+            places = [rule_place(axes, x, y) for x, y in points]
+            radii = [0] * len(points)
+        else:
+            places = [tuple(axes.transData.transform(point[:2])) for point in points]
+            size = [area(*p[2:]) if style == "points" else 20 if look.marker != "none" else 0 for p in points]
+            radii = [math.sqrt(s) / 2 * scale for s in size]
+            marks += [(x - r, y - r, x + r, y + r) for (x, y), r in zip(places, radii) if r]
+        if style in LINED and len(places) > 1:
+            trail += along(places, style == "steps")
+        if series.get("labelled") and places:
+            best = 0 if style == "rule" or style == "points" else -1
+            wanted.append(labels.Label(wrapped(series["label"], 26), places[best], radii[best], colour))
+        for place, radius, text in zip(places, radii, series.get("texts", ())):
+            wanted.append(labels.Label(text, place, radius, colour, 7))
+    return marks, trail, wanted
 
 
-def bounds(facts, folder, name):
-    figure, panels = plt.subplots(1, 3, figsize=(14, 4.8), sharey=True)
-    figure.subplots_adjust(left=0.05, right=0.99, top=0.93, bottom=0.2, wspace=0.06)
-    colours = ("#d62728", "#ff7f0e", "#2ca02c", "#1f77b4")
-    truth = steps(facts["depths"], facts["weights"])
-    for axes, b in zip(panels, facts["bounds"]):
-        axes.set_title(f"m = {b['moments']} moments")
-        axes.fill_between(b["receivers"], b["lower"], b["upper"], color="#dfe7f1", label="between the bounds")
-        axes.plot(b["receivers"], b["lower"], color="#5b7ea8", lw=1)
-        axes.plot(b["receivers"], b["upper"], color="#5b7ea8", lw=1)
-        for line_colour, r in zip(colours, b["representations"]):
-            axes.plot(*steps(r["depths"], r["weights"]), color=line_colour, lw=1.2, alpha=0.85,
-                      label=f"representation, $z_f$ = {r['receiver']:g}")
-            axes.axvline(r["receiver"], color=line_colour, lw=0.6, ls=":")
-        axes.plot(*truth, color="black", lw=2, label="ground truth")
-        axes.set_xlim(-1, 1)
-        axes.set_xticks((-1, -0.5, 0, 0.5, 1))
-        axes.set_ylim(-0.02, 1.02)
-        axes.set_xlabel("depth")
-    panels[0].set_ylabel("shadow intensity")
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="lower center", ncols=6, frameon=False)
-    save(figure, folder, name)
+def draw_once(panel, found, area, height):
+    """One try: the figure, and whether all labels are free."""
+    figure = Figure(figsize=(WIDTH, height), dpi=DPI, facecolor=colours.SURFACE, layout="constrained")
+    FigureCanvasAgg(figure)
+    axes = figure.add_subplot(facecolor=colours.SURFACE)
+    crowded = any(series.get("labelled") for series in panel["series"])
+    axes.margins(*((0.1, 0.1) if crowded else (0.04, 0.06)))
+    if panel.get("title"):
+        title = "\n".join(wrapped(part, 50) for part in panel["title"].split("\n"))
+        axes.set_title(title, fontsize=9.5, loc="left", parse_math=False)
+    drawn = [draw_series(axes, series, found[series["label"]], area) for series in panel["series"]]
+    shown = [(point, series["style"]) for series, points in zip(panel["series"], drawn) for point in points]
+    for which in "xy":
+        set_axis(axes, which, panel[which], coordinates(shown, which))
+    front = []
+    if panel.get("pareto"):
+        front = pareto_front([point[:2] for point, style in shown if style == "points"])
+        if front:
+            axes.step(*zip(*front), where="post", color=colours.FRONT, lw=1.3, zorder=1)
+    figure.draw_without_rendering()
+    thin_ticks(axes)
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    marks, trail, wanted = marks_and_labels(axes, panel, found, area, drawn)
+    trail += along(axes.transData.transform(front), steps=True) if len(front) > 1 else []
+    return figure, labels.write(axes, wanted, marks, trail)
+
+
+def draw(panel, found, area):
+    """A panel's figure, as high as its labels need. found: looks() of the chart; area: the Areas of it."""
+    with matplotlib.rc_context(STYLE):
+        height = HEIGHT
+        for _ in range(GROWTHS):
+            figure, free = draw_once(panel, found, area, height)
+            if free:
+                break
+            height *= GROWTH
+        return figure

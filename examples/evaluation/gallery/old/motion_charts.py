@@ -6,7 +6,7 @@ import numpy
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator
 
-from charts import plt, save, set_error_scale
+from old_charts import plt, save, set_error_scale
 
 COLOURS = ("#7f7f7f", "#9467bd", "#ff7f0e", "#2ca02c", "#d62728", "#17becf", "#8c6d31", "#e377c2")
 SATURATED = 0.98  # how dark the darkest channel of an error's colour is at most
