@@ -48,8 +48,8 @@ int main()
             const range hidden = gnomon::moving_receiver_occluding_part(state, r);       // in front of the receiver
             const float share0 = gnomon::shutter_box(hidden.t0, state.begin, state.end); // of the exposure's light
             const float share1 = gnomon::shutter_box(hidden.t1, state.begin, state.end);
-            state =
-                gnomon::moving_receiver_add(state, gnomon::receiver_lost_light(hidden, path.depth.id, share0, share1));
+            const float lost = gnomon::receiver_lost_light(hidden, path.depth.id, share0, share1); // 0 if its own
+            state = gnomon::moving_receiver_add(state, lost);
         }
         more = sweep.t_end < sweep.t_last;
     }
