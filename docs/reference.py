@@ -5,7 +5,7 @@ usage: reference.py [--check]    run from anywhere; with --check writes nothing 
 
 Fields of comments are Domain, NaN, Error and Source. A source is a work of docs/bibliography.md, its Eq., Alg., Sec. or
 App. after a comma; several are separated by "; ". Every work that a comment of include/ or a page of docs/ cites must be
-in the bibliography, and every work in the bibliography must be cited.
+in the bibliography, every work in it must be cited, and every link between pages must lead somewhere.
 """
 import os
 import re
@@ -33,6 +33,7 @@ WORK = re.compile(r"^- \*\*(.+?)\*\*: (.+?)\. \*(.+?)\*\. (.+), (\d{4})\.$", re.
 NAME = r"[A-Z][A-Za-z]*[a-z](?:-[A-Z][a-z]+)?"
 CITED = re.compile(rf"\b({NAME}(?:, {NAME})*(?: & {NAME}| et al\.)?) \(?((?:19|20)\d\d)\b")
 SOURCE = re.compile(r"([^;]+ \d{4})(?:, (Eq\.|Alg\.|Sec\.|App\.) ([\dA-Z]+(?:\.\d+)*))?")
+CONSTANT = re.compile(r"^GNOMON_CONSTANT\((\w+),\s*([^;]*)\);(?: *//<? ?(.*))?", re.MULTILINE)
 GENERATED = "<!-- Written by docs/reference.py from the comments of the headers: change those. -->\n"
 
 
@@ -95,7 +96,7 @@ def operation_counts(headers):
 
 class Reference:
     def __init__(self):
-        packager = Packager(ROOT / "include", "0.0.0")
+        self.packager = packager = Packager(ROOT / "include", "0.0.0")
         self.headers = {header.name: header for header in packager.packages["gnomon"][0]} # in the order of the flow
         self.packages = {name: sorted(package for package, (headers, _) in packager.packages.items()
                                       if any(header.name == name for header in headers) and package != "gnomon")
@@ -167,12 +168,14 @@ class Reference:
         text, code = [], False
         for line in lines:
             indentation = len(line) - len(line.lstrip())
-            indented = indentation > 2
+            indented = indentation >= 2
             if text and indented != code and line.strip():
                 text.append("")
             code = indented if line.strip() else code
+            if not indented: # a sum that goes on is no list
+                line = re.sub(r"^(?=[+>#] )" if text and text[-1] else r"^(?=[>#] )", r"\\", line)
             text.append((indent + (" " * (4 - indentation) + line if indented else self.linked(line, page))).rstrip())
-        return "\n".join(text).strip("\n")
+        return re.sub(r"\n{3,}", "\n\n", "\n".join(text).strip("\n"))
 
     def page(self, name):
         header, page = self.headers[name], f"reference/{Path(name).with_suffix('.md')}"
@@ -196,8 +199,16 @@ class Reference:
                       for field in FIELDS if field in entry.fields and field != "Source"]
             if "Source" in entry.fields:
                 fields.append(f"- **Source:** {'; '.join(self.citation(*source, page) for source in self.sources(entry))}\n")
+            if entry.name in self.packager.internal:
+                fields.append(f"- **In packages** of languages without namespaces: `{self.packager.name(entry.name)}`\n")
             text += "\n" * bool(fields) + "".join(fields)
-        return re.sub(r"(?: \| )(?= \|)", " | ", text)
+        constants = [(constant, value, comment) for constant, value, comment in CONSTANT.findall("\n".join(header.blocks))
+                     if constant not in self.packager.internal]
+        if constants:
+            text += "\n## Constants\n\n| constant | value | |\n| --- | --- | --- |\n"
+            for constant, value, comment in constants:
+                text += f"| `{constant}` | {value} | {self.linked(comment, page)} |\n"
+        return text
 
     def citation(self, work, kind, number, page):
         anchor = os.path.relpath("bibliography.md", Path(page).parent)
@@ -215,7 +226,7 @@ A kernel takes any bits: outside of its **Domain** it does what stands there, an
 what tests hold it to. **Source** leads to the [bibliography](../bibliography.md); [equations](../equations.md) go the other
 way. Conventions of depth, moments and intensity have [a page](../conventions.md). Tables count the operations of one call in
 float without a fused multiply-add, where every lane needs everything that a branch might skip; what constants alone determine
-is not counted. Registers on a GPU need nvcc: where there is one, the test `parity/cuda/registers` leaves them in
+is not counted; lists have their usual capacity. Registers on a GPU need nvcc: where there is one, the test `parity/cuda/registers` leaves them in
 `build/release/tests/shaders/cuda_registers.json`.
 
 Helpers, marked `GNOMON_DETAIL_KERNEL` in the headers, are left out.
@@ -273,6 +284,20 @@ The kernels that compute what a work states, from the `Source:` fields of their 
             yield f"reference/{Path(name).with_suffix('.md')}", self.page(name)
 
 
+def broken_links():
+    """Links between pages of the repository that lead nowhere."""
+    def anchors(page):
+        heads = re.findall(r"^#+ (.*)", page.read_text(), re.MULTILINE)
+        return {re.sub(r"[^\w -]", "", re.sub(r"\[(.*?)\]\(.*?\)", r"\1", head).lower()).replace(" ", "-") for head in heads}
+
+    for page in sorted([ROOT / "README.md", *DOCS.rglob("*.md"), *ROOT.glob("examples/**/*.md")]):
+        text = re.sub(r"^    .*", "", page.read_text(), flags=re.MULTILINE)
+        for target, anchor in set(re.findall(r"(?<!\\)\]\(([^)#:]*)(?:#([^)]*))?\)", text)):
+            path = page.parent / target if target else page
+            if not path.exists() or anchor and path.suffix == ".md" and anchor not in anchors(path):
+                yield f"{page.relative_to(ROOT)}: the link {target}{'#' * bool(anchor)}{anchor} leads nowhere"
+
+
 def main():
     check = sys.argv[1:] == ["--check"]
     if sys.argv[1:] and not check:
@@ -284,18 +309,21 @@ def main():
         sys.exit(f"reference.py: {error}")
     left = [path for path in DOCS.glob("reference/**/*.md") if path.relative_to(DOCS).as_posix() not in files]
     differing = [name for name, text in files.items() if not (DOCS / name).exists() or (DOCS / name).read_text() != text]
-    print("\n".join(reference.mistakes), end="\n" * bool(reference.mistakes))
     if check:
+        mistakes = [*reference.mistakes, *broken_links()]
+        print("\n".join(mistakes), end="\n" * bool(mistakes))
         for name in [*differing, *(path.relative_to(DOCS).as_posix() for path in left)]:
             print(f"docs/{name}: not what the comments say; run: {MEND}")
-        print(f"{len(files)} pages, {len(differing) + len(left)} differ, {len(reference.mistakes)} mistakes")
-        sys.exit(bool(differing or left or reference.mistakes))
+        print(f"{len(files)} pages, {len(differing) + len(left)} differ, {len(mistakes)} mistakes")
+        sys.exit(bool(differing or left or mistakes))
     for name in differing:
         (DOCS / name).parent.mkdir(parents=True, exist_ok=True)
         (DOCS / name).write_text(files[name])
     for path in left:
         path.unlink()
-    sys.exit(bool(reference.mistakes))
+    mistakes = [*reference.mistakes, *broken_links()]
+    print("\n".join(mistakes), end="\n" * bool(mistakes))
+    sys.exit(bool(mistakes))
 
 
 if __name__ == "__main__":
