@@ -9,7 +9,7 @@
 
 using namespace gnomon;
 
-TEST_CASE_TEMPLATE("glm: vec4 and moments4, vec2 and variance_moments", T, float, double)
+TEST_CASE_TEMPLATE("glm: vec4 is moments4, vec2 is variance_moments", T, float, double)
 {
     const moments4<T> b = moments4_from_depth(T(-0.5));
     const glm::vec<4, T> v = to_glm(b);

@@ -23,7 +23,7 @@ std::size_t draw(std::mt19937& random, std::size_t low, std::size_t high)
     return std::uniform_int_distribution<std::size_t>(low, high)(random);
 }
 
-/// How far a value moves when the format stores it: half a step, relative for floats.
+/// Error of a value that the format stores: half a step, relative for floats.
 template <class Format> double storage_error(double value)
 {
     constexpr std::string_view name = Format::name;
@@ -123,7 +123,7 @@ TEST_CASE_TEMPLATE("blur equals the sum over its taps, in bands of rows, with st
     }
 }
 
-TEST_CASE("blur is both passes, in place too; padding stays untouched; a constant map stays constant")
+TEST_CASE("blur is both passes, also in place; padding stays untouched; a constant map stays constant")
 {
     using format = moments4_unorm16;
     std::mt19937 random(2);
@@ -147,7 +147,7 @@ TEST_CASE("blur is both passes, in place too; padding stays untouched; a constan
     CHECK(same_bytes(map.texels, constant));
 }
 
-TEST_CASE_TEMPLATE("mips: the mean over the area a texel covers, for any extent", Format, EVERY_KIND_OF_FORMAT)
+TEST_CASE_TEMPLATE("mips: the mean over the area that a texel covers, for any extent", Format, EVERY_KIND_OF_FORMAT)
 {
     std::mt19937 random(3);
     for (std::int64_t round = 0; round < std::max<std::int64_t>(test::effort(40), 4); ++round) {
@@ -233,7 +233,7 @@ TEST_CASE_TEMPLATE("look-ups: bilinear between texel centres, linear between lev
     CHECK(bytes(trilinear<Format>(mips, 3, nan, infinity)) == load_channels<Format>(texels.back()));
 }
 
-TEST_CASE("bad shapes: named with both values before anything is written")
+TEST_CASE("shapes that do not fit are refused with both values, before anything is written")
 {
     using format = exponential_float;
     using texel = format::texel;

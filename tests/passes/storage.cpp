@@ -67,7 +67,7 @@ template <int bits, class T> void check_unorm()
     CHECK(unorm_encode<bits>(infinity) == unorm_maximum<bits>);
 }
 
-TEST_CASE_TEMPLATE("unorm: every code, both neighbours, clamped outside", T, float, double)
+TEST_CASE_TEMPLATE("unorm: every code, both neighbours, and values outside, which are clamped", T, float, double)
 {
     check_unorm<1, T>();
     check_unorm<8, T>();

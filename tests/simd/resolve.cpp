@@ -105,7 +105,7 @@ TEST_CASE_TEMPLATE("resolve_rows: the spans of resolve_ranges in every lane", Pa
 }
 
 // At any time: what is in front by all ranges, but for a tie.
-TEST_CASE_TEMPLATE("resolve_rows: at any time the depth that is in front", Pack, xsimd::batch<float>)
+TEST_CASE_TEMPLATE("resolve_rows: at any time the depth in front", Pack, xsimd::batch<float>)
 {
     bit_source bits(92);
     std::int64_t there = 0, far = 0;
@@ -143,7 +143,7 @@ TEST_CASE_TEMPLATE("resolve_rows: at any time the depth that is in front", Pack,
     CHECK(far < there / 100); // hardly ever is it a second tie
 }
 
-TEST_CASE("resolve_rows: of n ranges as near as a tie the front is n - 1 ties behind, and climbed to")
+TEST_CASE("resolve_rows: for n ranges within a tie a climber finds the front at most n - 1 ties behind")
 {
     using pack = xsimd::batch<float>;
     for (const std::size_t n : {2u, 3u, 6u}) {
@@ -154,7 +154,7 @@ TEST_CASE("resolve_rows: of n ranges as near as a tie the front is n - 1 ties be
     }
 }
 
-TEST_CASE("backdrop_filter: in every lane what it is for one list")
+TEST_CASE("backdrop_filter: every lane has the result of a single list")
 {
     using pack = xsimd::batch<float>;
     bit_source bits(93);

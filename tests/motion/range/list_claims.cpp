@@ -101,7 +101,7 @@ template <class T> ranges<T> grid_ranges(bit_source& bits)
 } // namespace
 
 // Roundings of the reference itself: 2^-52.
-TEST_CASE_TEMPLATE("full lists: strictly in front of all that was inserted, however steep and brief", T, float, double)
+TEST_CASE_TEMPLATE("full lists are strictly in front of all inserted ranges, however steep and brief", T, float, double)
 {
     const summit small = climb(20, 60'000, 1, [](const auto& p) { return behind<T, 2>(climbed_ranges<T>(4, p)); });
     CHECK(small.score <= 0x1p-52);
@@ -110,7 +110,7 @@ TEST_CASE_TEMPLATE("full lists: strictly in front of all that was inserted, howe
 }
 
 // The times are between those of the grid, where ranges begin and end.
-TEST_CASE_TEMPLATE("ids: a shadow is lost where a range of the receiver's id is in front of it, and nowhere else", T,
+TEST_CASE_TEMPLATE("ids: a shadow is lost only where a range of the receiver's id is in front of the receiver", T,
                    float, double)
 {
     bit_source bits(3);

@@ -62,7 +62,7 @@ TEST_CASE_TEMPLATE("range_depth: within the stated error, exact at the ends", T,
     });
 }
 
-TEST_CASE_TEMPLATE("range_between does not mind the order of its points", T, float, double)
+TEST_CASE_TEMPLATE("range_between accepts its points in either order", T, float, double)
 {
     for_each_range<T>(10'000, [](const depth_time_range<T>& r, bit_source&) {
         if (r.t0 == r.t1) return;
@@ -74,7 +74,8 @@ TEST_CASE_TEMPLATE("range_between does not mind the order of its points", T, flo
     });
 }
 
-TEST_CASE_TEMPLATE("range_clip: the times asked for, the same depths; in two parts nothing is lost", T, float, double)
+TEST_CASE_TEMPLATE("range_clip: the given times, the same depths; two parts last as long as the whole", T, float,
+                   double)
 {
     for_each_range<T>(50'000, [](const depth_time_range<T>& r, bit_source& bits) {
         const T a = any_time<T>(bits), b = any_time<T>(bits), begin = std::min(a, b), end = std::max(a, b);
@@ -114,7 +115,8 @@ TEST_CASE_TEMPLATE("range_crossing: of clipped ranges, within the stated error, 
     });
 }
 
-TEST_CASE_TEMPLATE("range_occluding_part: the times at which it shadows a receiver, at rest or not", T, float, double)
+TEST_CASE_TEMPLATE("range_occluding_part: the times at which a range shadows a static or moving receiver", T, float,
+                   double)
 {
     for_each_range<T>(20'000, [](const depth_time_range<T>& r, bit_source& bits) {
         depth_time_range<T> course = any_range<T>(bits);
@@ -142,7 +144,7 @@ TEST_CASE_TEMPLATE("range_occluding_part: the times at which it shadows a receiv
     });
 }
 
-TEST_CASE_TEMPLATE("range_intensity: its own surface, its ends, bias, NaN", T, float, double)
+TEST_CASE_TEMPLATE("range_intensity: own surface, ends, bias and NaN", T, float, double)
 {
     const T nan = T(nan_value);
     const depth_time_range<T> r{T(0.25), T(0.75), T(-0.5), T(0.5), T(3)};

@@ -1,5 +1,5 @@
-// Surfaces that turn: the times at which they face the light, by the edge that facing_function makes, against the product
-// of both vectors at dense times in extended precision.
+// Surfaces that turn: the times at which they face the light, by the edge that facing_function makes, against the
+// product of both vectors at dense times in extended precision.
 #include "receiver_cases.hpp"
 #include "support/effort.hpp"
 
@@ -69,7 +69,7 @@ TEST_CASE_TEMPLATE("facing: coefficients within the stated error, times as by de
     CHECK(twice > effort(100'000) / 1000);
 }
 
-TEST_CASE_TEMPLATE("facing: always, never, turning away, twice, NaN", T, float, double)
+TEST_CASE_TEMPLATE("facing: at all times, never, turning away, twice, and with NaN", T, float, double)
 {
     const T nan = std::numeric_limits<T>::quiet_NaN();
     const moving_vector<T> up{0, 0, 1, 0, 0, 1}, turning{0, 0, 1, 0, 0, -1};
@@ -95,8 +95,8 @@ TEST_CASE_TEMPLATE("facing: always, never, turning away, twice, NaN", T, float, 
     }
 }
 
-// What the thesis does with them: the parts of a path, each with its shadows, and darkness for what is between.
-TEST_CASE_TEMPLATE("facing: a path in parts", T, float, double)
+// As in the thesis: the parts of a path that face the light, each with its shadows, and darkness between them.
+TEST_CASE_TEMPLATE("facing: the parts of a path that face the light", T, float, double)
 {
     const moving_vector<T> n{0, 0, 1, 0, 0, -3}, d{0, 0, 3, 0, 0, -1};
     const edge_intervals<T> x = moving_edge_inside(facing_function(n, d), T(1));

@@ -11,7 +11,7 @@
 
 namespace gnomon::test {
 
-/// What the kernels see of a triangle, in extended precision, and how far their edge functions may be from it.
+/// A triangle in extended precision, and the error that edge functions of the kernels may have.
 template <class T> class reference {
   public:
     reference(const moving_triangle<T>& m, T s_x, T s_y)

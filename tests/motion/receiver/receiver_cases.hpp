@@ -1,5 +1,5 @@
-// What tests of receivers share: lists of ranges that do not overlap, shutters by their definition, and what one range
-// takes from a receiver in extended precision, with the error that the comments in motion/ allow.
+// Shared by tests of receivers: lists of disjoint ranges, shutters by their definition, and the light that a receiver
+// loses to one range in extended precision, with the error that the comments in motion/ state.
 #pragma once
 
 #include "support/hostile.hpp"
@@ -33,7 +33,7 @@ template <class T> std::vector<depth_time_range<T>> resolved_list(bit_source& bi
 enum class response { box, tent, piecewise };
 inline constexpr std::array responses{response::box, response::tent, response::piecewise};
 
-/// A shutter as kernels have it and as it is defined.
+/// A shutter by the kernels and by its definition.
 template <class T> struct test_shutter {
     response kind;
     T begin, end;
@@ -91,8 +91,8 @@ template <class T> wide exact_depth(const depth_time_range<T>& r, wide t)
     return wide(r.z0) + (t - wide(r.t0)) / (wide(r.t1) - wide(r.t0)) * (wide(r.z1) - wide(r.z0));
 }
 
-/// What a receiver with this course of depth, which lasts from begin to end or longer, loses meanwhile to one range,
-/// and how far off a kernel may be.
+/// Share of the light that a receiver with this depth line loses to one range from begin to end, and the error that a
+/// kernel may have. The line lasts from begin to end or longer.
 struct loss {
     wide share, error;
 };

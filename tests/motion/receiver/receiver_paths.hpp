@@ -6,7 +6,8 @@
 
 namespace gnomon::test {
 
-/// Over up to size x size texels, w from 1/2 to 2; at rest, along an axis, over texels' corners now and then.
+/// A path over up to size x size texels, w from 1/2 to 2; sometimes of no length, along an axis, or over texels'
+/// corners.
 template <class T> receiver_path<T> any_path(bit_source& bits, double size)
 {
     const bool perspective = bits.chance(0.5), lattice = bits.chance(0.2);

@@ -17,7 +17,7 @@ template <class T> std::array<T, 8> values(const shutter_weights<T>& w)
 
 } // namespace
 
-TEST_CASE_TEMPLATE("shutters: from 0 to 1, never back, their density as said", T, float, double)
+TEST_CASE_TEMPLATE("shutters: shares go from 0 to 1, monotonically, with the stated density", T, float, double)
 {
     for (const auto shutter : {shutter_box<T>, shutter_tent<T>}) {
         CHECK(shutter(T(0.25), T(0.25), T(0.75)) == 0);
@@ -36,7 +36,7 @@ TEST_CASE_TEMPLATE("shutters: from 0 to 1, never back, their density as said", T
     }
 }
 
-TEST_CASE_TEMPLATE("exposures: between both times, and a moment's is what is there then", T, float, double)
+TEST_CASE_TEMPLATE("exposures: between both times; one of no length shows a single time", T, float, double)
 {
     constexpr T least = T(0x1p-20);
     const auto times = [](T a, T b) {
@@ -70,18 +70,18 @@ TEST_CASE_TEMPLATE("exposures: between both times, and a moment's is what is the
         shadowed += there > 0;
         for (const response kind : responses) {
             const auto shutter = any_shutter(kind, t, t, bits);
-            static_receiver<T> at_rest = static_receiver_begin(z, id, t, t);
+            static_receiver<T> receiver = static_receiver_begin(z, id, t, t);
             const receiver_path<T> path{{T(0), T(1), z, z, id}, T(0.5), T(0.5), T(1), T(0.5), T(0.5), T(1)};
             moving_receiver<T> moving = moving_receiver_begin(path, t, t);
-            for (const auto& r : list) at_rest = shutter.add(at_rest, r), moving = shutter.add(moving, r);
-            REQUIRE(static_receiver_end(at_rest) == there);
+            for (const auto& r : list) receiver = shutter.add(receiver, r), moving = shutter.add(moving, r);
+            REQUIRE(static_receiver_end(receiver) == there);
             REQUIRE(moving_receiver_end(moving) == there);
         }
     }
     CHECK(shadowed > effort(20'000) / 20);
 }
 
-TEST_CASE_TEMPLATE("exposures: swapped ends are the same exposure, anything gives an intensity", T, float, double)
+TEST_CASE_TEMPLATE("exposures: swapped ends are the same exposure, and any input gives an intensity", T, float, double)
 {
     hostile_source<T> hostile(25);
     bit_source bits(26);
@@ -100,7 +100,7 @@ TEST_CASE_TEMPLATE("exposures: swapped ends are the same exposure, anything give
     }
 }
 
-TEST_CASE_TEMPLATE("given weights: whatever they are they sum to 1, and without any it is a box", T, float, double)
+TEST_CASE_TEMPLATE("piecewise shutters: any weights sum to 1, and without weights it is a box", T, float, double)
 {
     hostile_source<T> hostile(21);
     bit_source bits(22);
@@ -124,7 +124,8 @@ TEST_CASE_TEMPLATE("given weights: whatever they are they sum to 1, and without 
     }
 }
 
-TEST_CASE_TEMPLATE("given weights: the integral of their density, and a box where they are equal", T, float, double)
+TEST_CASE_TEMPLATE("piecewise shutters: the integral of their density, and a box if weights are equal", T, float,
+                   double)
 {
     constexpr int times = 1 << 14; // parts of the exposure, none of which two eighths share
     bit_source bits(23);

@@ -36,7 +36,7 @@ TEST_CASE_TEMPLATE("static receiver: within the stated error", T, float, double)
     }
 }
 
-TEST_CASE_TEMPLATE("static receiver: the closed form is what a hundred thousand times say", T, float, double)
+TEST_CASE_TEMPLATE("static receiver: the closed form is the mean over a hundred thousand times", T, float, double)
 {
     constexpr int times = 100'000;
     bit_source bits(11);
@@ -64,8 +64,7 @@ TEST_CASE_TEMPLATE("static receiver: the closed form is what a hundred thousand 
     }
 }
 
-TEST_CASE_TEMPLATE("static receiver: the order of the list and cuts in it change nothing but roundings", T, float,
-                   double)
+TEST_CASE_TEMPLATE("static receiver: the order of ranges and cuts in them change only roundings", T, float, double)
 {
     bit_source bits(12);
     for (int i = 0; i < 2000; ++i) {
@@ -113,7 +112,7 @@ TEST_CASE_TEMPLATE("static receiver: nothing, everything, its own surface, half,
     }
 }
 
-TEST_CASE_TEMPLATE("range_summary: what a list hides from a receiver behind it, within the stated error", T, float,
+TEST_CASE_TEMPLATE("range_summary: the light that a receiver behind a list loses, within the stated error", T, float,
                    double)
 {
     constexpr T nan = std::numeric_limits<T>::quiet_NaN();
@@ -165,7 +164,7 @@ TEST_CASE_TEMPLATE("range_summary: what a list hides from a receiver behind it, 
     }
 }
 
-TEST_CASE_TEMPLATE("static receiver: filtered, it is the weighted mean of its texels", T, float, double)
+TEST_CASE_TEMPLATE("static receiver: with filtering, the weighted mean of its texels", T, float, double)
 {
     bit_source bits(15);
     for (std::int64_t i = 0; i < effort(20'000); ++i) {

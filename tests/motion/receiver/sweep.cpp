@@ -1,5 +1,5 @@
-// The way of a receiver over the map: its texels and their times against the path in extended precision, sub-intervals
-// that follow one another bit for bit whatever the path is, samples in time and how many.
+// The path of a receiver over the map: its texels and their times against the path in extended precision, times that
+// are contiguous bit for bit for any path, and the number and times of samples.
 #include "receiver_paths.hpp"
 #include "support/effort.hpp"
 
@@ -31,7 +31,7 @@ template <class T> receiver_path<T> hostile_path(hostile_source<T>& source, bit_
 } // namespace
 
 // Whole walks, with what a caller's loop does.
-TEST_CASE_TEMPLATE("sweep: tiles the time bit for bit and ends in time, whatever the path", T, float, double)
+TEST_CASE_TEMPLATE("sweep: for any path its times are contiguous bit for bit, and it ends", T, float, double)
 {
     hostile_source<T> hostile(31);
     bit_source bits(32);
@@ -66,7 +66,7 @@ TEST_CASE_TEMPLATE("sweep: tiles the time bit for bit and ends in time, whatever
     CHECK(swept > 3 * effort(100'000));
 }
 
-TEST_CASE_TEMPLATE("sweep: without a path it is one texel for all the time", T, float, double)
+TEST_CASE_TEMPLATE("sweep: without a valid path it has one texel for the whole time", T, float, double)
 {
     const T nan = std::numeric_limits<T>::quiet_NaN(), inf = std::numeric_limits<T>::infinity();
     const receiver_path<T> p{{T(0.25), T(0.75), 0, 0, 1}, T(1.5), T(2.5), 1, T(8.5), T(9.5), 1};
@@ -123,7 +123,7 @@ texel_area any_area(bit_source& bits)
 
 } // namespace
 
-TEST_CASE_TEMPLATE("sweep over an area: the bits of the whole sweep there, and no more steps than it takes", T, float,
+TEST_CASE_TEMPLATE("sweep over an area: the bits of the whole sweep there, in as few steps as possible", T, float,
                    double)
 {
     bit_source bits(36);
@@ -150,7 +150,7 @@ TEST_CASE_TEMPLATE("sweep over an area: the bits of the whole sweep there, and n
     CHECK(other_bits < cases / 50);
 }
 
-TEST_CASE_TEMPLATE("sweep over an area: ends in time, whatever the path", T, float, double)
+TEST_CASE_TEMPLATE("sweep over an area: it ends for any path", T, float, double)
 {
     hostile_source<T> hostile(37);
     bit_source bits(38);
@@ -168,7 +168,7 @@ TEST_CASE_TEMPLATE("sweep over an area: ends in time, whatever the path", T, flo
 }
 
 // The light's plane is where w is 0: behind it the path is not seen.
-TEST_CASE_TEMPLATE("sweep over an area: where the path is, also past the light's plane", T, float, double)
+TEST_CASE_TEMPLATE("sweep over an area: texels are those of the path, also past the light's plane", T, float, double)
 {
     bit_source bits(39);
     std::int64_t inside = 0, behind = 0;
@@ -203,7 +203,7 @@ TEST_CASE_TEMPLATE("sweep over an area: where the path is, also past the light's
 
 // A point of time well inside of a step is in the step's texel: well means more than the error of border times, and
 // positions off the borders by the rounding of the first and the last one.
-TEST_CASE_TEMPLATE("sweep: where the path is", T, float, double)
+TEST_CASE_TEMPLATE("sweep: texels are those of the path", T, float, double)
 {
     bit_source bits(33);
     std::int64_t asked = 0, decided = 0;
@@ -253,7 +253,7 @@ TEST_CASE_TEMPLATE("path: positions, shifts and parts", T, float, double)
     }
 }
 
-TEST_CASE_TEMPLATE("samples: max(2 length, 5) rounded up and capped, one time in every n-th", T, float, double)
+TEST_CASE_TEMPLATE("samples: max(2 length, 5) rounded up and capped, one time in each n-th", T, float, double)
 {
     const T nan = std::numeric_limits<T>::quiet_NaN(), inf = std::numeric_limits<T>::infinity();
     const auto count = [](T dx, T dy, T most, T w = 1) {

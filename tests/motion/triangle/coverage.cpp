@@ -58,7 +58,7 @@ TEST_CASE_TEMPLATE("covered times of arbitrary edge functions, four intervals am
     for (const std::int64_t found : intervals) CHECK(found > 0);
 }
 
-TEST_CASE_TEMPLATE("what one side of an edge leaves, the other has, bit for bit", T, float, double)
+TEST_CASE_TEMPLATE("the two sides of an edge share all times, bit for bit", T, float, double)
 {
     bit_source bits(5);
     const auto pieces = [](const moving_edge<T>& e, T facing) {
@@ -88,8 +88,8 @@ TEST_CASE_TEMPLATE("what one side of an edge leaves, the other has, bit for bit"
     }
 }
 
-TEST_CASE_TEMPLATE("linear_edge_inside: until or from the root on, within 4 2^-p; the other side has the rest", T,
-                   float, double)
+TEST_CASE_TEMPLATE("linear_edge_inside: up to or from the root, within 4 2^-p; the other side has the rest", T, float,
+                   double)
 {
     bit_source bits(7);
     std::int64_t crossed = 0;
@@ -119,8 +119,7 @@ TEST_CASE_TEMPLATE("linear_edge_inside: until or from the root on, within 4 2^-p
     CHECK(crossed > effort(300'000) / 3);
 }
 
-TEST_CASE_TEMPLATE("linear_coverage: what moving_coverage gives for such edges, but for the roots' errors", T, float,
-                   double)
+TEST_CASE_TEMPLATE("linear_coverage is moving_coverage of linear edges, except for the roots' errors", T, float, double)
 {
     bit_source bits(8);
     std::int64_t covered = 0;

@@ -28,7 +28,7 @@ template <class T> std::array<interval, 4> intervals_of(const coverage_intervals
             interval(x.begin3, x.end3)};
 }
 
-/// What the struct promises whatever went in.
+/// The invariants of the struct, for any input.
 template <class T> void require_in_order(const coverage_intervals<T>& x)
 {
     const auto all = intervals_of(x);

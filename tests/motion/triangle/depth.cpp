@@ -100,7 +100,7 @@ TEST_CASE_TEMPLATE("linear depth is that of the point that the sample sees", T, 
 
 // The mean of z and the centroid's depth agree with the truth within 16 2^-p. The line deviates by its stated error,
 // with depths and deviations up to 1.
-TEST_CASE_TEMPLATE("a plane across the axis goes along it linearly, also in perspective", T, float, double)
+TEST_CASE_TEMPLATE("the depth of a plane across the axis is linear in time, also in perspective", T, float, double)
 {
     bit_source bits(13);
     double bent = 0;
@@ -158,7 +158,7 @@ TEST_CASE_TEMPLATE("a translation in an orthographic view is one piece", T, floa
     CHECK(1000 * several <= intervals);
 }
 
-TEST_CASE_TEMPLATE("anything in: depths in [-1, 1], at most 32 pieces", T, float, double)
+TEST_CASE_TEMPLATE("any input gives depths in [-1, 1] and at most 32 pieces", T, float, double)
 {
     hostile_source<T> hostile(16);
     bit_source bits(17);

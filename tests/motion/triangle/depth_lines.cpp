@@ -1,5 +1,5 @@
-// Lines that stand for depth: that no depth is further from one than it says, and intervals cut into pieces whose lines
-// hold to a tolerance. Depths are of the numbers that the kernels get, in extended precision.
+// Lines that approximate depth: no depth deviates from one by more than its bound, and intervals are cut into pieces
+// whose lines hold to a tolerance. Depths are of the numbers that the kernels get, in extended precision.
 #include "motion/receiver/moving_reference.hpp"
 #include "support/climber.hpp"
 
@@ -210,7 +210,7 @@ template <class T, class Depth> void check_pieces(Depth depth, T begin, T end, T
 
 } // namespace
 
-TEST_CASE_TEMPLATE("depth_curve_line: no depth is further from the line than it says", T, float, double)
+TEST_CASE_TEMPLATE("depth_curve_line: no depth deviates from the line by more than its bound", T, float, double)
 {
     for (const bool linear : {false, true}) {
         const auto score = [&](auto figure) {
@@ -229,7 +229,7 @@ TEST_CASE_TEMPLATE("depth_curve_line: no depth is further from the line than it 
     }
 }
 
-TEST_CASE_TEMPLATE("moving_depth_line: no depth is further from the line than it says", T, float, double)
+TEST_CASE_TEMPLATE("moving_depth_line: no depth deviates from the line by more than its bound", T, float, double)
 {
     for (const bool divided : {false, true}) {
         const summit worst = climb(28, 300'000, 2, [&](const std::vector<double>& p) {
@@ -247,7 +247,7 @@ TEST_CASE_TEMPLATE("moving_depth_line: no depth is further from the line than it
 }
 
 // An S: at its five quarters and in the middle it meets its line, and is far from it elsewhere.
-TEST_CASE("a curve that meets its line in the middle is not straight")
+TEST_CASE("a curve that crosses its line in the middle is not taken for a line")
 {
     const depth_curve<double> s{0, 0.75, -0.75, 0, 1, 2, 1, 0, 0, -1, 1};
     CHECK(depth_curve_at(s, 0.5) == 0);
@@ -257,7 +257,7 @@ TEST_CASE("a curve that meets its line in the middle is not straight")
     CHECK(depth_curve_at(s, 0.25) > 0.07);
 }
 
-TEST_CASE_TEMPLATE("pieces tile an interval bit for bit and hold to the tolerance", T, float, double)
+TEST_CASE_TEMPLATE("pieces fill an interval bit for bit and keep the tolerance", T, float, double)
 {
     constexpr T tolerance = T(0.005);
     bit_source bits(14);

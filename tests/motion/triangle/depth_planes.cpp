@@ -49,7 +49,8 @@ template <class T> exact wrong_by(const moving_cubic<T>& h, exact t)
 
 } // namespace
 
-TEST_CASE_TEMPLATE("moving_cubic_inside: where the cubic is not negative, but for its error", T, float, double)
+TEST_CASE_TEMPLATE("moving_cubic_inside: the times at which the cubic is not negative, within its error", T, float,
+                   double)
 {
     bit_source bits(61);
     int kinds[2] = {0, 0};
@@ -92,7 +93,7 @@ TEST_CASE("moving_cubic_inside: a climber finds no larger error")
     CHECK(top.score > (draws_few() ? 0 : 0.01));
 }
 
-TEST_CASE("depth_times: NaN and what is out of range is never there")
+TEST_CASE("depth intervals: none for NaN and beyond the range of coefficients")
 {
     const float nan = std::nanf("");
     for (const moving_cubic<float>& h :

@@ -37,8 +37,8 @@ TEST_CASE_TEMPLATE("covered times are those of the static triangle at every time
     }
 }
 
-// What the comment states; where depth is outside of [-1, 1], both are at its end.
-TEST_CASE_TEMPLATE("depth of the covering triangle, and between its vertices' depths", T, float, double)
+// The stated error; where depth is outside of [-1, 1], both are limited to it.
+TEST_CASE_TEMPLATE("depth is that of the covering triangle, and between the depths of its vertices", T, float, double)
 {
     bit_source bits(7);
     std::int64_t asked = 0, sharp = 0;
@@ -73,8 +73,8 @@ TEST_CASE_TEMPLATE("depth of the covering triangle, and between its vertices' de
     CHECK(double(sharp) > 0.8 * double(asked));
 }
 
-// The tolerance for what is at rest: of depths in [-1, 1] and edge functions that sum up to no less than a hundredth.
-TEST_CASE_TEMPLATE("lines of depth end on it, and are straight for what is at rest", T, float, double)
+// The tolerance is for static triangles with depths in [-1, 1] and edge functions with a sum of at least a hundredth.
+TEST_CASE_TEMPLATE("lines of depth end on it, and are exact for static triangles", T, float, double)
 {
     std::int64_t still = 0;
     for_each_scene<T>(30'000, 9, [&](const moving_triangle<T>& m, T s_x, T s_y, movement how) {
@@ -112,7 +112,7 @@ std::array<double, 9> numbers(const coverage_intervals<double>& x)
 
 } // namespace
 
-TEST_CASE("still, edge-on, touching and carried triangles")
+TEST_CASE("static, edge-on, touching and translated triangles")
 {
     const moving_triangle<double> still{vertex(0, 0, 0, 0, -0.5, 0.5), vertex(1, 0, 1, 0, -0.5, 0.5),
                                         vertex(0, 1, 0, 1, -0.5, 0.5)};
@@ -153,7 +153,7 @@ TEST_CASE("still, edge-on, touching and carried triangles")
     CHECK(moving_depth_at(behind, moving_triangle_edges(behind, -0.25, -0.25), 0.5, 1) == 1);
 }
 
-TEST_CASE_TEMPLATE("anything in gives intervals in order and depths in [-1, 1]", T, float, double)
+TEST_CASE_TEMPLATE("any input gives intervals in order and depths in [-1, 1]", T, float, double)
 {
     hostile_source<T> hostile(10);
     bit_source bits(11);

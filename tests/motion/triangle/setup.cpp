@@ -123,7 +123,7 @@ TEST_CASE_TEMPLATE("triangle_setup_edges: the triangle's edge functions, within 
     });
 }
 
-TEST_CASE_TEMPLATE("edge fields of neighbours are opposite, bit for bit, at every sample", T, float, double)
+TEST_CASE_TEMPLATE("edge equations of neighbours are opposite, bit for bit, at every sample", T, float, double)
 {
     for_each_scene<T>(50'000, [](const moving_triangle<T>& m, T o_x, T o_y, bit_source& bits) {
         const triangle_setup<T> one = triangle_setup_make(m, o_x, o_y);
@@ -137,8 +137,8 @@ TEST_CASE_TEMPLATE("edge fields of neighbours are opposite, bit for bit, at ever
     });
 }
 
-// What is linear departs from what is not by no more than the bend, a distance: a value over the slope at the time.
-TEST_CASE_TEMPLATE("moving_edge_nonlinearity: no edge is further from its linear one", T, float, double)
+// A linear edge deviates from the edge by at most the nonlinearity, a distance: a value over the slope at the time.
+TEST_CASE_TEMPLATE("moving_edge_nonlinearity: no edge is farther from its linear edge", T, float, double)
 {
     std::int64_t asked = 0, tight = 0;
     for_each_scene<T>(100'000, [&](const moving_triangle<T>& m, T, T, bit_source& bits) {
@@ -178,8 +178,7 @@ TEST_CASE_TEMPLATE("moving_edge_nonlinearity: no edge is further from its linear
     CHECK(tight > asked / 100);
 }
 
-TEST_CASE_TEMPLATE("moving_edge_nonlinearity: nothing but its stated error for vertices that move alike", T, float,
-                   double)
+TEST_CASE_TEMPLATE("moving_edge_nonlinearity: only its stated error for vertices with equal motions", T, float, double)
 {
     bit_source bits(53);
     for (std::int64_t i = 0; i < effort(100'000); ++i) {
@@ -238,7 +237,7 @@ TEST_CASE_TEMPLATE("a translated triangle is linear in time: edges and depth, wi
     CHECK(covered > effort(200'000) / 50);
 }
 
-TEST_CASE_TEMPLATE("triangle_setup_around: no sample of the block is covered at a time that the block is not", T, float,
+TEST_CASE_TEMPLATE("triangle_setup_around: a block is covered at all times at which one of its samples is", T, float,
                    double)
 {
     std::int64_t covered = 0, culled = 0;

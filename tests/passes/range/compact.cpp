@@ -236,6 +236,7 @@ TEST_CASE("compact_ranges refuses lists whose begins 16 bits cannot tell apart, 
     CHECK(compact.spans.lists[63] == 2 * 32'751 + 32);
     CHECK(compact.spans[63].empty());
     const std::size_t room = compact_capacity(overflows.map());
-    expect_refusal(overflows.map(), {room, room, 16, 1024}, "spans of 63 lists is 65536, but the largest number is 65535");
+    expect_refusal(overflows.map(), {room, room, 16, 1024},
+                   "spans of 63 lists is 65536, but the largest number is 65535");
 }
 #endif

@@ -36,7 +36,7 @@ template <class T> list<T> resolved_in_steps(const list<T>& ranges, range_ids id
     return resolved(rest, ids);
 }
 
-/// The share of the time of its course in which a receiver has any range of another id in front of it by more than
+/// Share of the time of its path in which a receiver has a range of another id in front of it by more than
 /// -slack.
 template <class T> wide hidden_share(const list<T>& ranges, const depth_time_range<T>& course, wide slack)
 {
@@ -56,7 +56,7 @@ template <class T> wide hidden_share(const list<T>& ranges, const depth_time_ran
     return sum / (wide(course.t1) - wide(course.t0));
 }
 
-/// A map of one texel, and what it says.
+/// A map of one texel, and its look-ups.
 template <class T> struct one_texel {
     list<T> ranges;
     std::vector<std::uint32_t> first;
@@ -158,8 +158,8 @@ TEST_CASE_TEMPLATE("ids of any kind: every receiver gets the answer of all range
     CHECK(behind_own > 0); // the second layer is needed
 }
 
-TEST_CASE_TEMPLATE("ids of surfaces: every receiver that is not behind its own gets the answer of all ranges", T, float,
-                   double)
+TEST_CASE_TEMPLATE("ids of surfaces: every receiver that is not behind its own surface gets the answer of all ranges",
+                   T, float, double)
 {
     bit_source bits(72);
     for (std::int64_t i = 0; i < effort(4000); ++i) {
@@ -175,7 +175,7 @@ TEST_CASE_TEMPLATE("ids of surfaces: every receiver that is not behind its own g
     }
 }
 
-TEST_CASE_TEMPLATE("ids of any kind: where a climber finds most", T, float, double)
+TEST_CASE_TEMPLATE("ids of any kind: a climber finds no larger error", T, float, double)
 {
     constexpr std::size_t count = 6;
     const auto search = [](range_ids ids, std::int64_t evaluations) {
@@ -196,7 +196,7 @@ TEST_CASE_TEMPLATE("ids of any kind: where a climber finds most", T, float, doub
     CHECK(search(range_ids::surfaces, 2000).score > 1);
 }
 
-TEST_CASE("resolve_ranges: the second layer follows the span that it is behind")
+TEST_CASE("resolve_ranges: the second layer follows the span in front of it")
 {
     // A table of id 1 in two parts over a ground of id 1, with a leaf between them.
     const list<float> ranges{
@@ -222,7 +222,7 @@ TEST_CASE("resolve_ranges: the second layer follows the span that it is behind")
     CHECK(summarize<float>(spans, range_ids::surfaces).id == 1); // who promises too much keeps the second layer
 }
 
-TEST_CASE_TEMPLATE("summarize: hidden always where spans fill all of the time, and there alone", T, float, double)
+TEST_CASE_TEMPLATE("summarize: occluded at all times if and only if spans fill the whole time", T, float, double)
 {
     bit_source bits(74);
     std::int64_t always = 0;
@@ -247,7 +247,7 @@ TEST_CASE_TEMPLATE("summarize: hidden always where spans fill all of the time, a
 }
 
 #if defined(__cpp_exceptions)
-TEST_CASE("set_summaries says what does not fit")
+TEST_CASE("set_summaries refuses sizes that do not fit")
 {
     const one_texel<float> texel({{0, 1, 0, 0, 1}}, range_ids::any);
     std::vector<range_summary<float>> totals(texel.totals.size());

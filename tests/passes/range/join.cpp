@@ -20,7 +20,7 @@ template <class T> using list = std::vector<depth_time_range<T>>;
 
 constexpr auto one_surface = [](const auto&, const auto&) { return true; };
 
-/// Short ranges that follow one another along a course of depth, with steps and gaps now and then.
+/// Short ranges that follow one another along a line of depth, with steps and gaps now and then.
 template <class T> list<T> any_course(bit_source& bits, double roughness)
 {
     list<T> result;
@@ -56,7 +56,7 @@ template <class T> double breach(const list<T>& whole, const list<T>& joined, T 
 
 } // namespace
 
-TEST_CASE_TEMPLATE("join_ranges: behind every part, by the tolerance at most, at the same times", T, float, double)
+TEST_CASE_TEMPLATE("join_ranges: at the same times, behind every part, by at most the tolerance", T, float, double)
 {
     bit_source bits(101);
     std::size_t before = 0, after = 0;
@@ -73,7 +73,7 @@ TEST_CASE_TEMPLATE("join_ranges: behind every part, by the tolerance at most, at
     CHECK(after < before / 2);
 }
 
-TEST_CASE("join_ranges: not over gaps, not of other surfaces, not without a tolerance; ids")
+TEST_CASE("join_ranges: not across gaps, not of different surfaces, not without a tolerance; ids")
 {
     const list<float> level{{0, 0.25f, 0, 0, 1}, {0.25f, 0.5f, 0, 0, 1}, {0.5f, 0.75f, 0, 0, 2}, {0.8f, 1, 0, 0, 2}};
     const auto joined = [&](float tolerance, const auto& same) {
@@ -94,7 +94,7 @@ TEST_CASE("join_ranges: not over gaps, not of other surfaces, not without a tole
     CHECK(joined(std::nanf(""), one_surface).size() == 4);
 }
 
-TEST_CASE("join_ranges: a climber finds no breach")
+TEST_CASE("join_ranges: a climber finds no larger distance")
 {
     constexpr std::size_t ranges = 6;
     const auto score = [](const std::vector<double>& place) {

@@ -29,8 +29,9 @@ TEST_CASE_TEMPLATE("moving_intensity is the mean over many times", T, float, dou
             sum += double(
                 intensity_at(random.map(), path, receiver_sample_time(path, T(i), T(times), T(0.5)), T(0), look_ups));
         const double found = double(moving_intensity(random.map(), path, path.depth.t0, path.depth.t1, look_ups));
-        // Some hundred times at which a range begins, ends or crosses the receiver are in reach, each with a weight of at
-        // most 1 / K^2. Between them weights are polynomials: a sample in the middle is right to the square of its share.
+        // Some hundred times at which a range begins, ends or crosses the receiver are in reach, each with a weight of
+        // at most 1 / K^2. Between them weights are polynomials: a sample in the middle is right to the square of its
+        // share.
         CHECK(std::abs(found - sum / times) <= 300.0 / times / (look_ups * look_ups) + 1e-4);
         errors += std::abs(found - sum / times);
     }

@@ -1,5 +1,5 @@
-// Look-ups of static receivers in maps of ranges: one by one and many at a time, wide filters against the mean of narrow
-// ones, and places outside of the map.
+// Look-ups of static receivers in maps of ranges: one by one and many at a time, wide filters against the mean of
+// narrow ones, and places outside of the map.
 #include "random_maps.hpp"
 
 #include <doctest/doctest.h>

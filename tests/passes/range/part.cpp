@@ -27,7 +27,7 @@ float front(const list& ranges, float t)
 
 } // namespace
 
-TEST_CASE("part_neighbours: every time keeps a range, and depths change where neighbours overlap only")
+TEST_CASE("part_neighbours: every time keeps a range, and depths change only where neighbours overlap")
 {
     bit_source bits(111);
     int parted = 0;
@@ -67,7 +67,7 @@ TEST_CASE("part_neighbours: every time keeps a range, and depths change where ne
     CHECK(parted > test::effort(5'000));
 }
 
-TEST_CASE("part_neighbours: not where the overlap is no moment, or one is elsewhere")
+TEST_CASE("part_neighbours: not if the overlap is long, or the neighbour is at another depth")
 {
     const auto end_of_first = [](const depth_time_range<float>& next) {
         list two{{0, 0.5f, 0, 0, 1}, next};

@@ -60,7 +60,7 @@ template <class T> double front_depth(const list<T>& ranges, double t)
 
 } // namespace
 
-TEST_CASE_TEMPLATE("resolve_ranges: in order and apart, and at any time the depth that is in front", T, float, double)
+TEST_CASE_TEMPLATE("resolve_ranges: disjoint, in order, and at any time with the depth in front", T, float, double)
 {
     constexpr double u = double(std::numeric_limits<T>::epsilon()) / 2;
     bit_source bits(41);
@@ -89,7 +89,7 @@ TEST_CASE_TEMPLATE("resolve_ranges: in order and apart, and at any time the dept
     }
 }
 
-TEST_CASE_TEMPLATE("resolve_ranges: of n ranges as near as a tie the front is n - 1 ties behind, and climbed to", T,
+TEST_CASE_TEMPLATE("resolve_ranges: for n ranges within a tie a climber finds the front at most n - 1 ties behind", T,
                    float, double)
 {
     for (const std::size_t n : {2u, 3u, 6u}) {
@@ -120,7 +120,7 @@ TEST_CASE_TEMPLATE("resolve_ranges: no order of insertion changes a bit", T, flo
     }
 }
 
-TEST_CASE("resolve_ranges: what a range of no duration, a NaN or an infinite depth does: nothing")
+TEST_CASE("resolve_ranges ignores ranges of no duration, with NaN or with infinite depths")
 {
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
     const list<float> ranges{{0, 1, 0, 0, 1},        {0.5f, 0.5f, -1, -1, 2}, {0.75f, 0.25f, -1, -1, 3},
@@ -141,7 +141,7 @@ TEST_CASE("resolve_ranges: at one depth the lower id is in front")
     CHECK(spans[1].id == 1);
 }
 
-TEST_CASE("without_backdrop: what is behind all else at all times, and nothing else")
+TEST_CASE("without_backdrop removes the range behind all others at all times, and no other")
 {
     bit_source bits(44);
     std::int64_t gone = 0, kept = 0;
@@ -177,7 +177,7 @@ TEST_CASE("without_backdrop: what is behind all else at all times, and nothing e
 }
 
 #if defined(__cpp_exceptions)
-TEST_CASE("resolve and range map say what does not fit")
+TEST_CASE("resolve_ranges and sort_into_lists refuse sizes that do not fit")
 {
     const list<float> ranges(3, depth_time_range<float>{0, 1, 0, 0, 1});
     std::vector<visible_span<float>> room(resolve_capacity(3, range_ids::any) - 1);
@@ -193,7 +193,7 @@ TEST_CASE("resolve and range map say what does not fit")
 }
 #endif
 
-TEST_CASE("sort_into_lists: every range in its texel's list, in the order in which they came")
+TEST_CASE("sort_into_lists: every range in its texel's list, in the given order")
 {
     bit_source bits(43);
     constexpr std::size_t width = 5, height = 3;
