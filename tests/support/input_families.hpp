@@ -1,0 +1,217 @@
+// The families that inputs of kernels are drawn from: the words of kernels.txt. Numbers of a row that belong together come
+// from one situation (situations.hpp): a depth distribution, a receiver at a critical depth, and a texel of the distribution.
+#pragma once
+
+#include "prisms.hpp"
+#include "situations.hpp"
+
+#include <gnomon/storage/convolution.h>
+#include <gnomon/storage/exponential.h>
+#include <gnomon/storage/layered_variance.h>
+#include <gnomon/storage/variance.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <string_view>
+#include <type_traits>
+
+namespace gnomon::test {
+
+/// A writer of structs and scalars, number after number.
+template <class T> class row_writer {
+  public:
+    explicit row_writer(T* at) : at_(at) {}
+    void operator()(double x) { *at_++ = T(x); }
+    template <class Struct>
+    requires std::is_class_v<Struct>
+    void operator()(const Struct& s)
+    {
+        std::memcpy(at_, &s, sizeof s);
+        at_ += sizeof s / sizeof(T);
+    }
+
+  private:
+    T* at_;
+};
+
+/// A family of inputs: its name, how many numbers it gives, and how they are drawn.
+template <class T> struct input_family {
+    std::string_view name;
+    std::size_t numbers;
+    void (*draw)(row_writer<T> put, const situation& s, bit_source& bits);
+};
+
+template <class T>
+inline constexpr input_family<T> input_families[] = {
+    // Single numbers.
+    {"number", 1, [](auto put, const situation&, bit_source& bits) { put(any_number<T>(bits)); }},
+    {"sign", 1, [](auto put, const situation&, bit_source& bits) { put(bits.chance(0.5) ? 1 : -1); }},
+    {"unit", 1, [](auto put, const situation&, bit_source& bits) { put(bits.chance(0.1) ? 1 : bits.uniform(0, 1)); }},
+    {"noise", 1, [](auto put, const situation&, bit_source& bits) { put(std::exp2(bits.uniform(-26, -8))); }},
+    {"angle", 1, [](auto put, const situation&, bit_source& bits) { put(bits.uniform(-100, 100)); }},
+    {"exponent", 1, [](auto put, const situation&, bit_source& bits) { put(bits.uniform(0.5, 44)); }},
+    {"warped", 1, [](auto put, const situation& s, bit_source& bits) { put(std::exp(s.texel * bits.uniform(1, 40))); }},
+    {"term", 1, [](auto put, const situation&, bit_source& bits) { put(double(1 + bits.below(16))); }},
+    // Depths and moments.
+    {"depth", 1, [](auto put, const situation& s, bit_source&) { put(s.receiver); }},
+    {"texel", 1, [](auto put, const situation& s, bit_source&) { put(s.texel); }},
+    {"moments2", 2, [](auto put, const situation& s, bit_source&) { put(s.b[0]), put(s.b[1]); }},
+    {"moments3", 3, [](auto put, const situation& s, bit_source&) { put(s.b[0]), put(s.b[1]), put(s.b[2]); }},
+    {"moments4", 4, [](auto put, const situation& s, bit_source&) { put(moments4_in<T>(s)); }},
+    {"moments6", 6, [](auto put, const situation& s, bit_source&) { put(moments6_in<T>(s)); }},
+    {"channels4", 4, [](auto put, const situation& s, bit_source&) { put(theta4(moments4_in<T>(s))); }},
+    {"channels6", 6, [](auto put, const situation& s, bit_source&) { put(theta6(moments6_in<T>(s))); }},
+    {"channels1", 1,
+     [](auto put, const situation& s, bit_source& bits) {
+         put(mixture<T>(s, bits, [](T z) { return exponential_float_encode(z); }));
+     }},
+    {"channels2", 2,
+     [](auto put, const situation& s, bit_source& bits) {
+         put(mixture<T>(s, bits, [](T z) { return variance_unorm16_encode(z); }));
+     }},
+    {"channels8", 8,
+     [](auto put, const situation& s, bit_source& bits) {
+         put(mixture<T>(s, bits, [](T z) { return layered_variance_unorm16_encode(z); }));
+     }},
+    {"channels32", 32,
+     [](auto put, const situation& s, bit_source& bits) {
+         put(mixture<T>(s, bits, [](T z) { return convolution_unorm8_encode(z); }));
+     }},
+    {"interval", 2,
+     [](auto put, const situation& s, bit_source& bits) {
+         const double reach = std::exp2(bits.uniform(-20, 0));
+         put(std::max(std::min(s.texel, s.receiver) - reach, -1.0));
+         put(std::min(std::max(s.texel, s.receiver) + reach, 1.0));
+     }},
+    {"hankel4", 4, [](auto put, const situation& s, bit_source& bits) { put(any_hankel4<T>(s, bits)); }},
+    {"hankel6", 8, [](auto put, const situation& s, bit_source& bits) { put(any_hankel6<T>(s, bits)); }},
+    {"bounds", 3,
+     [](auto put, const situation&, bit_source& bits) {
+         const double lower = bits.uniform(0, 1), weight = bits.uniform(0, 1 - lower);
+         put(lower), put(lower + weight), put(weight);
+     }},
+    // The moments of both warps, of a mixture of two depths.
+    {"warped4", 4,
+     [](auto put, const situation& s, bit_source& bits) {
+         const double c = bits.uniform(1, 40), d = 5.54, w = bits.uniform(0, 1);
+         const auto mean = [&](double e) { return w * std::exp(e * s.texel) + (1 - w) * std::exp(e * s.b[0]); };
+         put(mean(c)), put(mean(2 * c)), put(-mean(-d)), put(mean(-2 * d));
+     }},
+    // Arithmetic.
+    {"monic_cubic", 3,
+     [](auto put, const situation&, bit_source& bits) {
+         for (const double c : monic_cubic(bits)) put(c);
+     }},
+    {"layer", 3,
+     [](auto put, const situation&, bit_source& bits) {
+         put(bits.uniform(-1, 1)), put(bits.uniform(1, 8)), put(std::exp2(bits.uniform(-26, -8)));
+     }},
+    // Motion: times and ranges.
+    {"time", 1,
+     [](auto put, const situation&, bit_source& bits) {
+         put(bits.chance(0.2) ? double(bits.below(5)) / 4 : bits.uniform(0, 1));
+     }},
+    {"index", 1, [](auto put, const situation&, bit_source& bits) { put(double(bits.below(4))); }},
+    {"range", 5,
+     [](auto put, const situation& s, bit_source& bits) {
+         const double a = bits.uniform(0, 1), b = bits.chance(0.1) ? a : bits.uniform(0, 1);
+         put(std::min(a, b)), put(std::max(a, b)), put(s.texel), put(bits.chance(0.3) ? s.texel : s.receiver);
+         put(double(bits.below(4)));
+     }},
+    {"shutter_weights", 8,
+     [](auto put, const situation&, bit_source& bits) {
+         for (int k = 0; k < 8; ++k) put(bits.chance(0.2) ? 0 : bits.uniform(0, 1));
+     }},
+    // Receivers.
+    {"static_receiver", 6,
+     [](auto put, const situation& s, bit_source& bits) {
+         const double begin = bits.uniform(0, 1), end = bits.uniform(0, 1);
+         put(s.receiver), put(double(bits.below(4))), put(std::min(begin, end)), put(std::max(begin, end));
+         put(bits.chance(0.5) ? 1 : bits.uniform(0, 1)), put(bits.uniform(0, 1));
+     }},
+    {"range_summary", 4,
+     [](auto put, const situation& s, bit_source& bits) {
+         put(s.texel - bits.uniform(0, 1)), put(s.texel), put(bits.uniform(0, 1)), put(double(bits.below(7)) - 2);
+     }},
+    {"receiver_path", 11,
+     [](auto put, const situation& s, bit_source& bits) { put(any_seen_receiver<T>(s, bits).path); }},
+    {"texel_sweep", 20,
+     [](auto put, const situation& s, bit_source& bits) { put(any_seen_receiver<T>(s, bits).sweep); }},
+    {"moving_receiver", 14,
+     [](auto put, const situation& s, bit_source& bits) { put(any_seen_receiver<T>(s, bits).state); }},
+    {"moving_vector", 6,
+     [](auto put, const situation&, bit_source& bits) {
+         for (int k = 0; k < 6; ++k) put(bits.uniform(-1, 1));
+     }},
+    {"range_list", 42, [](auto put, const situation& s, bit_source& bits) { put(any_range_list<T>(s, bits)); }},
+    // Fourier series: settings and phases.
+    {"series", 4,
+     [](auto put, const situation&, bit_source& bits) {
+         put(convolution_settings<T>{T(1 + bits.below(16)), T(bits.uniform(0, 3)), T(bits.uniform(0, 0.1)),
+                                     T(bits.uniform(0.5, 1))});
+     }},
+    {"phase", 4,
+     [](auto put, const situation& s, bit_source& bits) {
+         put(convolution_phase_at(T(s.receiver), T(bits.uniform(0.5, 1))));
+     }},
+    // Moving triangles.
+    {"moving_triangle", 24,
+     [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits).triangle); }},
+    {"moving_vertex", 8,
+     [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits).triangle.a); }},
+    {"moving_edge", 3, [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits).edges.a); }},
+    {"moving_edges", 9, [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits).edges); }},
+    {"edge_intervals", 4,
+     [](auto put, const situation&, bit_source& bits) {
+         put(moving_edge_inside(any_seen_triangle<T>(bits).edges.b, T(bits.chance(0.5) ? 1 : -1)));
+     }},
+    {"moving_triangle_and_edges", 33,
+     [](auto put, const situation&, bit_source& bits) { put(any_seen_triangle<T>(bits)); }},
+    {"edge_equation", 9,
+     [](auto put, const situation&, bit_source& bits) { put(any_setup_and_triangle<T>(bits).setup.b); }},
+    {"triangle_setup", 27,
+     [](auto put, const situation&, bit_source& bits) { put(any_setup_and_triangle<T>(bits).setup); }},
+    {"setup_and_triangle", 51,
+     [](auto put, const situation&, bit_source& bits) { put(any_setup_and_triangle<T>(bits)); }},
+    {"depth_setup", 16, [](auto put, const situation&, bit_source& bits) { put(any_depth_setup<T>(bits)); }},
+    {"depth_curve", 11, [](auto put, const situation&, bit_source& bits) { put(any_depth_curve<T>(bits)); }},
+    {"coverage_intervals", 9,
+     [](auto put, const situation&, bit_source& bits) {
+         put(moving_coverage(any_seen_triangle<T>(bits).edges, T(1)));
+     }},
+    // Prisms and covers.
+    {"part", 1, [](auto put, const situation&, bit_source& bits) { put(double(bits.below(14))); }},
+    {"prism", 48,
+     [](auto put, const situation&, bit_source& bits) {
+         put(prism_make(any_seen_triangle<T>(bits).triangle, T(bits.chance(0.5))));
+     }},
+    {"prism_triangle_and_sample", 17,
+     [](auto put, const situation&, bit_source& bits) {
+         put(any_seen_prism_triangle(any_seen_triangle<T>(bits).triangle, bits));
+     }},
+    {"prism_fragment", 3, [](auto put, const situation&, bit_source& bits) { put(any_prism_fragment<T>(bits)); }},
+    {"prism_pair", 20,
+     [](auto put, const situation&, bit_source& bits) {
+         prism_pair<T> state = prism_pair_begin(T(bits.below(4)));
+         for (std::size_t n = bits.below(6); n > 0; --n) state = prism_pair_add(state, any_prism_fragment<T>(bits));
+         put(state);
+     }},
+    {"timed_fragment", 3, [](auto put, const situation&, bit_source& bits) { put(any_timed_fragment<T>(bits)); }},
+    {"fragment_cover", 7,
+     [](auto put, const situation&, bit_source& bits) {
+         fragment_cover<T> state = fragment_cover_begin(any_timed_fragment<T>(bits));
+         for (std::size_t n = bits.below(3); n > 0; --n)
+             state = fragment_cover_add(state, any_timed_fragment<T>(bits));
+         put(state);
+     }},
+    {"range_cover", 7,
+     [](auto put, const situation&, bit_source& bits) {
+         range_cover<T> state = range_cover_begin(T(1));
+         for (std::size_t n = bits.below(3); n > 0; --n) state = range_cover_add(state, any_cover_range<T>(bits));
+         put(state);
+     }},
+};
+
+} // namespace gnomon::test
