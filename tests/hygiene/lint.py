@@ -30,7 +30,7 @@ KERNEL = re.compile(r"((?:^///.*\n)*)^GNOMON_(DETAIL_)?(?:LIST_)?KERNEL\s+(\w+(?
 UNCLEAR = re.compile(r"(?:What|How|Where|When|Whether|It|One|The same)\b")
 FIELD = re.compile(r"^/// *(Domain|NaN|Error|Source): |\b(?:[Dd]omain|NaN|[Ee]rrors?|[Ss]ources?): |^/// ([A-Z]\w*): ", re.MULTILINE)
 SOURCE = re.compile(r"[^;]+ \d{4}(?:, (?:Eq|Alg|Sec|App)\. [\dA-Z]+(?:\.\d+)*)?")
-COMPILED = re.compile(r"[^\s()]*\.\./[^\s()]*\.(?:cpp|cc|c|cu)\b")
+COMPILED = re.compile(r"[^\s()]*(?:\.\./|(?:PROJECT|CMAKE)_SOURCE_DIR\}/)[^\s()]*\.(?:cpp|cc|c|cu)\b") # not its own folder's
 
 # Built-in types that follow a pattern; the other reserved words are listed in a file.
 BUILTIN_TYPES = re.compile(
