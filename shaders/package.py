@@ -33,6 +33,7 @@ TECHNIQUES = {
                   "moments/hamburger4.h"], "4"),
     "moments6": (["moments/quantization.h", "storage/moments6.h", "moments/hamburger6.h"], "6"),
     "two_point": (["moments/two_point.h"], ""),
+    "depth": (["moments/depth.h"], ""),
 }
 FOLDERS = ["filters", "soft", "scattering", "motion", "comparators"]
 

@@ -1,29 +1,21 @@
-// Depth to moments: what a texel of a moment shadow map holds before any storage format.
+// Depth to moments: the values of a moment shadow map before any storage format.
 // b_j = E[z^j] over the depths in a filter region, j = 1..4 or 1..6; b_0 = 1 is not stored (Peters et al.
 // 2017, 2.1, 2.2.1). Filtering, blending and resolving are linear combinations of such vectors with weights that sum
 // to 1.
 #ifndef GNOMON_MOMENTS_MOMENTS_H
 #define GNOMON_MOMENTS_MOMENTS_H
 #include "../portable.h"
+#include "depth.h"
 GNOMON_NAMESPACE_BEGIN
 
 GNOMON_STRUCT(moments4) { Real b1, b2, b3, b4; };
 
 GNOMON_STRUCT(moments6) { Real b1, b2, b3, b4, b5, b6; };
 
-/// Signed depth in [-1, 1] from a depth buffer's z in [0, 1], near plane at 0. Exact to one rounding.
-GNOMON_KERNEL Real depth_from_unit(Real z) { return z * Real(2) - Real(1); }
-
-/// Signed depth from a reversed depth buffer's z in [0, 1], near plane at 1. Exact to one rounding.
-GNOMON_KERNEL Real depth_from_reversed(Real z) { return Real(1) - z * Real(2); }
-
-/// Signed depth that is linear in the view distance: -1 at near_distance, +1 at far_distance, any unit.
-GNOMON_KERNEL Real depth_from_distance(Real distance_, GNOMON_SETTING near_distance, GNOMON_SETTING far_distance)
-{
-    return ((distance_ - near_distance) - (far_distance - distance_)) / (far_distance - near_distance);
-}
-
-/// The four moments of a single depth z in [-1, 1] (paper, D.1).
+/// The four moments of a single depth z.
+/// Domain: z in [-1, 1].
+/// NaN: NaN.
+/// Source: Peters 2017, App. D.1
 GNOMON_KERNEL GNOMON_T(moments4) moments4_from_depth(Real z)
 {
     GNOMON_T(moments4) b;
@@ -34,7 +26,9 @@ GNOMON_KERNEL GNOMON_T(moments4) moments4_from_depth(Real z)
     return b;
 }
 
-/// The six moments of a single depth z in [-1, 1].
+/// The six moments of a single depth z.
+/// Domain: z in [-1, 1].
+/// NaN: NaN.
 GNOMON_KERNEL GNOMON_T(moments6) moments6_from_depth(Real z)
 {
     GNOMON_T(moments6) b;
@@ -47,7 +41,7 @@ GNOMON_KERNEL GNOMON_T(moments6) moments6_from_depth(Real z)
     return b;
 }
 
-/// b times a filter weight: the first term of a linear combination.
+/// b times weight: the first term of a linear combination.
 GNOMON_KERNEL GNOMON_T(moments4) moments4_scale(GNOMON_T(moments4) b, GNOMON_SETTING weight)
 {
     b.b1 = b.b1 * weight;
@@ -57,7 +51,7 @@ GNOMON_KERNEL GNOMON_T(moments4) moments4_scale(GNOMON_T(moments4) b, GNOMON_SET
     return b;
 }
 
-/// sum + weight b: a further term.
+/// sum + weight b: a further term of a linear combination.
 GNOMON_KERNEL GNOMON_T(moments4) moments4_add(GNOMON_T(moments4) sum, GNOMON_T(moments4) b, GNOMON_SETTING weight)
 {
     sum.b1 = sum.b1 + b.b1 * weight;
@@ -67,7 +61,7 @@ GNOMON_KERNEL GNOMON_T(moments4) moments4_add(GNOMON_T(moments4) sum, GNOMON_T(m
     return sum;
 }
 
-/// b times a filter weight: the first term of a linear combination.
+/// b times weight: the first term of a linear combination.
 GNOMON_KERNEL GNOMON_T(moments6) moments6_scale(GNOMON_T(moments6) b, GNOMON_SETTING weight)
 {
     b.b1 = b.b1 * weight;
@@ -79,7 +73,7 @@ GNOMON_KERNEL GNOMON_T(moments6) moments6_scale(GNOMON_T(moments6) b, GNOMON_SET
     return b;
 }
 
-/// sum + weight b: a further term.
+/// sum + weight b: a further term of a linear combination.
 GNOMON_KERNEL GNOMON_T(moments6) moments6_add(GNOMON_T(moments6) sum, GNOMON_T(moments6) b, GNOMON_SETTING weight)
 {
     sum.b1 = sum.b1 + b.b1 * weight;
@@ -91,8 +85,8 @@ GNOMON_KERNEL GNOMON_T(moments6) moments6_add(GNOMON_T(moments6) sum, GNOMON_T(m
     return sum;
 }
 
-/// Moments of signed depth from moments of depth in [0, 1], as older maps store them (paper, Equation 2 with x = 2, y =
-/// -1).
+/// The moments of signed depth from moments c of depth in [0, 1], as older maps store them: Equation 2 with x = 2, y = -1.
+/// Source: Peters 2017, Eq. 2
 GNOMON_KERNEL GNOMON_T(moments4) moments4_from_unit(GNOMON_T(moments4) c)
 {
     GNOMON_T(moments4) b;
