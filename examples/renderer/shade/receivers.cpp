@@ -2,6 +2,8 @@
 
 #include "shading.hpp"
 
+#include <gnomon/filters/depth_bias.h>
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -22,9 +24,8 @@ double plane_slope(const glm::dvec3& position, const glm::dvec3& normal, const c
     const double distance = perspective ? view_distance(light, position) : 1;
     const glm::dvec3 ray = perspective ? (position - light.position) / distance : light.forward;
     const double across = glm::length(glm::dvec2(glm::dot(normal, light.right), glm::dot(normal, light.up)));
-    const double along = std::abs(glm::dot(normal, ray));
-    return (across < steepest_slope * along ? across / along : steepest_slope) * distance *
-           unit_slope(light, resolution);
+    const double rise = distance * unit_slope(light, resolution);
+    return depth_bias_slope_scaled(across, glm::dot(normal, ray), rise, steepest_slope);
 }
 
 receivers receivers_of(const image<surface>& seen, const camera& light, int resolution)
