@@ -1,4 +1,4 @@
-// Lists resolved by packs against lists resolved one by one, and what waits as a backdrop in every lane.
+// Lists resolved by packs against lists resolved one by one, and the withheld backdrop in every lane.
 #include "motion/range/near_ties.hpp"
 #include "support/effort.hpp"
 #include "support/hostile.hpp"
@@ -34,7 +34,7 @@ depth_time_range<float> any_range(bit_source& bits, bool coarse, bool hostile)
     return r;
 }
 
-/// By packs; each list in order of time.
+/// Lists resolved by packs, each in order of time.
 template <class Pack> std::vector<list> resolved_together(const std::vector<list>& lists)
 {
     std::size_t longest = 0;
@@ -63,7 +63,7 @@ list resolved_alone(const list& ranges)
     return result;
 }
 
-/// Neighbouring parts of one range as one.
+/// A list in which neighbouring parts of one range are joined.
 list joined(const list& spans)
 {
     list result;
@@ -104,7 +104,7 @@ TEST_CASE_TEMPLATE("resolve_rows: the spans of resolve_ranges in every lane", Pa
     CHECK(apart > 0);
 }
 
-// At any time: what is in front by all ranges, but for a tie.
+// At any time the range in front of all others, within a tie.
 TEST_CASE_TEMPLATE("resolve_rows: at any time the depth in front", Pack, xsimd::batch<float>)
 {
     bit_source bits(92);

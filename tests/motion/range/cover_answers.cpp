@@ -34,7 +34,7 @@ TEST_CASE_TEMPLATE("leaving out the ranges that a cover occludes changes no shad
             T z = T(bits.uniform(-1.1, 1.1));
             if (bits.chance(0.5)) z = range_depth(near_one, t) + bias;
             if (bits.chance(0.3)) z = std::nextafter(z, T(2));
-            // The cover's own surface is where the cover is, and no further.
+            // The cover's own surface lies on the cover, not behind it.
             if (id == cover.id) z = std::min(z, range_depth(cover, t));
             const T whole = shadow(ranges, t, z, id, bias);
             REQUIRE(shadow(kept, t, z, id, bias) == whole);
@@ -53,7 +53,7 @@ TEST_CASE_TEMPLATE("leaving out the ranges that a cover occludes changes no shad
     CHECK(10 * decided > 3 * asked);
 }
 
-// Just behind what touches the cover's farther end, by what range_depth makes of it: the list's answer is dark.
+// Receivers just behind a range that touches the cover's farther end, by range_depth: the list's answer is dark.
 TEST_CASE_TEMPLATE("range_cover_answer: a decided answer is that of the list, bit for bit", T, float, double)
 {
     const summit found = climb(10, 200'000, 1, [](const std::vector<double>& p) {
@@ -76,8 +76,8 @@ TEST_CASE_TEMPLATE("range_cover_answer: a decided answer is that of the list, bi
     CHECK(found.score > -0x1p-18);
 }
 
-// Ranges that are all but level, a few roundings behind a cover that is, and receivers just behind them. Now and then
-// range_depth puts the range in front: what the margin is for.
+// Nearly level ranges, a few roundings behind a level cover, and receivers just behind them. Now and then range_depth
+// puts the range in front: the margin covers that.
 TEST_CASE_TEMPLATE("a range that rounding puts in front of the cover is not left out", T, float, double)
 {
     bit_source bits(6);

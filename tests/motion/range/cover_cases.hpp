@@ -18,7 +18,7 @@ namespace gnomon::test {
 template <class T> using list = std::vector<depth_time_range<T>>;
 template <class T> using fragments = std::vector<timed_fragment<T>>;
 
-/// Surfaces of one or two ranges each, which do not overlap in time; every other time of few depths, many of them
+/// Surfaces of one or two ranges each, which are disjoint in time; in half of the cases with few depths, many of them
 /// equal.
 template <class T> list<T> any_list(bit_source& bits)
 {

@@ -153,8 +153,8 @@ TEST_CASE_TEMPLATE("a static receiver under a resolved list loses the light that
             box += 1.0 / times;
             tent += (t < 0.5 ? 4 * t : 4 - 4 * t) / times;
         }
-        // Up to 2 changes for each of 16 ranges, half a time off each; a level range at the receiver's very depth
-        // aside.
+        // Up to 2 changes for each of 16 ranges, each off by half a time; level ranges at exactly the receiver's depth
+        // do not occur.
         static_receiver<T> by_box = receiver, by_tent = receiver;
         for (const auto& range : resolved.ranges) {
             by_box = add_range(by_box, range, box_shutter{});

@@ -22,7 +22,7 @@ template <class T> using range = depth_time_range<T>;
 template <class T> using ranges = std::vector<range<T>>;
 template <class T> inline constexpr double u = double(std::numeric_limits<T>::epsilon()) / 2;
 
-/// Times and depths of a lattice half of the time, so that ends and depths meet.
+/// A range with times and depths on a lattice in half of the cases, so that ends and depths coincide.
 template <class T> range<T> any_range(bit_source& bits)
 {
     const bool lattice = bits.chance(0.5);
@@ -59,7 +59,7 @@ template <class T, int capacity> bool equal(const range_list<T, capacity>& a, co
                       [](const auto& x, const auto& y) { return equal(x, y); });
 }
 
-/// Depth without rounding, near enough: in extended precision.
+/// Depth in extended precision.
 template <class T> double depth_at(const range<T>& r, double t)
 {
     using wide = long double;
@@ -109,7 +109,7 @@ template <class T, int capacity> ranges<T> spans_of(const range_list<T, capacity
     return spans;
 }
 
-/// Ranges in order of time and apart, empty ones first.
+/// Check that ranges are in order of time and disjoint, empty ones first.
 void require_apart(const auto& list)
 {
     double end = 0;

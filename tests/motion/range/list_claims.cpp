@@ -1,5 +1,5 @@
-// The promises of lists of ranges: full ones are in front of all that was inserted, strictly; and whom leaving out
-// hidden ranges costs a shadow.
+// Claims about lists of ranges: full lists are strictly in front of all inserted ranges, and receivers lose a shadow to
+// left-out ranges only by their ids.
 #include "support/climber.hpp"
 
 #include <gnomon/motion/range/range_cover.h>
@@ -19,7 +19,7 @@ namespace {
 using exact = long double;
 template <class T> using ranges = std::vector<depth_time_range<T>>;
 
-/// Without rounding, but for that of extended precision.
+/// Depth in extended precision.
 template <class T> exact depth_at(const depth_time_range<T>& r, exact t)
 {
     const exact passed = (t - exact(r.t0)) / (exact(r.t1) - exact(r.t0));
@@ -36,7 +36,7 @@ exact front_at(const auto& all, exact t)
     return z;
 }
 
-/// Of all durations from an ulp to the whole shutter, and slopes to match, some of them level.
+/// Ranges of all durations from an ulp to the whole shutter, of all slopes, some of them level.
 template <class T> ranges<T> climbed_ranges(std::size_t count, const std::vector<double>& p)
 {
     ranges<T> all;
@@ -48,7 +48,7 @@ template <class T> ranges<T> climbed_ranges(std::size_t count, const std::vector
     return all;
 }
 
-/// Ends of all ranges, where two of them cross, and what T has beside these.
+/// Ends and crossings of all ranges, and the neighbours of these in T.
 template <class T> std::vector<exact> critical_times(const ranges<T>& all)
 {
     std::vector<exact> times;
@@ -67,7 +67,7 @@ template <class T> std::vector<exact> critical_times(const ranges<T>& all)
     return times;
 }
 
-/// The distance of a list's front behind that of what was inserted into it.
+/// Largest distance of a list's front behind that of the inserted ranges.
 template <class T, int capacity> double behind(const ranges<T>& all)
 {
     range_list<T, capacity> list = range_list_make<T, capacity>({});
@@ -87,7 +87,7 @@ template <class T> T shadow(const auto& all, T t, T z, T id, T bias)
     return most;
 }
 
-/// On a grid, where depths and times are exact.
+/// Ranges on a grid, on which depths and times are exact.
 template <class T> ranges<T> grid_ranges(bit_source& bits)
 {
     ranges<T> all;
@@ -100,7 +100,7 @@ template <class T> ranges<T> grid_ranges(bit_source& bits)
 
 } // namespace
 
-// Roundings of the reference itself: 2^-52.
+// The reference itself rounds by 2^-52.
 TEST_CASE_TEMPLATE("full lists are strictly in front of all inserted ranges, however steep and brief", T, float, double)
 {
     const summit small = climb(20, 60'000, 1, [](const auto& p) { return behind<T, 2>(climbed_ranges<T>(4, p)); });
@@ -109,7 +109,7 @@ TEST_CASE_TEMPLATE("full lists are strictly in front of all inserted ranges, how
     CHECK(usual.score <= 0x1p-52);
 }
 
-// The times are between those of the grid, where ranges begin and end.
+// Times lie between those of the grid, at which ranges begin and end.
 TEST_CASE_TEMPLATE("ids: a shadow is lost only where a range of the receiver's id is in front of the receiver", T,
                    float, double)
 {

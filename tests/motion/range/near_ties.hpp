@@ -1,4 +1,4 @@
-// Ranges that come as near one another as resolve_tie, for climbers: the stated error of a resolve is n - 1 ties.
+// Ranges within resolve_tie of one another, for climbers: the stated error of a resolved list is n - 1 ties.
 #pragma once
 
 #include "support/climber.hpp"
@@ -14,7 +14,7 @@ namespace gnomon::test {
 
 template <class T> using near_ranges = std::vector<depth_time_range<T>>;
 
-/// The dimensions of a place that so many ranges and a time take.
+/// Dimensions of a climber's place for so many ranges and a time.
 constexpr std::size_t near_dimensions(std::size_t ranges) { return 4 * ranges + 1; }
 
 template <class T> near_ranges<T> near_ranges_at(const std::vector<double>& place)
@@ -28,8 +28,8 @@ template <class T> near_ranges<T> near_ranges_at(const std::vector<double>& plac
     return all;
 }
 
-/// The distance of the resolved front from that of all ranges at the place's time, in ties; infinite where one of them
-/// is nothing, -1 beside an end of a range.
+/// Distance of the resolved front from that of all ranges at the place's time, in ties; infinite if only one of them is
+/// empty, -1 beside an end of a range.
 template <class T>
 double ties_behind(std::span<const depth_time_range<T>> all, std::span<const depth_time_range<T>> resolved, double time)
 {
@@ -48,7 +48,7 @@ double ties_behind(std::span<const depth_time_range<T>> all, std::span<const dep
     return std::abs(found - expected) / resolve_tie<double>;
 }
 
-/// Checks that resolve(ranges) keeps the stated error for so many ranges, beside a percent for rounding.
+/// Climb for the largest distance of resolve(ranges) from the front of so many ranges, in ties.
 template <class T, class Resolve> summit climb_ties(std::size_t ranges, std::uint64_t seed, const Resolve& resolve)
 {
     return climb(near_dimensions(ranges), 300'000, seed, [&](const std::vector<double>& place) {

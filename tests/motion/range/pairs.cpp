@@ -89,8 +89,8 @@ TEST_CASE_TEMPLATE("range_merge lasts as long as both, in front of both, at the 
             if (front == nowhere) gap += step;
             else shift = std::max(shift, front - depth_at(m, double(t)));
         }
-        // Of 64 strips five hold an end or the crossing, each wrong by its width and a depth of 4 at most; in the
-        // others a strip's middle stands for a line exactly.
+        // Of 64 strips at most five contain an end or the crossing, each wrong by its width times a depth of at most 4.
+        // In the others the middle of a strip is exact for a line.
         const double own = a.id == b.id ? 0 : double(range_duration(a)) + double(range_duration(b));
         REQUIRE(std::abs(double(pair.cost) - own - area) <= 5 * 4 * step + 64 * u<T>);
         REQUIRE(std::abs(double(pair.gap) - gap) <= 2 * step + 4 * u<T>);

@@ -1,5 +1,5 @@
-// Depth-time ranges against extended precision: their depths, clips and crossings within the stated errors, and what
-// they shadow against the definition, asked at many times.
+// Depth-time ranges against extended precision: depths, clips and crossings within the stated errors, and shadows
+// against the definition at many times.
 #include "support/effort.hpp"
 #include "support/hostile.hpp"
 #include "support/rounding.hpp"
@@ -119,27 +119,27 @@ TEST_CASE_TEMPLATE("range_occluding_part: the times at which a range shadows a s
                    double)
 {
     for_each_range<T>(20'000, [](const depth_time_range<T>& r, bit_source& bits) {
-        depth_time_range<T> course = any_range<T>(bits);
-        if (bits.chance(0.3)) course = {T(0), T(1), course.z0, course.z0, T(9)};
-        if (bits.chance(0.1)) course.z0 = r.z0;
+        depth_time_range<T> receiver = any_range<T>(bits);
+        if (bits.chance(0.3)) receiver = {T(0), T(1), receiver.z0, receiver.z0, T(9)};
+        if (bits.chance(0.1)) receiver.z0 = r.z0;
         const T a = any_time<T>(bits), b = any_time<T>(bits), begin = std::min(a, b), end = std::max(a, b);
-        const auto front = range_occluding_part(r, course, begin, end);
-        const double largest = std::max(
-            {std::abs(double(r.z0)), std::abs(double(r.z1)), std::abs(double(course.z0)), std::abs(double(course.z1))});
+        const auto front = range_occluding_part(r, receiver, begin, end);
+        const double largest = std::max({std::abs(double(r.z0)), std::abs(double(r.z1)), std::abs(double(receiver.z0)),
+                                         std::abs(double(receiver.z1))});
         if (front.t0 < front.t1)
             REQUIRE((begin <= front.t0 && r.t0 <= front.t0 && front.t1 <= end && front.t1 <= r.t1));
-        // Both are one line each between these two.
-        const wide from = wide(std::max({begin, r.t0, course.t0})), to = wide(std::min({end, r.t1, course.t1}));
-        if (!(from < to) || wide(begin) < wide(course.t0) || wide(end) > wide(course.t1)) return;
-        const auto ahead = [&](wide t) { return depth(course, t) - depth(r, t); };
-        // Where the two are this close, rounding decides, and so it does this close to where they meet.
+        // Between these two times both are single lines.
+        const wide from = wide(std::max({begin, r.t0, receiver.t0})), to = wide(std::min({end, r.t1, receiver.t1}));
+        if (!(from < to) || wide(begin) < wide(receiver.t0) || wide(end) > wide(receiver.t1)) return;
+        const auto ahead = [&](wide t) { return depth(receiver, t) - depth(r, t); };
+        // Where both are this close, rounding decides, and equally this close to their crossing.
         const wide slack = wide(26 * largest * u<T>), speed = std::abs(ahead(to) - ahead(from)) / (to - from);
         for (int i = 0; i <= 32; ++i) {
             const T t = T(i) / T(32);
             if (wide(t) < from || wide(t) > to || std::abs(ahead(wide(t))) <= slack + speed * wide(8 * u<T>)) continue;
             CAPTURE(double(t));
             REQUIRE((front.t0 <= t && t <= front.t1) == (ahead(wide(t)) > 0));
-            REQUIRE(double(range_intensity(r, t, range_depth(course, t), T(9), T(0))) == double(ahead(wide(t)) > 0));
+            REQUIRE(double(range_intensity(r, t, range_depth(receiver, t), T(9), T(0))) == double(ahead(wide(t)) > 0));
         }
     });
 }
@@ -177,8 +177,8 @@ TEST_CASE_TEMPLATE("range_intensity: own surface, ends, bias and NaN", T, float,
     CHECK(range_duration(depth_time_range<T>{T(1), T(0), T(0), T(0), T(0)}) == 0);
 }
 
-// A plane that comes towards the light never shadows itself, whatever its speed: its own range is ignored by id, and a
-// neighbour's, which reaches the same depth at the same time, is not in front.
+// A plane that moves towards the light never shadows itself, at any speed: its own range is ignored by id, and the
+// range of a neighbour, which reaches the same depth at the same time, is not in front.
 TEST_CASE_TEMPLATE("a surface that moves along z does not shadow itself or its neighbour in the plane", T, float,
                    double)
 {

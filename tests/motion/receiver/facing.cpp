@@ -1,5 +1,5 @@
-// Surfaces that turn: the times at which they face the light, by the edge that facing_function makes, against the
-// product of both vectors at dense times in extended precision.
+// Turning surfaces: the times at which they face the light, by facing_function, against the product of both vectors at
+// many times in extended precision.
 #include "receiver_cases.hpp"
 #include "support/effort.hpp"
 
@@ -80,7 +80,7 @@ TEST_CASE_TEMPLATE("facing: at all times, never, turning away, twice, and with N
     const moving_vector<T> down{0, 0, -1, 0, 0, -1};
     CHECK(times(up, down).begin > times(up, down).end);
     CHECK((times(turning, up).begin == 0 && times(turning, up).end == T(0.5)));
-    // Normal and light turn to the other side, at 1/4 and at 3/4: between, they look away from one another.
+    // Normal and light turn to the other side at 1/4 and at 3/4; in between they point away from one another.
     const moving_vector<T> early{0, 0, 1, 0, 0, -3}, late{0, 0, 3, 0, 0, -1};
     const edge_intervals<T> both = times(early, late);
     CHECK((both.begin == 0 && both.end == 1));

@@ -121,8 +121,8 @@ wide sampling_error(const test_map<T>& map, const receiver_path<T>& p, const tes
         const wide distance1 = wide(sideways ? p.x1 : p.y1) - border * wide(p.w1);
         undecided += s.largest() * (4 * 128 / std::abs(distance0 - distance1) + 2) * rounding<T> / exposure;
     });
-    // An event between two times costs half a step, and so do, by a weight's slope, at most 4 lengths per exposure,
-    // those of the second order; bilinear positions are as exact as texels are large, 32 of them.
+    // An event between two times costs half a step. So does, by a weight's slope, the second order of at most 4 lengths
+    // per exposure. Bilinear positions have the precision of the map's 32 texels.
     const wide slope = 4 * 32 / (wide(p.depth.t1) - wide(p.depth.t0)) * exposure;
     const wide smooth = bilinear ? events * slope / (8.0L * times * times) + 4 * 8 * 32 * 5 * rounding<T> : 0;
     return s.largest() * (events / (2.0L * times) + smooth + chord) + undecided;

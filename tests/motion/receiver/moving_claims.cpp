@@ -50,8 +50,8 @@ TEST_CASE_TEMPLATE("moving receiver: a plane that comes towards the light is lit
             REQUIRE(nearest(map, p, s) == 0);
             REQUIRE(filtered(map, p, s, 1 + int(i % 3)) == 0);
         }
-        // A plane that is there for longer is the same line by other numbers, each within roundings of its depths: a
-        // bias of what range_occluding_part leaves undecided, and of the two roundings of each end, is enough.
+        // A plane that lasts longer is the same line by other numbers, each within roundings of its depths. A bias of
+        // the error of range_occluding_part and of two roundings for each end suffices.
         const T a = T(bits.uniform(-1, 1)), b = T(bits.uniform(-1, 1)), bias = T(32 * rounding<T>);
         const depth_time_range<T> all{T(0), T(1), a, b, T(7)};
         receiver_path<T> part = p;

@@ -96,7 +96,8 @@ TEST_CASE_TEMPLATE("moving receiver: with filtering, the integral of shutter and
     }
 }
 
-// The bound of sampled_receiver_end: each border, and each range's begin, end and meeting, costs one sample at most.
+// The bound of sampled_receiver_end: each border, and each begin, end and crossing of a range, costs at most one
+// sample.
 TEST_CASE("moving receiver: samples, as many as Palmer's or more, tend to the closed form")
 {
     using T = double;

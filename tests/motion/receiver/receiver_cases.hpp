@@ -97,13 +97,13 @@ struct loss {
     wide share, error;
 };
 template <class T>
-loss exact_loss(const depth_time_range<T>& r, const depth_time_range<T>& course, T begin, T end,
+loss exact_loss(const depth_time_range<T>& r, const depth_time_range<T>& receiver, T begin, T end,
                 const test_shutter<T>& shutter)
 {
     const wide early = std::max(wide(begin), wide(r.t0)), late = std::min(wide(end), wide(r.t1));
-    if (r.id == course.id || !(early < late)) return {0, 0};
-    const wide ahead0 = exact_depth(course, early) - exact_depth(r, early);
-    const wide ahead1 = exact_depth(course, late) - exact_depth(r, late);
+    if (r.id == receiver.id || !(early < late)) return {0, 0};
+    const wide ahead0 = exact_depth(receiver, early) - exact_depth(r, early);
+    const wide ahead1 = exact_depth(receiver, late) - exact_depth(r, late);
     const auto passes = [&](wide level) { // when it is so far ahead, as a share
         return std::clamp((ahead0 - level) / (ahead0 - ahead1), 0.0L, 1.0L);
     };
@@ -112,7 +112,7 @@ loss exact_loss(const depth_time_range<T>& r, const depth_time_range<T>& course,
     const wide from = ahead0 > 0 ? early : ahead1 > 0 ? meeting : late;
     const wide to = ahead1 > 0 ? late : ahead0 > 0 ? meeting : early;
     const double largest = std::max(
-        {std::abs(double(r.z0)), std::abs(double(r.z1)), std::abs(double(course.z0)), std::abs(double(course.z1))});
+        {std::abs(double(r.z0)), std::abs(double(r.z1)), std::abs(double(receiver.z0)), std::abs(double(receiver.z1))});
     const wide slack = 26 * wide(largest) * rounding<T>;
     const wide undecided = level ? wide(std::abs(ahead0) <= slack) : std::abs(passes(slack) - passes(-slack));
     const wide error = (undecided * (late - early) + 32 * rounding<T>) / (wide(shutter.end) - wide(shutter.begin));

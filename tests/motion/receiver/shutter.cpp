@@ -1,4 +1,4 @@
-// Shutters: shares of light from 0 to 1, their densities as said, given weights against a sum over many times.
+// Shutters: shares of light from 0 to 1, their stated densities, piecewise weights against a sum over many times.
 #include "receiver_cases.hpp"
 #include "support/effort.hpp"
 
@@ -51,7 +51,7 @@ TEST_CASE_TEMPLATE("exposures: between both times; one of no length shows a sing
     CHECK(std::isnan(times(nan_of<T>, T(1))[0]));
     CHECK(std::isnan(times(T(0), nan_of<T>)[1]));
 
-    // A list of ranges that touch or leave gaps, asked in the midst of one of its parts.
+    // A list of ranges that touch or leave gaps, tested in the middle of one of its parts.
     bit_source bits(24);
     std::int64_t shadowed = 0;
     for (std::int64_t i = 0; i < effort(20'000); ++i) {

@@ -1,5 +1,5 @@
-// A receiver at rest under resolved lists of depth-time ranges: the closed form against a hundred thousand times, and
-// what a list must not mind.
+// Static receivers under resolved lists of depth-time ranges: the closed form against a hundred thousand times, and
+// changes of a list that change no result.
 #include "receiver_cases.hpp"
 #include "support/effort.hpp"
 
@@ -78,8 +78,8 @@ TEST_CASE_TEMPLATE("static receiver: the order of ranges and cuts in them change
         for (auto& r : list) r = range_clip(r, T(0), cut);
         for (const auto& r : whole) list.push_back(range_clip(r, cut, T(1)));
         const double again = double(intensity(list, z, T(9), shutter));
-        // A cut moves the depth line by 5 roundings of it, and so the meeting by as much over its slope: where the
-        // depth hardly changes, by any time, so not looked at here.
+        // A cut moves the depth line by 5 roundings of it, and the crossing by as much over the slope. Where the depth
+        // hardly changes, that may be any time: such cases are skipped.
         const bool level = std::any_of(whole.begin(), whole.end(),
                                        [](const auto& r) { return std::abs(double(r.z1) - double(r.z0)) < 0.01; });
         if (!level) CHECK(std::abs(first - again) <= 7 * 2e4 * double(std::numeric_limits<T>::epsilon()));
@@ -103,7 +103,7 @@ TEST_CASE_TEMPLATE("static receiver: nothing, everything, its own surface, half,
         CHECK(intensity<T>({{T(0), nan, T(-1), T(-1), T(1)}}, T(0.75), T(2), s) == 0);
         s.begin = nan;
         CHECK(intensity<T>({all}, T(0.75), T(2), s) == 0);
-        // Half of a ground at rest does not shadow the other half, whenever the shutter opens.
+        // Half of a static ground does not shadow the other half, for any exposure.
         for (int i = 0; i < 1000; ++i) {
             const T z = T(bits.uniform(-1, 1));
             s.begin = T(bits.uniform(0, 0.5)), s.end = T(bits.uniform(0.5, 1));
@@ -121,7 +121,7 @@ TEST_CASE_TEMPLATE("range_summary: the light that a receiver behind a list loses
         auto list = resolved_list<T>(bits);
         range_summary<T> total = range_summary_begin(T(-1));
         for (const auto& r : list) total = range_summary_add(total, r);
-        // Nobody sees these.
+        // Ranges that no receiver sees.
         for (const auto& r : {depth_time_range<T>{T(0), T(1), nan, T(2), T(1)},
                               {T(1), T(0), T(2), T(2), T(1)},
                               {nan, T(1), T(2), T(2), T(1)}})
@@ -147,7 +147,7 @@ TEST_CASE_TEMPLATE("range_summary: the light that a receiver behind a list loses
         REQUIRE(static_receiver_is_behind(at(T(2), T(0), T(0.5)), total) == 0);
         REQUIRE(static_receiver_is_behind(at(nan, T(0), T(1)), total) == 0);
         static_receiver<T> one_by_one = at(T(2), T(0), T(1)), at_once = one_by_one;
-        // Several ids, or the receiver's own: nobody knows whose ranges were in front.
+        // With several ids, or the receiver's own, the ranges in front are unknown.
         const auto seen_by = [&](T own) { return static_receiver_begin(T(2), own, T(0), T(1)); };
         REQUIRE(static_receiver_is_behind(at_once, total) == (id == T(range_mixed) ? 0 : 1));
         REQUIRE(static_receiver_is_behind(seen_by(id), total) == 0);
@@ -176,7 +176,7 @@ TEST_CASE_TEMPLATE("static receiver: with filtering, the weighted mean of its te
         for (std::size_t k = 0; k < (look_ups + 1) * (look_ups + 1); ++k) {
             const std::size_t x = k % (look_ups + 1), y = k / (look_ups + 1);
             const auto list = resolved_list<T>(bits);
-            // The mean of look-ups by definition: each has texel x with its u, texel x - 1 with what is left.
+            // The mean of look-ups by definition: each weights texel x with its u, and texel x - 1 with the rest.
             const auto by_definition = [&](std::size_t n, wide share) {
                 return ((n < look_ups ? 1 - share : 0) + (n > 0 ? share : 0)) / wide(look_ups);
             };

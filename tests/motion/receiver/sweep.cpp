@@ -30,7 +30,7 @@ template <class T> receiver_path<T> hostile_path(hostile_source<T>& source, bit_
 
 } // namespace
 
-// Whole walks, with what a caller's loop does.
+// Whole sweeps by the loop of a caller.
 TEST_CASE_TEMPLATE("sweep: for any path its times are contiguous bit for bit, and it ends", T, float, double)
 {
     hostile_source<T> hostile(31);
@@ -58,7 +58,7 @@ TEST_CASE_TEMPLATE("sweep: for any path its times are contiguous bit for bit, an
         }
         REQUIRE(same_bits(s.t_end, p.depth.t1));
         swept += texels;
-        // Called on, it arrives and stays.
+        // Further calls stay at the last texel.
         for (std::int64_t k = 0; k <= bound; ++k) s = texel_sweep_next(s);
         REQUIRE((same_bits(s.column, s.last_column) && same_bits(s.row, s.last_row)));
         REQUIRE(same_bits(s.t_end, p.depth.t1));
@@ -76,7 +76,7 @@ TEST_CASE_TEMPLATE("sweep: without a valid path it has one texel for the whole t
             receiver_path<T> broken = p;
             broken.*member = bad;
             const bool is_w = member == &receiver_path<T>::w0 || member == &receiver_path<T>::w1;
-            if (is_w && bad == inf) continue; // at the origin, and a way from there
+            if (is_w && bad == inf) continue; // at the origin, and a path from there
             const texel_sweep<T> s = texel_sweep_begin(broken);
             CHECK(s.t_begin == T(0.25));
             CHECK(s.t_end == T(0.75));
@@ -103,7 +103,7 @@ template <class T> texel_sweep<T> sweep_over(const receiver_path<T>& p, const te
     return texel_sweep_over(p, T(a.left), T(a.top), T(a.right), T(a.bottom));
 }
 
-/// The texels from (left, top) to before (right, bottom) in which a sweep takes time.
+/// Texels from (left, top) to before (right, bottom) in which a sweep spends time.
 template <class T> std::vector<std::array<T, 4>> visited(texel_sweep<T> s, const texel_area& a)
 {
     std::vector<std::array<T, 4>> result;
@@ -135,7 +135,7 @@ TEST_CASE_TEMPLATE("sweep over an area: the bits of the whole sweep there, in as
         const auto expected = visited(texel_sweep_begin(p), area), found = visited(sweep_over(p, area), area);
         some += !expected.empty();
         if (found == expected) continue;
-        // Rounding says by which texel a path enters by a corner or along a border.
+        // Rounding decides by which texel a path enters at a corner or along a border.
         ++other_bits;
         const auto time = [](const std::vector<std::array<T, 4>>& texels) {
             wide sum = 0;
@@ -201,7 +201,7 @@ TEST_CASE_TEMPLATE("sweep over an area: texels are those of the path, also past 
     CHECK(behind > 0);
 }
 
-// A point of time well inside of a step is in the step's texel: well means more than the error of border times, and
+// A time well inside of a step is in the step's texel. Well inside means by more than the error of border times, with
 // positions off the borders by the rounding of the first and the last one.
 TEST_CASE_TEMPLATE("sweep: texels are those of the path", T, float, double)
 {
@@ -225,7 +225,7 @@ TEST_CASE_TEMPLATE("sweep: texels are those of the path", T, float, double)
             decided += wide(s.column) <= at.x && at.x < wide(s.column) + 1;
         });
     }
-    CHECK(decided >= asked - asked / 100); // not on a way along a border
+    CHECK(decided >= asked - asked / 100); // not on a path along a border
 }
 
 TEST_CASE_TEMPLATE("path: positions, shifts and parts", T, float, double)

@@ -65,7 +65,7 @@ template <class List> const range* range_at(const List& ranges, double time)
     return nullptr;
 }
 
-/// Checks the bounds that compact.hpp states at one time.
+/// Check the bounds that compact.hpp states at one time.
 void check_bounds(const std::vector<range>& list, std::span<const range> compact, double time)
 {
     const range *r = range_at(list, time), *c = range_at(compact, time);
@@ -165,7 +165,7 @@ TEST_CASE("look-ups of a compact map equal those of its unpacked lists, bit for 
 #if defined(__cpp_exceptions)
 namespace {
 
-/// Expects compact_ranges to refuse a map, and to leave the memory as it was.
+/// Check that compact_ranges refuses a map, and leaves the memory as it was.
 void expect_refusal(const range_map<float>& map, std::array<std::size_t, 4> sizes, const char* message)
 {
     std::vector<std::uint16_t> begins(sizes[0], 7), lists(sizes[3], 7);

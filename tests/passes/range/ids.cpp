@@ -1,4 +1,4 @@
-// Receivers of every id and depth: resolved lists, their totals and lists resolved in two steps give them the answer of
+// Receivers of every id and depth: resolved lists, their summaries and lists resolved in two steps give them the answer of
 // all ranges, the time in which any range of another id is in front of them.
 #include "motion/receiver/receiver_cases.hpp"
 #include "support/climber.hpp"
@@ -27,7 +27,7 @@ template <class T> list<T> resolved(const list<T>& ranges, range_ids ids)
     return result;
 }
 
-/// Its first half resolved by itself, then with the rest.
+/// A list of which the first half is resolved by itself, then together with the rest.
 template <class T> list<T> resolved_in_steps(const list<T>& ranges, range_ids ids)
 {
     const auto half = ranges.begin() + std::ptrdiff_t(ranges.size() / 2);
@@ -38,14 +38,14 @@ template <class T> list<T> resolved_in_steps(const list<T>& ranges, range_ids id
 
 /// Share of the time of its path in which a receiver has a range of another id in front of it by more than
 /// -slack.
-template <class T> wide hidden_share(const list<T>& ranges, const depth_time_range<T>& course, wide slack)
+template <class T> wide hidden_share(const list<T>& ranges, const depth_time_range<T>& path, wide slack)
 {
     std::vector<std::pair<wide, wide>> hidden;
     for (const auto& r : ranges) {
-        const wide early = std::max(wide(r.t0), wide(course.t0)), late = std::min(wide(r.t1), wide(course.t1));
-        if (r.id == course.id || !(early < late)) continue;
-        const wide a = exact_depth(course, early) - exact_depth(r, early) + slack;
-        const wide b = exact_depth(course, late) - exact_depth(r, late) + slack;
+        const wide early = std::max(wide(r.t0), wide(path.t0)), late = std::min(wide(r.t1), wide(path.t1));
+        if (r.id == path.id || !(early < late)) continue;
+        const wide a = exact_depth(path, early) - exact_depth(r, early) + slack;
+        const wide b = exact_depth(path, late) - exact_depth(r, late) + slack;
         const wide meeting = a == b ? early : early + std::clamp(a / (a - b), 0.0L, 1.0L) * (late - early);
         if (a > 0 || b > 0) hidden.push_back({a > 0 ? early : meeting, b > 0 ? late : meeting});
     }
@@ -53,32 +53,32 @@ template <class T> wide hidden_share(const list<T>& ranges, const depth_time_ran
     wide sum = 0, reached = 0;
     for (const auto& [from, to] : hidden)
         if (to > reached) sum += to - std::max(from, reached), reached = to;
-    return sum / (wide(course.t1) - wide(course.t0));
+    return sum / (wide(path.t1) - wide(path.t0));
 }
 
 /// A map of one texel, and its look-ups.
 template <class T> struct one_texel {
     list<T> ranges;
     std::vector<std::uint32_t> first;
-    std::vector<range_summary<T>> totals;
+    std::vector<range_summary<T>> summaries;
 
     one_texel(const list<T>& resolved, range_ids ids)
         : ranges(resolved),
           first(range_map<T>::texels(1, 1) + 1, std::uint32_t(ranges.size())),
-          totals(first.size() - 1)
+          summaries(first.size() - 1)
     {
         first[0] = 0;
-        set_summaries(map(), std::span(totals), ids);
+        set_summaries(map(), std::span(summaries), ids);
     }
     range_map<T> map() const { return {1, 1, first, ranges}; }
-    range_map<T> with_totals() const { return {1, 1, first, ranges, totals}; }
+    range_map<T> with_summaries() const { return {1, 1, first, ranges, summaries}; }
 
-    wide moving(const range_map<T>& by, const depth_time_range<T>& course) const
+    wide moving(const range_map<T>& by, const depth_time_range<T>& path) const
     {
-        const receiver_path<T> path{course, T(0.5), T(0.5), T(1), T(0.5), T(0.5), T(1)};
-        return wide(moving_intensity(by, path, course.t0, course.t1));
+        const receiver_path<T> whole{path, T(0.5), T(0.5), T(1), T(0.5), T(0.5), T(1)};
+        return wide(moving_intensity(by, whole, path.t0, path.t1));
     }
-    wide resting(const range_map<T>& by, const static_receiver<T>& r) const
+    wide static_share(const range_map<T>& by, const static_receiver<T>& r) const
     {
         return wide(static_intensity(by, T(0.5), T(0.5), r));
     }
@@ -91,13 +91,14 @@ template <class T> struct one_texel {
     }
 };
 
-/// The distance of what is found from what all ranges say of receivers a slack nearer or farther, over its error.
+/// Distance of the look-ups from the answers of all ranges for receivers a slack nearer or farther, over the stated
+/// error.
 ///
 /// A crossing moves by times in which both depths differ by 84 u at most, a cut moves a line by 10 u, and the receiver
 /// is known to be behind it within 26 u (range_crossing, range_depth, range_occluding_part): the slack, twice for lists
 /// resolved twice. The error: 32 u a span (static_receiver_end), of which two layers have n (n + 1) at most if all n
 /// ranges cross one another.
-template <class T> double excess(const list<T>& ranges, const depth_time_range<T>& course, range_ids ids)
+template <class T> double excess(const list<T>& ranges, const depth_time_range<T>& path, range_ids ids)
 {
     double most = 0;
     for (int steps = 1; steps <= 2; ++steps) {
@@ -109,23 +110,23 @@ template <class T> double excess(const list<T>& ranges, const depth_time_range<T
             const wide error = 32 * spans * rounding<T> / (wide(seen.t1) - wide(seen.t0));
             most = std::max(most, double(std::max(low - found, found - high) / error));
         };
-        ask(texel.moving(texel.map(), course), course);
-        ask(texel.moving(texel.with_totals(), course), course);
-        depth_time_range<T> level = course;
+        ask(texel.moving(texel.map(), path), path);
+        ask(texel.moving(texel.with_summaries(), path), path);
+        depth_time_range<T> level = path;
         level.z1 = level.z0;
         const auto at_rest = [&](const depth_time_range<T>& seen) {
             const auto r = static_receiver_begin(seen.z0, seen.id, seen.t0, seen.t1);
-            for (const range_map<T>& by : {texel.map(), texel.with_totals()})
-                ask(texel.resting(by, r), seen), ask(texel.at_once(by, r), seen);
+            for (const range_map<T>& by : {texel.map(), texel.with_summaries()})
+                ask(texel.static_share(by, r), seen), ask(texel.at_once(by, r), seen);
         };
         at_rest(level);
-        level.t0 = 0, level.t1 = 1; // of which totals are
+        level.t0 = 0, level.t1 = 1; // of which summaries are
         at_rest(level);
     }
     return most;
 }
 
-/// Of few ids, so that a receiver's own are often in front, and one that nobody casts a shadow with.
+/// Ranges of few ids, so that a receiver's own range is often in front, and an id without a range.
 template <class T> list<T> any_ranges(bit_source& bits, std::size_t most)
 {
     list<T> ranges(bits.below(most + 1));
@@ -149,10 +150,10 @@ TEST_CASE_TEMPLATE("ids of any kind: every receiver gets the answer of all range
     for (std::int64_t i = 0; i < effort(4000); ++i) {
         const list<T> ranges = any_ranges<T>(bits, i % 50 == 0 ? 40 : 8);
         for (int id = 0; id < 5; ++id) {
-            const depth_time_range<T> course{T(bits.uniform(0, 0.4)), T(bits.uniform(0.6, 1)),
-                                             T(bits.uniform(-1.2, 1.2)), T(bits.uniform(-1.2, 1.2)), T(id)};
-            REQUIRE(excess(ranges, course, range_ids::any) <= 1);
-            behind_own += excess(ranges, course, range_ids::surfaces) > 1;
+            const depth_time_range<T> path{T(bits.uniform(0, 0.4)), T(bits.uniform(0.6, 1)), T(bits.uniform(-1.2, 1.2)),
+                                           T(bits.uniform(-1.2, 1.2)), T(id)};
+            REQUIRE(excess(ranges, path, range_ids::any) <= 1);
+            behind_own += excess(ranges, path, range_ids::surfaces) > 1;
         }
     }
     CHECK(behind_own > 0); // the second layer is needed
@@ -169,8 +170,8 @@ TEST_CASE_TEMPLATE("ids of surfaces: every receiver that is not behind its own s
             for (const auto& r : ranges)
                 if (r.id == T(id)) most = std::min({most, r.z0, r.z1});
             const auto depth = [&] { return T(bits.uniform(-1.2, double(most))); };
-            const depth_time_range<T> course{T(bits.uniform(0, 0.4)), T(bits.uniform(0.6, 1)), depth(), depth(), T(id)};
-            REQUIRE(excess(ranges, course, range_ids::surfaces) <= 1);
+            const depth_time_range<T> path{T(bits.uniform(0, 0.4)), T(bits.uniform(0.6, 1)), depth(), depth(), T(id)};
+            REQUIRE(excess(ranges, path, range_ids::surfaces) <= 1);
         }
     }
 }
@@ -212,7 +213,7 @@ TEST_CASE("resolve_ranges: the second layer follows the span in front of it")
     }
     const auto shadow = [&](float z, float id) {
         const one_texel<float> texel(spans, range_ids::any);
-        return double(texel.resting(texel.with_totals(), static_receiver_begin(z, id, 0.f, 1.f)));
+        return double(texel.static_share(texel.with_summaries(), static_receiver_begin(z, id, 0.f, 1.f)));
     };
     CHECK(shadow(0.5f, 1) == 0.5); // the ground sees the leaf alone
     CHECK(shadow(0.5f, 2) == 1);
@@ -250,17 +251,17 @@ TEST_CASE_TEMPLATE("summarize: occluded at all times if and only if spans fill t
 TEST_CASE("set_summaries refuses sizes that do not fit")
 {
     const one_texel<float> texel({{0, 1, 0, 0, 1}}, range_ids::any);
-    std::vector<range_summary<float>> totals(texel.totals.size());
+    std::vector<range_summary<float>> summaries(texel.summaries.size());
     range_map<float> map = texel.map();
     map.width = 2 * map.tile;
-    CHECK_THROWS_WITH_AS(set_summaries(map, std::span(totals), range_ids::any),
+    CHECK_THROWS_WITH_AS(set_summaries(map, std::span(summaries), range_ids::any),
                          doctest::Contains("range summaries: map.first.size() is"), std::invalid_argument);
     map = texel.map();
     map.ranges = map.ranges.first(0);
-    CHECK_THROWS_WITH_AS(set_summaries(map, std::span(totals), range_ids::any),
+    CHECK_THROWS_WITH_AS(set_summaries(map, std::span(summaries), range_ids::any),
                          doctest::Contains("but map.ranges.size() is 0"), std::invalid_argument);
-    totals.pop_back();
-    CHECK_THROWS_WITH_AS(set_summaries(texel.map(), std::span(totals), range_ids::any),
+    summaries.pop_back();
+    CHECK_THROWS_WITH_AS(set_summaries(texel.map(), std::span(summaries), range_ids::any),
                          doctest::Contains("range summaries: summaries.size() + 1 is"), std::invalid_argument);
 }
 #endif

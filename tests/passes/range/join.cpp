@@ -44,7 +44,7 @@ template <class T> const depth_time_range<T>* at_time(const list<T>& ranges, T t
     return found == ranges.end() ? nullptr : &*found;
 }
 
-/// The distance of the joined list from the allowed depths at a time, in tolerances; infinite where coverage differs.
+/// Distance of the joined list from the allowed depths at a time, in tolerances; infinite where coverage differs.
 template <class T> double breach(const list<T>& whole, const list<T>& joined, T tolerance, T t)
 {
     const auto *before = at_time(whole, t), *after = at_time(joined, t);

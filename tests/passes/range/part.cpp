@@ -1,4 +1,4 @@
-// Neighbours that overlap for a moment, parted: nothing is uncovered, and nothing else changes.
+// Neighbours that overlap briefly, parted: all times stay covered, and nothing else changes.
 #include "support/effort.hpp"
 #include "support/hostile.hpp"
 
@@ -32,7 +32,7 @@ TEST_CASE("part_neighbours: every time keeps a range, and depths change only whe
     bit_source bits(111);
     int parted = 0;
     for (std::int64_t n = 0; n < test::effort(5'000); ++n) {
-        // A course of neighbours that overlap for a moment, some others across it, in any order.
+        // A row of neighbours that overlap briefly, some others across it, in any order.
         list ranges;
         float t = 0, z = static_cast<float>(bits.uniform(-0.5, 0.5));
         while (t < 1) {
@@ -60,7 +60,7 @@ TEST_CASE("part_neighbours: every time keeps a range, and depths change only whe
                 });
             });
             REQUIRE((before == 2) == (found == 2));
-            // Elsewhere lines are cut, by the errors of range_depth: twice 5 roundings of two depths.
+            // Elsewhere lines are cut, with the errors of range_depth: twice 5 roundings of two depths.
             if (!in_a_moment) REQUIRE(std::abs(before - found) <= 20 * 0x1p-24f);
         }
     }

@@ -1,4 +1,4 @@
-// Shared by tests of maps of ranges: a scene of cubes, its exact ranges, and questions to a map.
+// Shared by tests of maps of ranges: a scene of cubes, its exact ranges, and random texels and times of a map.
 #pragma once
 
 #include "evaluation/motion/range_maps.hpp"

@@ -1,4 +1,4 @@
-// Resolved lists against the definition: at any time the front-most range, asked at many times; and lists in one array.
+// Resolved lists against the definition: the front-most range at many times; and lists in one array.
 #include "motion/range/near_ties.hpp"
 #include "support/effort.hpp"
 #include "support/hostile.hpp"
@@ -72,7 +72,7 @@ TEST_CASE_TEMPLATE("resolve_ranges: disjoint, in order, and at any time with the
         }
         for (int k = 0; k < 100; ++k) {
             const double t = bits.uniform(0, 1);
-            // Near an end or a crossing, rounding says who is in front: asked of neighbours, too.
+            // Near an end or a crossing rounding decides which range is in front: test the neighbours, too.
             bool near_event = false;
             for (const auto& s : spans)
                 near_event |= std::abs(t - double(s.t0)) < 300 * u || std::abs(t - double(s.t1)) < 300 * u;
@@ -82,8 +82,8 @@ TEST_CASE_TEMPLATE("resolve_ranges: disjoint, in order, and at any time with the
             const double expected = front_depth(ranges, t), found = front_depth(spans, t);
             CAPTURE(t);
             if (std::isinf(expected)) REQUIRE(std::isinf(found));
-            // A crossing is known within 84 u / d, d the change of distance: the depths differ by 84 u there at most,
-            // and a cut moves a line by its 10 u.
+            // A crossing is known within 84 u / d, d the change of distance, so depths differ there by at most 84 u; a
+            // cut moves a line by 10 u.
             else REQUIRE(std::abs(expected - found) <= 128 * u);
         }
     }
