@@ -1,5 +1,5 @@
-// Covered times: of any three edge functions against extended precision, and of neighbours, which leave no time between
-// them.
+// Covered times: of any three edge functions against extended precision, and of neighbours, which together cover all
+// times.
 #include "coverage_check.hpp"
 #include "support/effort.hpp"
 
@@ -146,8 +146,8 @@ TEST_CASE_TEMPLATE("linear_coverage is moving_coverage of linear edges, except f
 }
 
 // Six triangles around a vertex that passes near the sample, within a ring that keeps away from both.
-// Half of them move alike, on a grid on which sums are exact. Any spokes of these may be taken for what they are,
-// linear in time, and the others not.
+// Half of them have equal motions, on a grid on which sums are exact. Their spokes are linear in time, and may be taken
+// for linear edges.
 TEST_CASE_TEMPLATE("a fan of triangles covers a sample at every time, without a crack", T, float, double)
 {
     bit_source bits(6);

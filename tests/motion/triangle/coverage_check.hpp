@@ -53,7 +53,8 @@ struct tally {
     std::int64_t covered = 0, decided = 0, asked = 0;
 };
 
-/// Covered where all edge functions are positive beyond their tolerance, not where one of them is negative beyond it.
+/// Check that a time is covered if all edge functions are positive beyond their tolerance, and not covered if one of
+/// them is negative beyond it.
 template <class T, class Edges>
 void check_coverage(const coverage_intervals<T>& x, T facing, const std::array<exact, 3>& tolerance, Edges edges_at,
                     bit_source& bits, tally& count)
@@ -73,7 +74,7 @@ void check_coverage(const coverage_intervals<T>& x, T facing, const std::array<e
     };
     constexpr int times = 16;
     for (int i = 0; i < times; ++i) ask((i + bits.uniform(0, 1)) / times, count);
-    // Where a root that is wrong shows: nearby, from one rounding away on.
+    // A wrong root shows beside an end, from one rounding away on.
     tally near;
     for (const interval& i : intervals_of(x))
         for (const double root : {i.begin, i.end}) {

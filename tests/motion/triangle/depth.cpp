@@ -1,5 +1,5 @@
-// Depth linear in view distance, against where the ray through the sample meets the triangle's plane; what is one line,
-// and hostile input.
+// Depth linear in view distance, against the point at which the ray through the sample meets the plane of the triangle;
+// triangles whose depth is a single line; and hostile input.
 #include "motion/receiver/moving_reference.hpp"
 
 #include <doctest/doctest.h>
@@ -15,11 +15,11 @@ using namespace gnomon::test;
 
 namespace {
 
-// As projected() has them.
+// Positions as of projected().
 constexpr double near_plane = 0.02, far_plane = 4;
 double linear(double w) { return 2 * (w - near_plane) / (far_plane - near_plane) - 1; }
 
-/// With linear depth for z.
+/// A triangle with linear depth for z.
 moving_triangle<double> with_linear_depth(moving_triangle<double> m, movement how)
 {
     if (how == movement::perspective)
@@ -27,8 +27,8 @@ moving_triangle<double> with_linear_depth(moving_triangle<double> m, movement ho
     return m;
 }
 
-/// Where the ray meets the plane of the triangle: along (s_x, s_y, 1) in perspective, as (x, y, w) are view space but
-/// for scale, from (s_x, s_y) along z in an orthographic view.
+/// Point at which the ray meets the plane of the triangle: along (s_x, s_y, 1) in perspective, where (x, y, w) is view
+/// space up to scale; from (s_x, s_y) along z in an orthographic view.
 template <class T> exact depth_at_plane(const moving_triangle<T>& m, exact s_x, exact s_y, exact t, bool perspective)
 {
     std::array<std::array<exact, 4>, 3> p;
@@ -63,8 +63,8 @@ std::vector<depth_piece<T>> pieces_of(const moving_triangle<T>& m, const moving_
 
 } // namespace
 
-// The bound of the comment; where the vertices' w hardly differ in perspective, z is rounded beyond what the reference
-// makes of w: T's z differs by 2^-p.
+// The stated bound. Where the w of the vertices hardly differ in perspective, z is rounded by more than the reference's
+// w: the z of T differs by 2^-p.
 TEST_CASE_TEMPLATE("linear depth is that of the point that the sample sees", T, float, double)
 {
     bit_source bits(12);
@@ -134,7 +134,7 @@ TEST_CASE_TEMPLATE("the depth of a plane across the axis is linear in time, also
     CHECK(bent > 0.5);
 }
 
-// Depth is linear in time there. In float the noise of slivers may exceed the tolerance.
+// Depth is linear in time in such a view. In float the rounding of slivers may exceed the tolerance.
 TEST_CASE_TEMPLATE("a translation in an orthographic view is one piece", T, float, double)
 {
     bit_source bits(15);

@@ -18,8 +18,7 @@ using namespace gnomon::test;
 
 namespace {
 
-/// Depth at a time before limits, the D that it is divided by, and what rounding may do to its numerator, in units
-/// 2^-p.
+/// Depth at a time without limits, the D that it is divided by, and the rounding of its numerator, in units of 2^-p.
 struct depth_now {
     exact z, divisor, noise;
 };
@@ -47,7 +46,7 @@ template <class T> struct corner_depth {
         for (std::size_t k = 0; k < 3; ++k) {
             const moving_vertex<T>& v = vertices[k];
             const moving_edge<T>& f = edges[k];
-            // In a covered interval below 0 by rounding alone.
+            // Within a covered interval an edge function is below 0 only by rounding.
             const exact edge = std::max(exact(facing) * mixed(mixed(f.e0, f.e1, t), mixed(f.e1, f.e2, t), t), exact(0));
             const exact w0 = divided ? exact(v.w0) : 1, w1 = divided ? exact(v.w1) : 1;
             r.z += edge * mixed(v.z0, v.z1, t);
@@ -101,8 +100,8 @@ template <class T> struct curve_depth {
     }
 };
 
-/// The largest distance of the depth between two times from the line, over the deviation and its stated error; over
-/// the deviation alone; and the error.
+/// Largest distance of depth from the line between two times: over the deviation with its stated error, and over the
+/// deviation alone; and the error.
 struct departure {
     double ratio, plain, error;
 };
@@ -122,7 +121,7 @@ template <class T, class Depth> departure departs(const Depth& depth, T begin, T
     return {double(worst / (deviation + error)), deviation > 0 ? double(worst / deviation) : 0, double(error)};
 }
 
-/// A curve and two times; numbers of either sign, some of unlike size.
+/// A curve and two times, with numbers of either sign, some of very different sizes.
 template <class T> struct climbed_curve {
     curve_depth<T> depth;
     T begin, end;
@@ -179,7 +178,7 @@ struct piece_counts {
     std::size_t most = 0;
 };
 
-/// Checks what the comment of moving_depth_piece states.
+/// Check the claims of the comment of moving_depth_piece.
 template <class T, class Depth> void check_pieces(Depth depth, T begin, T end, T tolerance, piece_counts& counts)
 {
     const auto pieces = pieces_of(depth, begin, end, tolerance);
@@ -246,7 +245,7 @@ TEST_CASE_TEMPLATE("moving_depth_line: no depth deviates from the line by more t
     }
 }
 
-// An S: at its five quarters and in the middle it meets its line, and is far from it elsewhere.
+// An S-shaped curve crosses its line at all quarters of the time, and is far from it elsewhere.
 TEST_CASE("a curve that crosses its line in the middle is not taken for a line")
 {
     const depth_curve<double> s{0, 0.75, -0.75, 0, 1, 2, 1, 0, 0, -1, 1};

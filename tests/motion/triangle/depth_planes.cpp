@@ -1,5 +1,5 @@
-// When depth is on one side of a plane: cubics against their values at many times, and as they climb; and edges that
-// are widened by their error against exact ones.
+// Times at which depth is on one side of a plane: cubics against their values at many times and under a climber; and
+// widened edges against exact ones.
 #include "coverage_check.hpp"
 #include "support/climber.hpp"
 #include "support/effort.hpp"
@@ -36,9 +36,8 @@ template <class T> T size_of(const moving_cubic<T>& h)
     return std::max({std::abs(h.h0), std::abs(h.h1), std::abs(h.h2), std::abs(h.h3)});
 }
 
-/// The part of its error by which the cubic's value is beyond 0 on the wrong side, at a time t: 16 roundings of the
-/// largest coefficient for evaluating it, and what it changes within 2^-24, its slope being 6 times the largest at
-/// most.
+/// Part of the stated error by which the cubic's value is on the wrong side of 0 at a time t. The error is 16 roundings
+/// of the largest coefficient, and the change of the value within 2^-24, with a slope of at most 6 times the largest.
 template <class T> exact wrong_by(const moving_cubic<T>& h, exact t)
 {
     const exact error =
@@ -101,7 +100,7 @@ TEST_CASE("depth intervals: none for NaN and beyond the range of coefficients")
         CHECK(moving_cubic_inside(h).end == 0);
 }
 
-// As in the rasterizer: planes in double, rounded to float.
+// Planes in double, rounded to float, as in the rasterizer.
 TEST_CASE("widened edges are inside whenever exact ones are, and hardly longer")
 {
     bit_source bits(63);
@@ -135,7 +134,7 @@ TEST_CASE("widened edges are inside whenever exact ones are, and hardly longer")
             inside += value > 0;
         };
         for (int k = 0; k < 8; ++k) check(exact(bits.uniform(0, 1)));
-        // Beside the times at which it passes.
+        // Times beside those at which the depth passes the plane.
         for (const float t : {wide.begin, wide.end, wide.gap_begin, wide.gap_end})
             for (const int ulps : {-4, -1, 0, 1, 4})
                 if (t <= 1) check(std::clamp(exact(t) * (1 + ulps * exact(u<float>)), exact(0), exact(1)));

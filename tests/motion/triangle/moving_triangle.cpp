@@ -14,9 +14,8 @@
 using namespace gnomon;
 using namespace gnomon::test;
 
-// The tolerance, from the comment: 6 2^-p for shearing and products, 6 for the roots (moving_edge_inside), 8 for
-// rounding times, whose slope is at most twice the coefficients' range; each with X_i Y_j + Y_i X_j as the scale, 32
-// all told.
+// The stated tolerance: 6 2^-p for shearing and products, 6 for the roots (moving_edge_inside), 8 for rounding times,
+// with a slope of at most twice the range of the coefficients; each with X_i Y_j + Y_i X_j as the scale, 32 in total.
 TEST_CASE_TEMPLATE("covered times are those of the static triangle at every time", T, float, double)
 {
     bit_source bits(3);
@@ -134,7 +133,7 @@ TEST_CASE("static, edge-on, touching and translated triangles")
     const moving_triangle<double> point{vertex(0, 0, 0, 0), vertex(0, 0, 0, 0), vertex(0, 0, 0, 0)};
     CHECK(numbers(coverage(point, 0, 0)) == nothing);
 
-    // Carried by 2 along x past the origin: its leading vertex is there at 1/4, its trailing edge at 3/4.
+    // Translated by 2 along x past the origin: its leading vertex is there at 1/4, its trailing edge at 3/4.
     const moving_triangle<double> carried{vertex(-1.5, -0.5, 0.5, -0.5), vertex(-0.5, 0, 1.5, 0),
                                           vertex(-1.5, 0.5, 0.5, 0.5)};
     CHECK(numbers(coverage(carried, 0, 0)) == std::array<double, 9>{1, 0.25, 0.75, 2, 2, 2, 2, 2, 2});

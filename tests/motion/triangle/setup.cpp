@@ -1,5 +1,5 @@
-// Edge functions over a tile: those of moving_triangle.h within the stated error, and blocks that contain what their
-// samples see.
+// Edge functions over a tile: those of moving_triangle.h within the stated error, and blocks that contain the covered
+// times of their samples.
 #include "coverage_check.hpp"
 #include "support/effort.hpp"
 #include "support/moving_triangles.hpp"
@@ -52,7 +52,7 @@ template <class T> std::array<seen_vertex, 3> seen_vertices(const moving_triangl
     return {seen(m.a), seen(m.b), seen(m.c)};
 }
 
-// At one time: edge functions across from the vertices, what errors are proportional to, and depths.
+// Edge functions opposite to the vertices at one time, the scales of their errors, and depths.
 struct seen_at {
     std::array<exact, 3> edges, sizes, z, from_c; // the last: from that of vertex c, at most
 
@@ -90,7 +90,7 @@ template <class T> seen_at see(const moving_triangle<T>& m, T o_x, T o_y, T s_x,
     return r;
 }
 
-/// On a grid that float has with all sums and differences, so that vertices move exactly alike.
+/// A triangle on a grid on which sums and differences are exact in float, so that vertices have exactly equal motions.
 template <class T> moving_triangle<T> translated_triangle(bit_source& bits)
 {
     const bool perspective = bits.chance(0.5);
@@ -196,7 +196,7 @@ TEST_CASE_TEMPLATE("moving_edge_nonlinearity: only its stated error for vertices
         };
         const exact products =
             size(a.x0, a.x1, a, x) * size(b.y0, b.y1, b, y) + size(a.y0, a.y1, a, y) * size(b.x0, b.x1, b, x);
-        // The slope runs along a line; its least is where that is nearest to 0.
+        // The slope lies on a line; it is least where the line is nearest to 0.
         const exact open_x = exact(a.y0) * exact(b.w0) - exact(a.w0) * exact(b.y0),
                     open_y = exact(a.w0) * exact(b.x0) - exact(a.x0) * exact(b.w0),
                     turn_x = exact(a.y1) * exact(b.w1) - exact(a.w1) * exact(b.y1) - open_x,
@@ -264,8 +264,8 @@ TEST_CASE_TEMPLATE("triangle_setup_around: a block is covered at all times at wh
     CHECK(culled > 0);
 }
 
-// The tolerance, from the comment: 12 2^-p for the coefficients of a plane (sheared vertices, products, their
-// difference), 8 for weighing them by depths and asking them at the sample, 12 for the polynomials and their quotient.
+// The stated tolerance: 12 2^-p for the coefficients of a plane (sheared vertices, products, their difference), 8 for
+// combining them with depths and for their values at the sample, 12 for the polynomials and their quotient.
 TEST_CASE_TEMPLATE("depth_curve_at: the mean of the vertices' depths, within the stated error", T, float, double)
 {
     std::int64_t covered = 0, close = 0;
