@@ -251,6 +251,11 @@ class Demo(unittest.TestCase):
             self.assertEqual((ended.returncode, ended.stdout, ended.stderr.count("\n")), (2, "", 1), (words, ended.stderr))
             self.assertEqual(state(), before, words)
 
+    def test_texts_in_charts_overlap_nothing(self):
+        overlaps = Path(__file__).resolve().parents[2] / "tests" / "evaluation" / "gallery" / "overlaps.py"
+        ended = run(sys.executable, overlaps, Path(MAKE_GALLERY).parent, self.out)
+        self.assertEqual((ended.returncode, ended.stderr), (0, ""), ended.stdout)
+
     def test_a_model_is_shaded(self):
         cube = Path(self.folder.name) / "cube.obj"
         corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
