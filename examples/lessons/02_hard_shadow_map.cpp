@@ -7,6 +7,7 @@
 #include "renderer/scene/stage.hpp"
 #include "renderer/shade/shading.hpp"
 
+#include <gnomon/filters/depth_bias.h>
 #include <gnomon/passes/blur.hpp>
 #include <gnomon/passes/look_up.hpp>
 #include <gnomon/passes/mips.hpp>
@@ -14,7 +15,6 @@
 
 #include <glm/geometric.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -25,15 +25,16 @@ constexpr int width = 960, height = 540; // of the picture
 constexpr int side = 1024;               // of the shadow map
 constexpr double filter_radius = 5.5;    // in texels: the blur reaches 4 to either side, the look-up 1.5 further
 
-// How far the filter region of a sloped receiver rises towards the light: the depth bias that keeps it from shadowing
-// itself.
+// The bias that keeps a sloped receiver from shadowing itself: its plane rises towards the light within the filter.
 double depth_bias(const camera& light, const surface& receiver, double level)
 {
-    const double texel = 2 * light.half_extent.x / side;                         // in the scene's units
-    const double cosine = glm::dot(-light.forward, glm::dvec3(receiver.normal)); // of the angle to the light
-    const double slope = std::min(std::sqrt(1 - cosine * cosine) / cosine, 6.0); // rise per unit across
-    const double rise = filter_radius * std::exp2(level) * texel * slope;        // a mip level doubles texels
-    return rise * 2 / (light.far_distance - light.near_distance);                // in signed depth
+    const glm::dvec3 normal = receiver.normal;
+    const double across = glm::length(glm::cross(light.forward, normal)); // the tilt of the normal against the light
+    const double along = glm::dot(light.forward, normal);
+    const double texel = 2 * light.half_extent.x / side;                                   // in the scene's units
+    const double depth_per_texel = texel * 2 / (light.far_distance - light.near_distance); // at a slope of 45 degrees
+    const double rise = filter_radius * std::exp2(level) * depth_per_texel; // a mip level doubles the texels
+    return gnomon::depth_bias_slope_scaled(across, along, rise, 5.67);      // at most that of 80 degrees
 }
 
 int main()

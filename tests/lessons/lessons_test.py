@@ -148,7 +148,7 @@ class Lesson05(Lesson):
     NEAR, FAR = 0.5, 40
 
     def test_every_buffer_gives_the_linear_depth(self):
-        buffers = [row for row in rows(self.printed) if len(row) == 7]
+        buffers = [row for row in rows(self.printed) if len(row) == 8]
         self.assertEqual(len(buffers), 7)
         for distance, *depths, wrong in buffers:
             exact = 2 * (distance - self.NEAR) / (self.FAR - self.NEAR) - 1

@@ -1,6 +1,7 @@
 // Shades a pixel by a sun that the map shadows, and by a sky.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "depth_bias.glsl"
 #include "moments4.glsl"
 
 layout(binding = 0) uniform frame
@@ -25,10 +26,10 @@ void main()
     float cosine = dot(to_light.xyz, normal);
     float intensity = 0;
     if (cosine > 0 && all(lessThanEqual(abs(vec3(2 * uv - 1, depth)), vec3(1)))) {
-        float slope = length(to_light.xyz - cosine * normal) / cosine;
+        float across = length(to_light.xyz - cosine * normal);
+        float bias = depth_bias_slope_scaled(across, cosine, to_light.w * footprint, 5.67);
         vec4 t = textureLod(sampler2D(map, trilinear), uv, log2(footprint));
-        float receiver = depth - to_light.w * footprint * min(slope, 6);
-        intensity = moments4_unorm16_filtered_intensity(channels4(t.x, t.y, t.z, t.w), receiver); // the shadow
+        intensity = moments4_unorm16_filtered_intensity(channels4(t.x, t.y, t.z, t.w), depth - bias); // the shadow
     }
     vec3 ambient = mix(earth.rgb, sky.rgb, 0.5 + 0.5 * normal.y);
     colour = vec4(albedo * (ambient + (1 - intensity) * max(cosine, 0) * sun.rgb), 1);
