@@ -3,14 +3,14 @@
 // time (the resolve of Palmer 2011, 2.4).
 //
 //     list = range_list_make(range);                  list = range_list_insert(list, range) for every other range
-//     resolved = range_list_resolve(list);
-//     or span by span: t = 0; span = range_list_front(list, t); t = span.t1 as long as t < 1
+//     intensity = range_list_intensity(list, t, z, id, bias);    shadow test at one time
+//     resolved = range_list_resolve(list);                       lower envelope, for receivers in closed form
+//     for (t = 0; t < 1; t = span.t1) span = range_list_front(list, t);    the same, span by span
 //
 // A list stores inserted ranges unchanged and drops those that another range provably occludes (range_occludes). Until
 // the list overflows, neither its contents nor its resolved form depend on the order of insertion or on rounding. On
-// overflow it first drops a range that several others jointly occlude. Failing that, it merges the two most similar
-// ranges into one in front of both (range_merge.h): what is in shadow stays in shadow, and what was lit and becomes
-// shadowed is counted.
+// overflow it first drops ranges that several others jointly occlude. If there is still no room, it merges the two most
+// similar ranges into one in front of both (range_merge.h): shadows stay, and the shadow that merging adds is counted.
 //
 // Occluded ranges are dropped regardless of their ids. So a receiver gets the answer of all ranges, unless a range of
 // its own id lies in front of it by more than its bias: that range does not shadow the receiver, and ranges that it
@@ -29,9 +29,9 @@ GNOMON_NAMESPACE_BEGIN
 #define GNOMON_RANGE_CAPACITY 8
 #endif
 
-/// Ranges in the order of range_less, with empty ranges between them, and upper bounds of what merging has cost: except
-/// for a total time of time_added, wherever the list has a range now, some range was there before, at most depth_added
-/// behind it.
+/// Ranges in the order of range_less, with empty ranges between them, and upper bounds of the cost of merging: except
+/// for a total time of time_added, wherever the list has a range, some inserted range was there, too, at most
+/// depth_added behind it.
 GNOMON_LIST_STRUCT(range_list)
 {
     GNOMON_T(depth_time_range) ranges[GNOMON_CAPACITY];
