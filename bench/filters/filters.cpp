@@ -5,6 +5,7 @@
 
 #include <gnomon/comparators/hamburger_cholesky.h>
 #include <gnomon/filters/convolution.h>
+#include <gnomon/filters/depth_bias.h>
 #include <gnomon/filters/exponential.h>
 #include <gnomon/filters/exponential_variance.h>
 #include <gnomon/filters/layered_variance.h>
@@ -175,7 +176,55 @@ struct convolution : compilation {
     }
 };
 
+/// Operands, each drawn evenly from [least, greatest].
+template <std::size_t n>
+std::vector<std::array<double, n>> even(std::size_t count, std::uint64_t seed, double least, double greatest)
+{
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> number(least, greatest);
+    std::vector<std::array<double, n>> result(count);
+    for (auto& operands : result)
+        for (double& x : operands) x = number(random);
+    return result;
+}
+
+struct bias_of_slope : compilation {
+    static constexpr auto name = "depth bias, slope-scaled";
+    static constexpr std::size_t inputs = 3;
+    static constexpr bool has_error = true;
+    static auto samples(std::size_t count, std::uint64_t seed) { return even<inputs>(count, seed, 0.001, 1); }
+    template <class Real> static GNOMON_INLINE constexpr Real run(Real across, Real along, Real rise)
+    {
+        return depth_bias_slope_scaled(across, along, rise, literal<Real>(5.67));
+    }
+};
+
+struct bias_of_plane : compilation {
+    static constexpr auto name = "depth bias, receiver plane from derivatives";
+    static constexpr std::size_t inputs = 6;
+    static constexpr bool has_error = true;
+    static auto samples(std::size_t count, std::uint64_t seed) { return even<inputs>(count, seed, -1, 1); }
+    template <class Real>
+    static GNOMON_INLINE constexpr Real run(Real x1, Real y1, Real depth1, Real x2, Real y2, Real depth2)
+    {
+        return depth_bias_receiver_plane(depth_gradient_from_derivatives(x1, y1, depth1, x2, y2, depth2),
+                                         literal<Real>(5.5), literal<Real>(5.5), literal<Real>(0.25));
+    }
+};
+
+struct perspective : compilation {
+    static constexpr auto name = "depth from a perspective buffer";
+    static constexpr std::size_t inputs = 1;
+    static constexpr bool has_error = true;
+    static auto samples(std::size_t count, std::uint64_t seed) { return even<inputs>(count, seed, 0, 1); }
+    template <class Real> static GNOMON_INLINE constexpr Real run(Real z)
+    {
+        return depth_from_perspective(z, literal<Real>(0.5), literal<Real>(40));
+    }
+};
+
 [[maybe_unused]] const bool registered =
-    add_kernels<algorithm1, closer9, variance, layered, exponential, exponential_variance, convolution>("filters");
+    add_kernels<algorithm1, closer9, variance, layered, exponential, exponential_variance, convolution, bias_of_slope,
+                bias_of_plane, perspective>("filters");
 
 } // namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC
