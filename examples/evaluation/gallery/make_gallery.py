@@ -83,8 +83,9 @@ def front_chart(drivers):
             if block.get("front"):
                 where, page = f"{driver.file}: facts.blocks[{i}]", Page(driver.folder, f"{quote(driver.id)}/")
                 return (f"<h2>{escape(block.get('title', driver.facts['title']))}</h2>\n"
-                        f'<div class="two"><div>{chart(block, page, where, only_first=True)}</div>'
+                        f'<div class="two"><div>{chart({**block, "caption": ""}, page, where, only_first=True)}</div>'
                         f'<div>{paragraphs(block.get("text", ""), f"{where}.text", page.prefix)}'
+                        f'{paragraphs(block.get("caption", ""), f"{where}.caption", page.prefix)}'
                         f"<p>From: {driver.link('')}.</p></div></div>")
     return ""
 

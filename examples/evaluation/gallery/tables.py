@@ -33,7 +33,10 @@ class Column:
         self.best = None
         if "best" in column and values:
             least = (column["best"] == "low") == (column.get("scale", 1) > 0)
-            self.best = shown(min(values) if least else max(values), column)
+            best = shown(min(values) if least else max(values), column)
+            # A value that most rows have marks out none.
+            if 2 * sum(shown(value, column) == best for value in values) <= len(values) or len(values) < 3:
+                self.best = best
 
     def head(self):
         label = (swatch(self.facts["colour"]) if "colour" in self.facts else "") + escape(self.facts["label"])
