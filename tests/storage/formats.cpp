@@ -81,3 +81,25 @@ TEST_CASE_TEMPLATE("an occluder over half of the filter region casts half a shad
     // 16-bit roundings of the warped moments move the bound by 2 x 3 x 2^-11 at most.
     CHECK(std::abs(double(Format::intensity(filtered, 0.5f)) - 0.5) <= 0.01);
 }
+
+// A minimum variance of 99 e^2 darkens by 1% where the mean is off by e, three roundings of a depth.
+TEST_CASE("the settings of formats are those that their comments derive")
+{
+    const auto against = [](double rounding) { return 99 * (3 * rounding) * (3 * rounding); };
+    const auto equal = [](double value, double derived) { CHECK(std::abs(value / derived - 1) <= 4 * 0x1p-53); };
+    equal(variance_unorm16_minimum_variance, against(1 / 65535.0));
+    equal(exponential_variance_half_minimum_variance, against(0x1p-11 / exponential_variance_half_exponent));
+    equal(exponential_variance_float_minimum_variance,
+          against(0x1p-24 + 0x1p-24 / exponential_variance_float_negative_exponent));
+    equal(layered_variance_unorm16_minimum_variance, 3 * (0.5 + 2) / 65535);
+    const convolution_settings<double> series{16, 0, convolution_unorm8_offset, 0.9375};
+    equal(series.offset, 1.9264476603173706 / (3.1415926535897932 * series.terms * series.span));
+    const std::array weights{convolution_unorm8_weight1,  convolution_unorm8_weight2,  convolution_unorm8_weight3,
+                             convolution_unorm8_weight4,  convolution_unorm8_weight5,  convolution_unorm8_weight6,
+                             convolution_unorm8_weight7,  convolution_unorm8_weight8,  convolution_unorm8_weight9,
+                             convolution_unorm8_weight10, convolution_unorm8_weight11, convolution_unorm8_weight12,
+                             convolution_unorm8_weight13, convolution_unorm8_weight14, convolution_unorm8_weight15,
+                             convolution_unorm8_weight16};
+    for (std::size_t k = 0; k < weights.size(); ++k) CHECK(weights[k] == convolution_weight(double(k + 1), series));
+    CHECK(std::isfinite(half_decode(half_encode(float(std::exp(2 * exponential_variance_half_exponent))))));
+}
