@@ -1,5 +1,6 @@
 // The program behind ./run demo.
 #include "evaluation/core/driver.hpp"
+#include "evaluation/core/registry_facts.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -36,9 +37,10 @@ try {
     settings how;
     std::vector<std::string> names;
     std::string out = how.out.string(), model;
-    bool full = false, tiny = false;
+    bool full = false, tiny = false, registry = false;
 
     CLI::App app("Renders shadows by every method of Gnomon; with no argument all drivers run.", "gnomon_demo");
+    const std::string facts = registry_facts(); // refuses ids that two share
     const std::vector<const driver*> drivers = registry_of<driver>().all();
     std::vector<std::string> known;
     for (const driver* d : drivers)
@@ -61,6 +63,7 @@ try {
             ->type_name("T0,T1")
             ->delimiter(',')
             ->needs(still);
+    app.add_flag("--registry", registry, "print ids of methods, scenes, drivers and the like as JSON, run nothing");
     app.add_option("--out", out, "folder for the gallery and report.json")->capture_default_str();
     try {
         app.parse(words_of(argc, argv));
@@ -68,6 +71,10 @@ try {
         if (error.get_exit_code() == 0) return app.exit(error);
         fmt::print(stderr, "demo: {}\n", error.what());
         return 2;
+    }
+    if (registry) {
+        fmt::print("{}\n", facts);
+        return 0;
     }
     if (full) how.supersampling = 2;
     if (tiny) how.width /= 4, how.height /= 4, how.map_resolution /= 4;

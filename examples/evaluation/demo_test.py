@@ -15,6 +15,8 @@ from urllib.parse import unquote
 import matplotlib.image
 
 DEMO, MAKE_GALLERY = sys.argv[1:3]
+IDENTITY = ("scene", "part", "method", "family", "map", "receiver", "format", "parameters", "reference", "real", "lanes",
+            "threads", "device")
 ANALYTIC = "resolved ranges, receivers analytic"
 
 
@@ -55,6 +57,11 @@ class Links(HTMLParser):
         self.targets |= {value for name, value in attrs if name in ("src", "href") or (tag, name) == ("option", "value")}
 
 
+def weights(steps):
+    """Depths and weights of a distribution function; its first and last points bound the chart."""
+    return [(z, after - before) for (_, before), (z, after) in zip(steps[:-2], steps[1:-1])]
+
+
 class Demo(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -65,56 +72,59 @@ class Demo(unittest.TestCase):
             if ended.returncode:
                 raise RuntimeError(ended.stderr)
         cls.report = json.loads((cls.out / "report.json").read_text())
+        cls.rows = [row for row in cls.report if row["family"]]  # of drivers whose rows have ids
+        cls.registry = json.loads(run(DEMO, "--registry").stdout)
 
     @classmethod
     def tearDownClass(cls):
         cls.folder.cleanup()
 
-    def error(self, method, name, part=None, reference="filtered", scene="fence"):
-        scene = f"{scene}: {part}" if part else scene
-        row, = (row for row in self.report if row["lanes"] == 1
-                and (row["scene"], row["method"], row["reference"]) == (scene, method, reference))
+    def facts(self, driver):
+        return json.loads((self.out / "gallery" / driver / "facts.json").read_text())
+
+    def error(self, method, name, part="", reference="filtered", scene="fence"):
+        row, = (row for row in self.report if row["lanes"] == 1 and
+                (row["scene"], row["part"], row["method"], row["reference"]) == (scene, part, method, reference))
         return row[name]
 
     def motion(self, scene, method, name="rmse"):
         row, = (row for row in self.report if (row["scene"], row["method"], row["reference"]) == (scene, method, "traced"))
         return row[name]
 
-    def less(self, better, worse, name="leak", part=None):
+    def less(self, better, worse, name="leak", part=""):
         self.assertLess(self.error(better, name, part), self.error(worse, name, part))
 
     def test_moments_leak_less_than_exponential_variance_at_64_bits(self):
         # The paper's bias leaks less than the certificate here, but does not allow for what two passes round.
-        self.less("MSM 64 bit (paper)", "EVSM 64 bit")
-        self.less("MSM 64 bit", "EVSM 64 bit")
+        self.less("msm4_unorm16_paper", "evsm_half")
+        self.less("msm4_unorm16", "evsm_half")
 
     def test_signed_depth_leaks_less_than_depth_from_0_to_1(self):
-        self.less("MSM 128 bit (paper)", "MSM 128 bit, depth in [0, 1]")
-        self.less("MSM 128 bit", "MSM 128 bit (paper)")
+        self.less("msm4_float_paper", "msm4_float_unit")
+        self.less("msm4_float", "msm4_float_paper")
 
     def test_six_moments_leak_less_than_four_where_three_surfaces_meet(self):
-        self.less("MSM6 192 bit", "MSM 128 bit", part="sign, fence and wall")
+        self.less("msm6_float", "msm4_float", part="sign_fence_wall")
 
     def test_more_moments_and_more_bits_are_better(self):
-        self.less("MSM 128 bit", "VSM 32 bit", "rmse")
-        self.less("MSM6 192 bit", "MSM6 96 bit", "rmse")
-        self.less("MSM6 96 bit", "MSM6 60 bit", "rmse")
+        self.less("msm4_float", "vsm_unorm16", "rmse")
+        self.less("msm6_float", "msm6_unorm16", "rmse")
+        self.less("msm6_unorm16", "msm6_unorm10", "rmse")
 
     def test_percentage_closer_filtering_is_its_own_reference(self):
         # Some hundred float weights, each rounded to 2^-24 of at most 1 when it is added up.
-        self.assertLess(self.error("PCF", "max_abs"), 1e3 * 2**-24)
+        self.assertLess(self.error("pcf", "max_abs"), 1e3 * 2**-24)
 
     def test_lower_bounds_show_no_acne(self):
         # An intensity may exceed the bound by what rounding to the format can do; 1e-3 is visible to nobody.
-        for method in ("VSM 32 bit", "LVSM 128 bit", "ESM 32 bit", "EVSM 128 bit", "MSM 64 bit", "MSM 128 bit",
-                       "MSM6 192 bit"):
+        for method in ("vsm_unorm16", "lvsm_unorm16", "esm_float", "evsm_float", "msm4_unorm16", "msm4_float", "msm6_float"):
             self.assertLess(self.error(method, "acne"), 1e-3, method)
 
     def test_certified_bounds_never_darken_where_raised_pivots_do(self):
-        raised = "MSM 64 bit, raised pivots"
+        raised = "msm4_unorm16_raised"
         self.assertGreater(self.error(raised, "max_dark", scene="contact"), 0.05)
         self.assertGreater(self.error(raised, "darkened", scene="contact"), 0)
-        for method in ("MSM 64 bit", "MSM 64 bit half", "MSM 128 bit"):
+        for method in ("msm4_unorm16", "msm4_half", "msm4_float"):
             for scene in ("fence", "contact"):
                 self.assertLess(self.error(method, "max_dark", scene=scene), 1e-5, method)
                 self.assertLess(self.error(method, "acne_unbiased", scene=scene), 1e-5, method)
@@ -194,11 +204,68 @@ class Demo(unittest.TestCase):
             self.assertGreater(row["ns_per_receiver"], 0)
             self.assertEqual(row["bytes_per_texel"] > 0, row["format"] != "Embree", row["method"])  # rays need no map
 
+    def test_rows_are_identified_by_what_the_registry_knows(self):
+        known = {kind: {one["id"]: one for one in entries} for kind, entries in self.registry.items()}
+        identities = set()
+        for row in self.rows:
+            method = known["methods"][row["method"]]
+            for kind in ("family", "map", "format", "bytes_per_texel"):
+                self.assertEqual(row[kind], method[kind], row["method"])
+            for kind in ("family", "scene", "receiver", "reference"):
+                self.assertIn(row[kind], known["families" if kind == "family" else kind + "s"])
+            self.assertTrue(row["label"])
+            self.assertIsInstance(row["parameters"], dict)
+            identity = tuple(json.dumps(row[field], sort_keys=True) for field in IDENTITY)
+            self.assertNotIn(identity, identities)
+            identities.add(identity)
+
+    def test_every_method_has_a_row_in_every_part_for_every_reference(self):
+        parts = {"fence": {"", "fence", "fence_wall", "sign_fence_wall"}, "contact": {"", "gap_1", "gap_2", "gap_3"}}
+        for scene, expected in parts.items():
+            rows = [row for row in self.rows if row["scene"] == scene and row["reference"] in ("filtered", "traced")]
+            methods = {row["method"] for row in rows}
+            self.assertGreaterEqual(len(methods), 17)
+            found = {(row["method"], row["part"], row["reference"]) for row in rows}
+            self.assertEqual(found, {(m, p, r) for m in methods for p in expected for r in ("filtered", "traced")})
+
+    def test_a_look_up_takes_longer_than_its_kernel(self):
+        filterable = {m["id"] for m in self.registry["methods"] if m["map"] == "filtered"}
+        rows = [row for row in self.rows if row["method"] in filterable and row["reference"] == "filtered"]
+        self.assertTrue(rows)
+        for row in rows:
+            self.assertLess(row["ns_kernel"], row["ns_per_receiver"], row["method"])
+            self.assertGreater(row["map_bytes"], row["bytes_per_texel"] * 256**2, row["method"])  # mip levels
+
+    def test_pages_have_texts_for_those_who_cannot_see(self):
+        drivers = {driver["id"] for driver in self.registry["drivers"]}
+        pages = [json.loads(file.read_text()) for file in (self.out / "gallery").glob("*/facts.json")]
+        pages = [page for page in pages if "blocks" in page]
+        self.assertGreaterEqual({page["driver"] for page in pages}, {"hard_shadows", "contact", "bounds"})
+        for page in pages:
+            self.assertIn(page["driver"], drivers)
+            self.assertTrue(page["title"] and page["summary"] and page["blocks"])
+            shown = [(picture["file"], picture["alt"]) for block in page["blocks"] for picture in block.get("pictures", [])]
+            if "front" in page:
+                shown.append((page["front"]["picture"], page["front"]["alt"]))
+            for file, alt in shown:
+                self.assertTrue((self.out / "gallery" / page["driver"] / file).exists(), file)
+                self.assertGreater(len(alt), 20, file)
+            for block in page["blocks"]:
+                if block["type"] in ("chart", "map"):
+                    self.assertGreater(len(block["alt"]), 20, block["name"])
+
+    def test_every_picture_of_a_page_is_shown(self):
+        for driver in ("hard_shadows", "contact"):
+            shown = {picture["file"] for block in self.facts(driver)["blocks"] for picture in block.get("pictures", [])}
+            left = {file.name for file in (self.out / "gallery" / driver).glob("*.png")}
+            self.assertLessEqual(shown, left)
+            self.assertGreaterEqual(len(shown), 3 * 17 + 2)
+
     def test_pictures_are_not_empty(self):
         files = sorted((self.out / "gallery").rglob("*.png"))
         self.assertGreater(len(files), 40)
         for file in files:
-            if file.name == "method00-filtered.png" or file.name.endswith(("-difference.png", "-error.png")):
+            if file.name == "pcf-filtered.png" or file.name.endswith(("-difference.png", "-error.png")):
                 continue  # white: percentage-closer filtering against itself, the CPU against a device, exact methods
             self.assertGreater(matplotlib.image.imread(file)[..., :3].std(), 0.01, file)
 
@@ -214,18 +281,20 @@ class Demo(unittest.TestCase):
                     self.assertTrue((page.parent / unquote(target)).exists(), target)
 
     def test_bounds_hold(self):
-        facts = json.loads((self.out / "gallery" / "bounds" / "facts.json").read_text())
+        chart, = (block for block in self.facts("bounds")["blocks"] if block["type"] == "chart")
         widths = []
-        for bounds in facts["bounds"]:
-            for z, lower, upper in zip(bounds["receivers"], bounds["lower"], bounds["upper"]):
-                closer = sum(w for depth, w in zip(facts["depths"], facts["weights"]) if depth < z)
+        for panel, moments in zip(chart["panels"], (2, 4, 6), strict=True):
+            band, = (series["points"] for series in panel["series"] if series["style"] == "band")
+            *touching, truth = (weights(series["points"]) for series in panel["series"] if series["style"] == "steps")
+            self.assertEqual(len(touching), 4)
+            for z, lower, upper in band:
+                closer = sum(w for depth, w in truth if depth < z)
                 self.assertLessEqual(lower, closer + 1e-12)
                 self.assertLessEqual(closer, upper + 1e-12)
-            widths.append(sum(u - l for u, l in zip(bounds["upper"], bounds["lower"])))
-            for touching in bounds["representations"]:
-                for power in range(bounds["moments"] + 1):
-                    expected, found = (sum(w * z**power for z, w in zip(d["depths"], d["weights"]))
-                                       for d in (facts, touching))
+            widths.append(sum(upper - lower for _, lower, upper in band))
+            for distribution in touching:
+                for power in range(moments + 1):
+                    expected, found = (sum(w * z**power for z, w in d) for d in (truth, distribution))
                     self.assertAlmostEqual(expected, found, 10)
         self.assertGreater(widths[0], widths[1])
         self.assertGreater(widths[1], widths[2])

@@ -92,7 +92,7 @@ TEST_CASE("a page has all that its blocks say")
 {
     CHECK(driver_folder().written(some_page()) == ordered_json::parse(R"({
         "driver": "some_driver", "title": "Title", "family": "hard", "summary": "One sentence.",
-        "front": {"file": "a.png", "alt": "a box", "caption": "A box"},
+        "front": {"picture": "a.png", "alt": "a box", "caption": "A box"},
         "blocks": [
             {"type": "text", "title": "Head", "text": "a &amp; b"},
             {"type": "table", "title": "Numbers", "folded": true,
@@ -109,7 +109,8 @@ TEST_CASE("a page has all that its blocks say")
                        "ticks": [[0.5, "half"]]}, "pareto": true, "size": "bytes",
                  "series": [{"label": "PCF", "colour": "#222222", "style": "points", "points": [[1.0, 2.0, 16.0]],
                              "labelled": false, "texts": ["16"], "dashed": true, "marker": "star"},
-                            {"label": "rules", "style": "rule", "points": [[1.0, null], [null, 2.0]]}]}]},
+                            {"label": "rules", "style": "rule", "points": [[1.0, null], [null, 2.0]],
+                             "labelled": true}]}]},
             {"type": "map", "name": "failures", "alt": "a map",
              "x": {"label": "weight", "scale": "linear", "values": [0.0, 1.0]},
              "y": {"label": "distance", "scale": "log", "values": [0.5]}, "threshold": 0.01, "label": "darkness",

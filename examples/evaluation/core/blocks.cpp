@@ -27,7 +27,10 @@ class page_writer {
         json result{{"driver", what.driver}, {"title", what.title}, {"family", what.family}, {"summary", what.summary}};
         if (const evaluation::driver* of = registry_of<evaluation::driver>().find(what.driver))
             result["order"] = of->order;
-        if (what.front) result["front"] = picture(*what.front);
+        if (what.front) {
+            const json shown = picture(*what.front);
+            result["front"] = {{"picture", shown["file"]}, {"alt", shown["alt"]}, {"caption", shown["caption"]}};
+        }
         result["blocks"] = json::array();
         for (const block& one : what.blocks)
             result["blocks"].push_back(std::visit([&](const auto& b) { return written(b); }, one));
@@ -166,7 +169,7 @@ class page_writer {
                 if (!s.colour.empty()) one["colour"] = s.colour;
                 one["style"] = styles[static_cast<int>(s.style)];
                 one["points"] = points_of(s);
-                if (!s.labelled) one["labelled"] = false;
+                one["labelled"] = s.labelled;
                 need(s.texts.empty() || s.texts.size() == s.points.size(),
                      fmt::format("{} has {} texts for {} points", s.label, s.texts.size(), s.points.size()));
                 if (!s.texts.empty()) one["texts"] = s.texts;

@@ -121,10 +121,14 @@ class shadow_method : public method {
     virtual std::unique_ptr<shadow_map> build(const depth_map& depths, std::span<const float> taps) const = 0;
 };
 
-// How a device stores and looks up a method: the formats of one or two images, as Vulkan names them, and the two kernels
-// of the storage format.
+// How a device stores and looks up a method: the images of a texel, one or two, and the two kernels of the storage format.
+// CMake reads device forms in the files of methods and compiles the shaders of each.
+struct device_image {
+    std::string format; // as Vulkan-Hpp names it
+    int channels;       // in use, from the first on
+};
 struct device_form {
-    std::vector<std::string> images;
+    std::vector<device_image> images;
     std::string encode, intensity;
 };
 

@@ -1,28 +1,15 @@
 #include "comparison.hpp"
 
-#include "evaluation/core/method.hpp"
-#include "evaluation/core/percentage_closer.hpp"
-#include "evaluation/core/receivers.hpp"
-#include "evaluation/core/report.hpp"
-#include "evaluation/core/timing.hpp"
-#include "renderer/output/file.hpp"
-#include "renderer/raster/rasterizer.hpp"
+#include "comparison_page.hpp"
+#include "measurement.hpp"
+#include "renderer/output/image.hpp"
 #include "renderer/shade/shading.hpp"
-#include "renderer/trace/tracer.hpp"
-
-#include <gnomon/passes/blur.hpp>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <optional>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <utility>
@@ -34,147 +21,81 @@ using namespace renderer;
 
 namespace {
 
-const auto taps = gaussian_weights();
+const registered<receiver_kind> slope_biased{
+    receiver_facts{.id = "slope_biased", .label = "points, with a depth bias by slope", .order = 10}};
 
-constexpr float error_scale = 0.5f; // visibility at which error colours saturate
-
-// Nanoseconds per receiver: the least time of at least three runs, and of as many as fit into 0.15 s.
-double nanoseconds(const timed_run& timed, std::span<float> result)
-{
-    double least = std::numeric_limits<double>::infinity(), spent = 0;
-    for (int i = 0; i < 3 || spent < 0.15; ++i) {
-        const double time = seconds([&] { timed.run(result); });
-        least = std::min(least, time);
-        spent += time;
-    }
-    return 1e9 * least / double(std::max<std::size_t>(timed.receivers, 1));
-}
-
-struct timing {
-    int lanes;
-    double ns_kernel, ns_look_up;
+struct known_visibility {
+    std::vector<float> biased, unbiased; // the second only where the reference uses depths
+    image<float> picture;
 };
-
-struct outcome {
-    const method& of;
-    double build_ms, map_bytes;
-    std::vector<float> visibility, unbiased; // per receiver, and without depth bias
-    std::vector<timing> timings;
-};
-
-outcome outcome_of(const shadow_method& m, const depth_map& depths, const map_receivers& where)
-{
-    outcome result{m, 0, 0, {}, {}, {}};
-    std::unique_ptr<shadow_map> map;
-    result.build_ms = 1e3 * seconds([&] { map = m.build(depths, taps); });
-    result.map_bytes = double(map->bytes());
-    std::vector<float> intensities(where.size());
-    for (const timed_look_up& t : map->timed(where.biased))
-        result.timings.push_back({t.lanes, nanoseconds(t.kernel, intensities), nanoseconds(t.look_up, intensities)});
-    const auto visibility = [&](std::span<const map_receiver> some) {
-        map->intensities(some, intensities);
-        std::vector<float> visible(intensities.size());
-        std::ranges::transform(intensities, visible.begin(), [](float intensity) { return 1 - intensity; });
-        return visible;
-    };
-    result.visibility = visibility(where.biased);
-    result.unbiased = visibility(where.unbiased);
-    return result;
-}
 
 class comparison {
   public:
-    comparison(std::string name, const stage& scenery, const settings& how)
-        : name_(std::move(name)), stage_(scenery), how_(how), folder_(how.out / "gallery" / name_)
+    comparison(const comparison_facts& facts, const settings& how, const stage& scenery)
+        : stage_(scenery, how),
+          result_{facts, how, scenery.world.name, stage_.where.size(), stage_.taps.size(), {}, {}, {}},
+          folder_(how.folder(facts.driver))
     {
-        progress(name_, "shadow map, camera image, ray tracing");
-        const int columns = how.width * how.supersampling, rows = how.height * how.supersampling;
-        tracer rays(stage_.world);
-        depths_ = rasterize_depth<4>(stage_.world, stage_.light, how.map_resolution, how.map_resolution);
-        seen_ = rasterize_surfaces(stage_.world, stage_.eye, columns, rows);
-        where_ = map_receivers_of(seen_, stage_.light, how.map_resolution);
-        const image<float> traced = traced_visibility(rays, stage_.light, seen_);
-        for (const std::size_t pixel : where_.pixels) traced_.push_back(traced.pixels[pixel]);
-        traced_image_ = image_of(traced_);
-
-        progress(name_, "reference: percentage-closer filtering with the same weights");
-        filtered_ = filtered_visibility(where_.biased);
-        filtered_unbiased_ = filtered_visibility(where_.unbiased);
-        filtered_image_ = image_of(filtered_);
-
         const int gap = 4, magnification = 4;
         const int size = (how.width - 2 * gap) / (3 * magnification);
-        for (const point_of_interest& place : stage_.interests)
-            insets_.push_back(inset_around(place, stage_.eye, size, how.width, how.height));
-        facts_ = {{"scene", stage_.world.name},
-                  {"width", how.width},
-                  {"height", how.height},
-                  {"supersampling", how.supersampling},
-                  {"map_resolution", how.map_resolution},
-                  {"taps", taps.size()},
-                  {"bias_radius", bias_radius},
-                  {"error_scale", error_scale},
-                  {"too_dark", too_dark},
-                  {"receivers", where_.size()},
-                  {"methods", nlohmann::json::array()},
-                  {"insets", nlohmann::json::array()}};
-        for (const point_of_interest& place : stage_.interests) {
+        for (const point_of_interest& place : scenery.interests) {
+            insets_.push_back(inset_around(place, scenery.eye, size, how.width, how.height));
             const glm::vec3& c = place.colour;
-            facts_["insets"].push_back(
-                {{"name", place.name},
-                 {"colour", fmt::format("#{:02x}{:02x}{:02x}", srgb8(c.r), srgb8(c.g), srgb8(c.b))}});
+            result_.insets.push_back(
+                {place.id, place.name, fmt::format("#{:02x}{:02x}{:02x}", srgb8(c.r), srgb8(c.g), srgb8(c.b))});
         }
-        write_png(folder_ / "traced.png", figure(shaded(traced_image_)));
-        write_png(folder_ / "filtered.png", figure(shaded(filtered_image_)));
+        for (const hard_reference* r : registry_of<reference>().all_of<hard_reference>()) {
+            progress(facts.driver, "reference: " + r->label);
+            known_visibility known{r->visibility(stage_, stage_.where.biased), {}, {}};
+            if (r->uses_depths) known.unbiased = r->visibility(stage_, stage_.where.unbiased);
+            known.picture = image_of(known.biased);
+            write_png(folder_ / (r->id + ".png"), figure(shaded(known.picture)));
+            result_.references.push_back(r);
+            known_.push_back(std::move(known));
+        }
     }
 
-    void add(const outcome& o)
+    void add(const shadow_method& m)
     {
-        const std::string file = fmt::format("method{:02}", facts_["methods"].size());
-        const image<float> estimate = image_of(o.visibility);
-        tbb::parallel_invoke(
-            [&] { write_png(folder_ / (file + ".png"), figure(shaded(estimate))); },
-            [&] { write_png(folder_ / (file + "-filtered.png"), figure(error(estimate, filtered_image_))); },
-            [&] { write_png(folder_ / (file + "-traced.png"), figure(error(estimate, traced_image_))); });
-        facts_["methods"].push_back({{"method", o.of.label}, {"format", o.of.format.label}, {"file", file}});
-        add_rows(o);
+        progress(result_.facts.driver, m.label);
+        const measurement found = measure(m, stage_);
+        const image<float> estimate = image_of(found.visibility);
+        write_png(folder_ / (m.id + ".png"), figure(shaded(estimate)));
+        tbb::parallel_for(std::size_t(0), known_.size(), [&](std::size_t k) {
+            write_png(folder_ / fmt::format("{}-{}.png", m.id, result_.references[k]->id),
+                      figure(error(estimate, known_[k].picture)));
+        });
+        result_.methods.push_back({&m, m.id, {}});
+        add_rows(m, found, {}, {0, 0, result_.how.width, result_.how.height});
+        for (std::size_t i = 0; i < insets_.size(); ++i) add_rows(m, found, result_.insets[i].id, insets_[i]);
     }
 
     void finish() const
     {
-        write_file(folder_ / "facts.json", facts_.dump(1));
-        merge_report(how_.out / "report.json", rows_);
+        write_page(folder_, comparison_page(result_));
+        std::vector<report_row> rows;
+        for (const compared_method& m : result_.methods) rows.insert(rows.end(), m.rows.begin(), m.rows.end());
+        merge_report(result_.how.out / "report.json", rows);
     }
-
-    const depth_map& depths() const { return depths_; }
-    const map_receivers& where() const { return where_; }
 
   private:
-    std::vector<float> filtered_visibility(const std::vector<map_receiver>& some) const
-    {
-        std::vector<float> result(where_.size());
-        tbb::parallel_for(std::size_t(0), where_.size(), [&](std::size_t i) {
-            result[i] = 1 - static_cast<float>(percentage_closer_intensity<double>(depths_, some[i], taps));
-        });
-        return result;
-    }
-
     image<float> image_of(std::span<const float> visibility) const
     {
-        image<float> result(seen_.width, seen_.height, 1);
-        for (std::size_t i = 0; i < where_.size(); ++i) result.pixels[where_.pixels[i]] = visibility[i];
+        image<float> result(stage_.seen.width, stage_.seen.height, 1);
+        for (std::size_t i = 0; i < stage_.where.size(); ++i) result.pixels[stage_.where.pixels[i]] = visibility[i];
         return result;
     }
 
     picture shaded(const image<float>& visibility) const
     {
-        return reduced(shade(stage_.world, stage_.light, seen_, visibility), how_.supersampling);
+        return reduced(shade(stage_.scenery.world, stage_.scenery.light, stage_.seen, visibility),
+                       result_.how.supersampling);
     }
 
     picture error(const image<float>& estimate, const image<float>& reference) const
     {
-        return error_picture(reduced(estimate, how_.supersampling), reduced(reference, how_.supersampling),
-                             error_scale);
+        return error_picture(reduced(estimate, result_.how.supersampling),
+                             reduced(reference, result_.how.supersampling), error_scale);
     }
 
     // The picture with its insets framed, above the insets magnified.
@@ -184,7 +105,7 @@ class comparison {
         picture framed = whole;
         std::vector<picture> magnified;
         for (std::size_t i = 0; i < insets_.size(); ++i) {
-            const glm::vec3& colour = stage_.interests[i].colour;
+            const glm::vec3& colour = stage_.scenery.interests[i].colour;
             outline(framed, insets_[i], colour);
             picture inset = magnify(whole, insets_[i], 4);
             outline(inset, {4, 4, inset.width - 8, inset.height - 8}, colour, 4);
@@ -193,72 +114,70 @@ class comparison {
         return stacked(std::array{framed, side_by_side(magnified)});
     }
 
-    void add_rows(const outcome& o)
+    // Indices of the receivers within a rectangle of the picture.
+    std::vector<std::size_t> receivers_within(const rectangle& part) const
     {
-        add_rows(o, stage_.world.name, {0, 0, how_.width, how_.height});
-        for (std::size_t i = 0; i < insets_.size(); ++i)
-            add_rows(o, stage_.world.name + ": " + stage_.interests[i].name, insets_[i]);
+        std::vector<std::size_t> result;
+        const int samples = result_.how.supersampling;
+        for (std::size_t i = 0; i < stage_.where.size(); ++i) {
+            const int pixel = static_cast<int>(stage_.where.pixels[i]);
+            const int x = pixel % stage_.seen.width / samples, y = pixel / stage_.seen.width / samples;
+            if (x >= part.x && x < part.x + part.width && y >= part.y && y < part.y + part.height) result.push_back(i);
+        }
+        return result;
     }
 
-    void add_rows(const outcome& o, const std::string& scene, const rectangle& part)
+    void add_rows(const shadow_method& m, const measurement& found, const std::string& part, const rectangle& where)
     {
-        std::vector<float> estimate, filtered, traced, unbiased, filtered_unbiased;
-        for (std::size_t i = 0; i < where_.size(); ++i) {
-            const int pixel = static_cast<int>(where_.pixels[i]);
-            const int x = pixel % seen_.width / how_.supersampling, y = pixel / seen_.width / how_.supersampling;
-            if (x < part.x || x >= part.x + part.width || y < part.y || y >= part.y + part.height) continue;
-            estimate.push_back(o.visibility[i]);
-            filtered.push_back(filtered_[i]);
-            traced.push_back(traced_[i]);
-            unbiased.push_back(o.unbiased[i]);
-            filtered_unbiased.push_back(filtered_unbiased_[i]);
-        }
-        report_row row = row_of(o.of);
-        row.scene = scene;
-        row.method = o.of.label; // as the gallery reads rows
-        row.receivers = static_cast<long long>(estimate.size());
-        row.map_bytes = o.map_bytes;
-        row.build_ms = o.build_ms;
-        for (const timing& t : o.timings) {
-            row.lanes = t.lanes;
-            row.ns_kernel = t.ns_kernel;
-            row.ns_per_receiver = t.ns_look_up;
-            row.reference = "filtered";
-            row.errors = compare(estimate, filtered);
-            row.acne_unbiased = compare(unbiased, filtered_unbiased).acne;
-            rows_.push_back(row);
-            row.reference = "traced";
-            row.errors = compare(estimate, traced);
+        const std::vector<std::size_t> chosen = receivers_within(where);
+        const auto errors = [&](const std::vector<float>& estimate, const std::vector<float>& expected) {
+            std::vector<float> a, b;
+            for (const std::size_t i : chosen) a.push_back(estimate[i]), b.push_back(expected[i]);
+            return compare(a, b);
+        };
+        report_row row = row_of(m);
+        row.scene = result_.facts.scene;
+        row.part = part;
+        row.receiver = slope_biased->id;
+        row.receivers = static_cast<long long>(chosen.size());
+        row.map_bytes = found.map_bytes;
+        row.build_ms = found.build_ms;
+        for (std::size_t k = 0; k < known_.size(); ++k) {
+            row.reference = result_.references[k]->id;
+            row.errors = errors(found.visibility, known_[k].biased);
             row.acne_unbiased.reset();
-            rows_.push_back(row);
+            if (result_.references[k]->uses_depths) row.acne_unbiased = errors(found.unbiased, known_[k].unbiased).acne;
+            for (const measured_time& t : found.times) {
+                row.lanes = t.lanes;
+                row.ns_kernel = t.ns_kernel;
+                row.ns_per_receiver = t.ns_per_receiver;
+                result_.methods.back().rows.push_back(row);
+            }
         }
     }
 
-    std::string name_;
-    const stage& stage_;
-    settings how_;
+    shaded_stage stage_;
+    compared_stage result_;
     std::filesystem::path folder_;
-    depth_map depths_;
-    image<surface> seen_;
-    map_receivers where_;
-    std::vector<float> filtered_, filtered_unbiased_, traced_; // visibility per receiver
-    image<float> filtered_image_, traced_image_;
     std::vector<rectangle> insets_;
-    nlohmann::ordered_json facts_;
-    std::vector<report_row> rows_;
+    std::vector<known_visibility> known_; // of each reference
 };
 
 } // namespace
 
-void compare_methods(const std::string& name, const stage& scenery, const settings& how)
+void compare_methods(const comparison_facts& facts, const settings& how, const stage& scenery)
 {
-    comparison c(name, scenery, how);
+    progress(facts.driver, "shadow map, camera image");
+    comparison c(facts, how, scenery);
     for (const method* m : methods_in_order())
-        if (const auto* one = dynamic_cast<const shadow_method*>(m)) {
-            progress(name, one->label);
-            c.add(outcome_of(*one, c.depths(), c.where()));
-        }
+        if (const auto* one = dynamic_cast<const shadow_method*>(m)) c.add(*one);
     c.finish();
+}
+
+void compare_methods(const comparison_facts& facts, const settings& how)
+{
+    const auto& entry = dynamic_cast<const still_scene&>(registry_of<scene_entry>().at(facts.scene));
+    compare_methods(facts, how, entry.stage(double(how.width) / how.height));
 }
 
 } // namespace gnomon::evaluation

@@ -10,7 +10,7 @@ namespace {
 const registered<filterable<exponential_variance_float>> entry{
     method_facts{.id = "evsm_float", .family = "evsm", .label = "EVSM 128 bit", .order = 20},
     device_form{
-        {"R32G32B32A32Sfloat"}, "exponential_variance_float_encode", "exponential_variance_float_filtered_intensity"}};
+        {{"R32G32B32A32Sfloat", 4}}, "exponential_variance_float_encode", "exponential_variance_float_intensity"}};
 
 } // namespace
 

@@ -13,7 +13,7 @@ const registered<family> evsm{
 const registered<filterable<exponential_variance_half>> entry{
     method_facts{.id = "evsm_half", .family = "evsm", .label = "EVSM 64 bit", .order = 10},
     device_form{
-        {"R16G16B16A16Sfloat"}, "exponential_variance_half_encode", "exponential_variance_half_filtered_intensity"}};
+        {{"R16G16B16A16Sfloat", 4}}, "exponential_variance_half_encode", "exponential_variance_half_intensity"}};
 
 } // namespace
 

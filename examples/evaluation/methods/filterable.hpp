@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -140,8 +139,7 @@ template <storage_format Format> class filterable final : public filterable_meth
     static method_facts completed(method_facts facts)
     {
         facts.map = filtered_map_kind->id;
-        facts.format = {fmt::format("f_{}", Format::name), std::string(Format::name), double(Format::bytes_per_texel)};
-        for (char& c : facts.format.id) c = c == ' ' ? '_' : char(std::tolower(static_cast<unsigned char>(c)));
+        facts.format = {std::string(Format::id), std::string(Format::name), double(Format::bytes_per_texel)};
         return facts;
     }
     static channels listed(const texel_channels& one)

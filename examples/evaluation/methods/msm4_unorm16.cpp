@@ -12,7 +12,7 @@ const registered<family> msm4{
 
 const registered<filterable<moments4_unorm16>> entry{
     method_facts{.id = "msm4_unorm16", .family = "msm4", .label = "MSM 64 bit", .order = 20},
-    device_form{{"R16G16B16A16Unorm"}, "moments4_unorm16_encode", "moments4_unorm16_filtered_intensity"}};
+    device_form{{{"R16G16B16A16Unorm", 4}}, "moments4_unorm16_encode", "moments4_unorm16_filtered_intensity"}};
 
 } // namespace
 

@@ -9,7 +9,9 @@ namespace {
 
 const registered<filterable<moments6_float>> entry{
     method_facts{.id = "msm6_float", .family = "msm6", .label = "MSM6 192 bit", .order = 30},
-    device_form{{"R32G32B32A32Sfloat", "R32G32Sfloat"}, "moments6_float_encode", "moments6_float_filtered_intensity"}};
+    device_form{{{"R32G32B32A32Sfloat", 4}, {"R32G32Sfloat", 2}},
+                "moments6_float_encode",
+                "moments6_float_filtered_intensity"}};
 
 } // namespace
 

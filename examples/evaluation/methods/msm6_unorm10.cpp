@@ -12,7 +12,7 @@ const registered<family> msm6{
 
 const registered<filterable<moments6_unorm10>> entry{
     method_facts{.id = "msm6_unorm10", .family = "msm6", .label = "MSM6 60 bit", .order = 10},
-    device_form{{"A2B10G10R10UnormPack32", "A2B10G10R10UnormPack32"},
+    device_form{{{"A2B10G10R10UnormPack32", 3}, {"A2B10G10R10UnormPack32", 3}},
                 "moments6_unorm10_encode",
                 "moments6_unorm10_filtered_intensity"}};
 

@@ -9,8 +9,9 @@ namespace {
 
 const registered<filterable<moments6_unorm16>> entry{
     method_facts{.id = "msm6_unorm16", .family = "msm6", .label = "MSM6 96 bit", .order = 20},
-    device_form{
-        {"R16G16B16A16Unorm", "R16G16Unorm"}, "moments6_unorm16_encode", "moments6_unorm16_filtered_intensity"}};
+    device_form{{{"R16G16B16A16Unorm", 4}, {"R16G16Unorm", 2}},
+                "moments6_unorm16_encode",
+                "moments6_unorm16_filtered_intensity"}};
 
 } // namespace
 

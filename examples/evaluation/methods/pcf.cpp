@@ -43,7 +43,7 @@ class percentage_closer_method final : public shadow_method {
                          .family = "pcf",
                          .label = "PCF",
                          .map = depths_kind->id,
-                         .format = {"f_4x32_depth", "4 samples of 32 bit depth", sizeof(depth_map::pixels[0])}})
+                         .format = {"depth_4_samples", "4 samples of 32 bit depth", sizeof(depth_map::pixels[0])}})
     {}
 
     std::unique_ptr<shadow_map> build(const depth_map& depths, std::span<const float> taps) const override

@@ -11,7 +11,7 @@ const registered<family> vsm{family{.id = "vsm", .label = "variance shadow maps"
 
 const registered<filterable<variance_unorm16>> entry{
     method_facts{.id = "vsm_unorm16", .family = "vsm", .label = "VSM 32 bit", .order = 10},
-    device_form{{"R16G16Unorm"}, "variance_unorm16_encode", "variance_unorm16_filtered_intensity"}};
+    device_form{{{"R16G16Unorm", 2}}, "variance_unorm16_encode", "variance_unorm16_intensity"}};
 
 } // namespace
 

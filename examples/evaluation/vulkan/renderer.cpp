@@ -11,10 +11,10 @@
 #include <glm/vec4.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <functional>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 
 namespace gnomon::evaluation {
 
@@ -133,6 +133,27 @@ std::vector<device_pass> timed(const vulkan::device& gpu, const std::vector<name
 
 } // namespace
 
+device_method device_method_of(const filterable_method& m)
+{
+    const auto named = [](const device_image& image) {
+        for (auto k = VkFormat(1); k <= VK_FORMAT_ASTC_12x12_SRGB_BLOCK; k = VkFormat(k + 1))
+            if (vk::to_string(vk::Format(k)) == image.format) return vk::Format(k);
+        throw std::invalid_argument("no Vulkan format has the name " + image.format);
+    };
+    device_method result{m.id, {}};
+    for (const device_image& image : m.device->images) result.images.push_back(named(image));
+    return result;
+}
+
+std::vector<const filterable_method*> device_methods()
+{
+    std::vector<const filterable_method*> result;
+    for (const method* m : methods_in_order())
+        if (const auto* one = dynamic_cast<const filterable_method*>(m); one != nullptr && one->device)
+            result.push_back(one);
+    return result;
+}
+
 shadow_renderer::shadow_renderer(const vulkan::device& gpu, const stage& scenery, vk::Extent2D extent,
                                  int map_resolution, std::span<const float> taps, shading_language language)
     : gpu_(gpu),
@@ -164,19 +185,18 @@ bool shadow_renderer::supports(const device_method& method) const
 
 device_frame shadow_renderer::render(const device_method& method) const
 {
-    const shader_texts& texts = language_ == shading_language::glsl ? glsl : hlsl;
-    std::vector<std::uint32_t> constants{method.id, std::uint32_t(method.images.size())};
-    for (const float setting : method.settings) constants.push_back(std::bit_cast<std::uint32_t>(setting));
+    const shader_texts& texts = language_ == shading_language::glsl ? glsl_shaders() : hlsl_shaders();
+    const method_shaders& own = texts.methods.at(method.id);
     const vulkan::shader scene{texts.scene};
 
     const vulkan::raster_target to_map{.depth = depths_, .samples = vk::SampleCountFlagBits::e4};
     const vulkan::raster_pass shadow_map(gpu_, {scene, {}}, to_map, 3, {}, sizeof(light_rows_));
-    const device_map map(gpu_, method, depths_, taps_, {texts.resolve, constants}, {texts.blur});
+    const device_map map(gpu_, method, depths_, taps_, {own.resolve}, {texts.blur});
     const glm::vec3& sky = daylight.background;
     const vulkan::raster_target to_camera{
         camera_depth_, vk::SampleCountFlagBits::e1, &camera_picture_, {sky.r, sky.g, sky.b, 1}};
     const vulkan::raster_pass lighting(
-        gpu_, {scene, vulkan::shader{texts.lighting, constants}}, to_camera, 3,
+        gpu_, {scene, vulkan::shader{own.lighting}}, to_camera, 3,
         {vulkan::uniform{frame_}, vulkan::sampled{map.first()}, vulkan::sampled{map.second()}, *trilinear_},
         sizeof(eye_rows_));
     device_frame result;

@@ -3,13 +3,13 @@
 // map up through a trilinear sampler. The shaders include the packages gnomon.glsl or gnomon.hlsl.
 #pragma once
 
+#include "evaluation/core/method.hpp"
 #include "renderer/output/image.hpp"
 #include "renderer/scene/stage.hpp"
 #include "renderer/vulkan/device.hpp"
 #include "renderer/vulkan/raster.hpp"
 
 #include <array>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,12 +18,17 @@ namespace gnomon::evaluation {
 
 enum class shading_language { glsl, hlsl };
 
-// What tells the shaders one method from another.
+// A method that has shaders, and the Vulkan formats of its images.
 struct device_method {
-    std::uint32_t id;               // of method_id.h
-    std::vector<vk::Format> images; // one or two, of the channels of a texel
-    std::array<float, 3> settings{};
+    std::string id;
+    std::vector<vk::Format> images;
 };
+
+// Throws std::invalid_argument where Vulkan has no format of a name.
+device_method device_method_of(const filterable_method& m);
+
+// The methods of the registry that have a device form, in order.
+std::vector<const filterable_method*> device_methods();
 
 struct device_pass {
     std::string name;
@@ -42,7 +47,7 @@ class shadow_renderer {
     shadow_renderer(const renderer::vulkan::device& gpu, const renderer::stage& scenery, vk::Extent2D extent,
                     int map_resolution, std::span<const float> taps, shading_language language);
 
-    // Whether the device can write the method's images from a shader, halve them and filter them.
+    // True if the device can write the method's images from a shader, halve them and filter them.
     bool supports(const device_method& method) const;
     device_frame render(const device_method& method) const;
 

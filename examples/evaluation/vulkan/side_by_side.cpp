@@ -47,7 +47,7 @@ device_comparison::device_comparison(const vulkan::device& gpu, const stage& sce
 side_by_side device_comparison::render(const filterable_method& m) const
 {
     const std::unique_ptr<shadow_map> map = m.build(depths_, taps_);
-    side_by_side result{{seen_.width, seen_.height, 1}, renderer_.render(on_device(m)), {}};
+    side_by_side result{{seen_.width, seen_.height, 1}, renderer_.render(device_method_of(m)), {}};
     std::vector<float> intensities(where_.size());
     map->intensities(where_.biased, intensities);
     for (std::size_t i = 0; i < where_.size(); ++i) result.host.pixels[where_.pixels[i]] = 1 - intensities[i];

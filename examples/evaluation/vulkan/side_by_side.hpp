@@ -12,7 +12,7 @@
 
 #include "evaluation/core/driver.hpp"
 #include "evaluation/core/report.hpp"
-#include "on_device.hpp"
+#include "renderer.hpp"
 
 #include <gnomon/passes/blur.hpp>
 
@@ -38,7 +38,7 @@ class device_comparison {
   public:
     device_comparison(const renderer::vulkan::device& gpu, const renderer::stage& scenery, const settings& how);
 
-    bool possible(const filterable_method& m) const { return renderer_.supports(on_device(m)); }
+    bool possible(const filterable_method& m) const { return renderer_.supports(device_method_of(m)); }
     side_by_side render(const filterable_method& m) const;
 
     difference_statistics difference(const renderer::image<float>& device, const renderer::image<float>& host) const;

@@ -1,25 +1,24 @@
-// The shaders as glslangValidator compiled them, from either language.
+// The shaders as glslangValidator compiled them, from either language; resolve and lighting for each method that has a
+// device form. CMake writes the definitions (CMakeLists.txt).
 #pragma once
 
-#include "blur_glsl.h"
-#include "blur_hlsl.h"
-#include "lighting_glsl.h"
-#include "lighting_hlsl.h"
-#include "resolve_glsl.h"
-#include "resolve_hlsl.h"
-#include "scene_glsl.h"
-#include "scene_hlsl.h"
-
 #include <cstdint>
+#include <map>
 #include <span>
+#include <string>
 
 namespace gnomon::evaluation {
 
-struct shader_texts {
-    std::span<const std::uint32_t> scene, resolve, blur, lighting;
+struct method_shaders {
+    std::span<const std::uint32_t> resolve, lighting;
 };
 
-inline const shader_texts glsl{scene_glsl, resolve_glsl, blur_glsl, lighting_glsl};
-inline const shader_texts hlsl{scene_hlsl, resolve_hlsl, blur_hlsl, lighting_hlsl};
+struct shader_texts {
+    std::span<const std::uint32_t> scene, blur;
+    std::map<std::string, method_shaders> methods; // by their ids
+};
+
+const shader_texts& glsl_shaders();
+const shader_texts& hlsl_shaders();
 
 } // namespace gnomon::evaluation

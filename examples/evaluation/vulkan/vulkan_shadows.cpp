@@ -1,20 +1,25 @@
+#include "evaluation/core/blocks.hpp"
 #include "evaluation/core/report.hpp"
-#include "renderer/output/file.hpp"
+#include "evaluation/core/scene.hpp"
 #include "renderer/shade/shading.hpp"
 #include "side_by_side.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace gnomon::evaluation {
 
 using namespace renderer;
 
 namespace {
+
+const registered<reference> on_cpu{"cpu", "the same method on the CPU", 40};
 
 constexpr const char* driver_name = "vulkan_shadows";
 constexpr float error_scale = 0.05f; // visibility at which error colours saturate
@@ -25,8 +30,8 @@ report_row row_of(const filterable_method& m, const std::string& scene, const st
 {
     report_row row = evaluation::row_of(m);
     row.scene = scene;
-    row.method = m.label; // as the gallery reads rows
-    row.reference = "cpu";
+    row.receiver = "slope_biased";
+    row.reference = on_cpu->id;
     row.receivers = static_cast<long long>(receivers);
     row.errors = both.difference.errors;
     row.device = device;
@@ -38,22 +43,121 @@ report_row row_of(const filterable_method& m, const std::string& scene, const st
     return row;
 }
 
+struct compared_method {
+    const filterable_method* of;
+    difference_statistics difference;
+    std::vector<device_pass> passes;
+};
+
+table_block numbers(const std::vector<compared_method>& methods, double tolerance)
+{
+    table_block result{.title = "Times and differences",
+                       .text = "Times are the device's own timestamps. Differences are those of visibility to the CPU.",
+                       .columns = {{.key = "method", .label = "method"}, {.key = "format", .label = "format"}},
+                       .rows = {}};
+    for (const device_pass& pass : methods.front().passes) {
+        std::string label = pass.name + ", ms";
+        std::ranges::replace(label, '_', ' ');
+        result.columns.push_back({.key = pass.name, .label = std::move(label), .digits = 2, .best = best::low});
+    }
+    const std::pair<const char*, const char*> statistics[]{
+        {"mean", "mean"}, {"p99", "99%"}, {"p999", "99.9%"}, {"largest", "largest"}};
+    for (const auto& [key, label] : statistics)
+        result.columns.push_back(
+            {.key = key, .label = fmt::format("{}, thousandths", label), .digits = 3, .scale = 1e3, .best = best::low});
+    result.columns.push_back({.key = "beyond",
+                              .label = fmt::format("beyond {:g}, per million", 1e3 * tolerance),
+                              .digits = 0,
+                              .scale = 1e6,
+                              .best = best::low,
+                              .hint = "receivers that differ by more thousandths than the device may add up to"});
+    result.columns.push_back({.key = "at_edges", .label = "of these at edges, %", .digits = 1, .scale = 1e2});
+    for (const auto& [m, d, passes] : methods) {
+        table_row row{{{"method", m->label},
+                       {"format", m->format.label},
+                       {"mean", d.errors.mean_abs},
+                       {"p99", d.p99},
+                       {"p999", d.p999},
+                       {"largest", d.errors.max_abs},
+                       {"beyond", d.beyond},
+                       {"at_edges", d.beyond > 0 ? cell(1 - d.beyond_inside / d.beyond) : cell()}},
+                      m->its_family().colour};
+        for (const device_pass& pass : passes) row.cells.emplace_back(pass.name, pass.milliseconds);
+        result.rows.push_back(std::move(row));
+    }
+    return result;
+}
+
+pictures_block pictures(const compared_method& one)
+{
+    const std::string& id = one.of->id;
+    const error_statistics& e = one.difference.errors;
+    std::string images;
+    for (const device_image& image : one.of->device->images) images += (images.empty() ? "" : " + ") + image.format;
+    pictures_block result{
+        .title = fmt::format("{}, {}", one.of->label, images),
+        .columns = 3,
+        .pictures = {
+            {id + "-device.png", "The fence scene rendered on Vulkan with " + one.of->label, "Vulkan"},
+            {id + "-cpu.png", "The fence scene rendered on the CPU with " + one.of->label, "CPU"},
+            {id + "-difference.png",
+             fmt::format("Differences of visibility between Vulkan and the CPU: {:.2g} on average, at most {:.2g}",
+                         e.mean_abs, e.max_abs),
+             "difference"}}};
+    result.is_folded = true;
+    result.key = {{"#2a62cc", fmt::format("the device is brighter; full colour at {:g}", error_scale)},
+                  {"#c8232c", "the device is darker"}};
+    return result;
+}
+
+page page_of(const std::string& device, const std::vector<compared_method>& methods,
+             const device_comparison& comparison, const settings& how)
+{
+    const double tolerance = double(comparison.tolerance());
+    const compared_method& shown = methods.front();
+    page result{
+        .driver = driver_name,
+        .title = "The same shadows on Vulkan",
+        .family = "hard",
+        .summary = "Shaders that include the library's package show the shadows of the CPU, to within roundings.",
+        .front = shown_picture{shown.of->id + "-device.png",
+                               "The fence scene rendered on Vulkan with " + shown.of->label, "On Vulkan"},
+        .blocks = {text_block{
+            {},
+            fmt::format(
+                "The scene of the hard shadows on {}, as an engine renders it: a shadow map of {} x {} texels by the "
+                "rasterizer with four samples, its resolve to the method's format and a Gaussian of two passes by "
+                "compute "
+                "shaders, mip levels by blits, and {} x {} pixels lit by a fragment shader that looks the map up "
+                "through a "
+                "trilinear sampler. The shaders are {} and include the package of the library, the kernels that the "
+                "CPU "
+                "runs.\n\n"
+                "Over {} receivers, differences to the CPU come from what Vulkan leaves to a device: whether a product "
+                "and "
+                "a sum are fused, in which direction a value is rounded to the map's format, with how many bits a "
+                "sampler "
+                "weighs texels, how positions are interpolated, and how finely corners are snapped to the grid of "
+                "samples. On this device the differences may add up to {:g} thousandths. Beyond that lie receivers at "
+                "edges "
+                "of shadows or surfaces, where intensity is steep. EVSM in half floats differs most where a device "
+                "rounds "
+                "half floats toward zero, as Vulkan permits.",
+                escaped(device), how.map_resolution, how.map_resolution, how.width, how.height,
+                how.hlsl ? "HLSL" : "GLSL", comparison.where().size(), 1e3 * tolerance)}}};
+    result.blocks.push_back(numbers(methods, tolerance));
+    for (const compared_method& one : methods) result.blocks.push_back(pictures(one));
+    return result;
+}
+
 void compare_on(const vulkan::device& gpu, const settings& how)
 {
     progress(driver_name, gpu.name() + ", shaders from " + (how.hlsl ? "HLSL" : "GLSL"));
-    const stage scenery = fence_stage(double(how.width) / how.height);
+    const auto& entry = dynamic_cast<const still_scene&>(registry_of<scene_entry>().at("fence"));
+    const stage scenery = entry.stage(double(how.width) / how.height);
     const device_comparison comparison(gpu, scenery, how);
-    const std::filesystem::path folder = how.out / "gallery" / driver_name;
-    nlohmann::ordered_json facts{{"scene", scenery.world.name},
-                                 {"device", gpu.name()},
-                                 {"language", how.hlsl ? "HLSL" : "GLSL"},
-                                 {"width", how.width},
-                                 {"height", how.height},
-                                 {"map_resolution", how.map_resolution},
-                                 {"receivers", comparison.where().size()},
-                                 {"tolerance", comparison.tolerance()},
-                                 {"error_scale", error_scale},
-                                 {"methods", nlohmann::json::array()}};
+    const std::filesystem::path folder = how.folder(driver_name);
+    std::vector<compared_method> methods;
     std::vector<report_row> rows;
     for (const filterable_method* m : device_methods()) {
         if (!comparison.possible(*m)) {
@@ -62,35 +166,18 @@ void compare_on(const vulkan::device& gpu, const settings& how)
         }
         progress(driver_name, m->label);
         const side_by_side both = comparison.render(*m);
-        const std::string file = fmt::format("method{:02}", rows.size());
+        methods.push_back({m, both.difference, both.device.passes});
         const auto write = [&](const char* kind, const picture& whole) {
-            write_png(folder / (file + kind + ".png"), reduced(whole, how.supersampling));
+            write_png(folder / (m->id + kind + ".png"), reduced(whole, how.supersampling));
         };
         tbb::parallel_invoke(
             [&] { write("-device", both.device.colour); },
             [&] { write("-cpu", shade(scenery.world, scenery.light, comparison.seen(), both.host)); },
             [&] { write("-difference", error_picture(both.device.visibility, both.host, error_scale)); });
-
-        std::vector<std::string> images;
-        for (const vk::Format format : on_device(*m).images) images.push_back(vk::to_string(format));
-        const difference_statistics& d = both.difference;
-        facts["methods"].push_back({{"method", m->label},
-                                    {"format", m->format.label},
-                                    {"images", images},
-                                    {"file", file},
-                                    {"mean", d.errors.mean_abs},
-                                    {"median", d.median},
-                                    {"p99", d.p99},
-                                    {"p999", d.p999},
-                                    {"largest", d.errors.max_abs},
-                                    {"beyond", d.beyond},
-                                    {"beyond_inside", d.beyond_inside},
-                                    {"passes", nlohmann::ordered_json::object()}});
-        for (const device_pass& pass : both.device.passes)
-            facts["methods"].back()["passes"][pass.name] = pass.milliseconds;
-        rows.push_back(row_of(*m, scenery.world.name, gpu.name(), both, comparison.where().size()));
+        rows.push_back(row_of(*m, entry.id, gpu.name(), both, comparison.where().size()));
     }
-    write_file(folder / "facts.json", facts.dump(1));
+    if (methods.empty()) return progress(driver_name, "skipped: the device lacks all formats");
+    write_page(folder, page_of(gpu.name(), methods, comparison, how));
     merge_report(how.out / "report.json", rows);
 }
 

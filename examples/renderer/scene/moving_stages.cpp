@@ -177,7 +177,7 @@ moving_stage pillars(double aspect)
     moving_scene casters{{"pillars", {}}, {}};
     add(casters, boxes, glm::vec3(0));
     return on_ground(casters, {{-3, 2.5, -0.5}, {-3, 5, -0.5}}, {{1, 5.5, 6}, {0.6, 0, 0}, 40}, aspect,
-                     {{"tips of shadows", {2.8f, 0, 1.7f}, green}});
+                     {{"tips_of_shadows", "tips of shadows", {2.8f, 0, 1.7f}, green}});
 }
 
 moving_stage crossed_quads(double aspect)
@@ -186,7 +186,7 @@ moving_stage crossed_quads(double aspect)
     add(casters, level_quad("upper", clay, {-2, 2, 0}, 0.25f, 2), {4, 0, 0});
     add(casters, level_quad("lower", moss, {0, 1, -2}, 2, 0.25f), {0, 0, 4});
     return on_ground(casters, {{0, 8, 0}, {0, 8, 0}}, {{0, 7, 7}, {0, 0.5, 0}, 45}, aspect,
-                     {{"lower quad", {0, 1, 0}, green}, {"ground", {0.3f, 0, 2.1f}, cyan}});
+                     {{"lower_quad", "lower quad", {0, 1, 0}, green}, {"ground", "ground", {0.3f, 0, 2.1f}, cyan}});
 }
 
 moving_stage toward_and_away(double aspect)
@@ -195,7 +195,7 @@ moving_stage toward_and_away(double aspect)
     add(casters, level_quad("toward", clay, {-1.2f, 0.3f, 0}, 0.5f, 0.5f), {0, 2.2f, 0});
     add(casters, level_quad("away", moss, {1.2f, 2.5f, 0}, 0.5f, 0.5f), {0, -2.2f, 0});
     return on_ground(casters, {{0, 6, 0}, {0, 6, 0}}, {{0, 5, 7}, {0, 0.6, 0}, 45}, aspect,
-                     {{"toward", {-2, 0, 0.3f}, green}, {"away", {2, 0, 0.3f}, cyan}});
+                     {{"toward", "toward", {-2, 0, 0.3f}, green}, {"away", "away", {2, 0, 0.3f}, cyan}});
 }
 
 moving_stage cubes_to_the_light(double aspect)
@@ -205,7 +205,7 @@ moving_stage cubes_to_the_light(double aspect)
     moving_scene casters{{"cubes to the light", {}}, {}};
     add(casters, cubes, {0, 1.5f, 0});
     return on_ground(casters, {{0, 7, 0}, {0, 7, 0}}, {{0, 4, 6}, {0, 0.9, 0}, 45}, aspect,
-                     {{"ground", {-1.8f, 0, 0.6f}, green}, {"face", {1, 1.3f, 0.5f}, cyan}});
+                     {{"ground", "ground", {-1.8f, 0, 0.6f}, green}, {"face", "face", {1, 1.3f, 0.5f}, cyan}});
 }
 
 moving_stage random_cubes(double aspect, int count, float longest, float half_extent)
@@ -224,7 +224,7 @@ moving_stage random_cubes(double aspect, int count, float longest, float half_ex
     moving_scene casters{{"random cubes", {}}, {}};
     add(casters, open, closing);
     return on_ground(casters, {{3, 10, 3}, {3, 10, 3}}, {{0, 8, 11}, {0, 1.5, 0}, 45}, aspect,
-                     {{"ground", {-3, 0, 2}, green}, {"cubes", {1, 2, 1}, cyan}});
+                     {{"ground", "ground", {-3, 0, 2}, green}, {"cubes", "cubes", {1, 2, 1}, cyan}});
 }
 
 moving_stage cube_over_plane(double aspect, float degrees, float height, float z)
@@ -243,7 +243,7 @@ moving_stage cube_over_plane(double aspect, float degrees, float height, float z
     moving_scene world = casters;
     add(world, plane(-glm::radians(degrees)), plane(glm::radians(degrees)));
     return staged(casters, std::move(world), {{2, 6, 1}, {2, 6, 1}}, {{0, 5, 7}, {0, 0.4, 0}, 45}, aspect,
-                  {{"shadow", {2 - 2 * reach, 0, 1 + reach * (z - 1)}, green}});
+                  {{"shadow", "shadow", {2 - 2 * reach, 0, 1 + reach * (z - 1)}, green}});
 }
 
 moving_stage fan(double aspect)
@@ -264,7 +264,7 @@ moving_stage fan(double aspect)
     moving_scene casters{{"fan", {}}, {}};
     add(casters, blades(0), blades(glm::half_pi<float>()));
     return on_ground(casters, {{0, 8, 0}, {0, 8, 0}}, {{0, 6, 6}, {0, 0.6, 0}, 45}, aspect,
-                     {{"rim", {0, 0, 1.8f}, green}, {"hub", {0, 0, 0.3f}, cyan}});
+                     {{"rim", "rim", {0, 0, 1.8f}, green}, {"hub", "hub", {0, 0, 0.3f}, cyan}});
 }
 
 moving_stage waving_sheet(double aspect, int cells)
@@ -287,7 +287,7 @@ moving_stage waving_sheet(double aspect, int cells)
     moving_scene casters{{"waving sheet", {}}, {}};
     add(casters, at(-0.1f, 0), at(0.1f, 0.1f));
     return on_ground(casters, {{1, 8, 1}, {1, 8, 1}}, {{0, 5, 6}, {0, 0.6, 0}, 45}, aspect,
-                     {{"sheet", {0, 1.2f, 0}, green}});
+                     {{"sheet", "sheet", {0, 1.2f, 0}, green}});
 }
 
 moving_stage lit_ramp(double aspect)
@@ -298,7 +298,7 @@ moving_stage lit_ramp(double aspect)
     moving_scene world{{"lit ramp", {}}, {}};
     add(world, ramp, {0, 2, 0});
     return staged(world, world, {{0, 7, 0}, {0, 7, 0}}, {{0, 5, 6}, {0, 0.8, 0}, 45}, aspect,
-                  {{"ramp", {0, 0.8f, 0}, green}});
+                  {{"ramp", "ramp", {0, 0.8f, 0}, green}});
 }
 
 moving_stage trapezoid(double aspect)
@@ -306,7 +306,7 @@ moving_stage trapezoid(double aspect)
     moving_scene casters{{"trapezoid", {}}, {}};
     add(casters, level_quad("bar", clay, {-1, 2, 0}, 0.25f, 1.5f), {2, 0, 0});
     return on_ground(casters, {{0, 2000, 0}, {0, 2000, 0}}, {{0, 6, 6}, {0, 0.5, 0}, 45}, aspect,
-                     {{"slope", {1, 0, 0.8f}, green}});
+                     {{"slope", "slope", {1, 0, 0.8f}, green}});
 }
 
 double trapezoid_visibility(const glm::dvec3& ground_point)

@@ -99,9 +99,9 @@ stage fence_stage(double aspect)
     result.eye = perspective_view_from({3.6, 4.6, 1.2}, {0.34, 0.28, 0.16}, bounds_of(result.world).corners(),
                                        glm::radians(36.0), aspect);
     result.light = orthographic_view(casters_and_shadows(bounds_of(casters), fence_light), fence_light);
-    result.interests = {{"fence", {0.75f, 0, -1.4f}, {0.05f, 0.6f, 0.1f}},
-                        {"fence and wall", {0.95f, 0, 1.9f}, {0.02f, 0.6f, 0.7f}},
-                        {"sign, fence and wall", {0.84f, 0, 0.89f}, {0.95f, 0.35f, 0.02f}}};
+    result.interests = {{"fence", "fence", {0.75f, 0, -1.4f}, {0.05f, 0.6f, 0.1f}},
+                        {"fence_wall", "fence and wall", {0.95f, 0, 1.9f}, {0.02f, 0.6f, 0.7f}},
+                        {"sign_fence_wall", "sign, fence and wall", {0.84f, 0, 0.89f}, {0.95f, 0.35f, 0.02f}}};
     return result;
 }
 
@@ -115,7 +115,8 @@ stage contact_stage(double aspect)
         const float x = 1.3f * (static_cast<float>(i) - 1);
         const double height = contact_gaps[i] * metres_per_depth * -result.light.forward.y;
         result.world.meshes.push_back(duckboard(x, static_cast<float>(height)));
-        result.interests.push_back({fmt::format("gap of {}", contact_gaps[i]), {x, 0, 0}, colours[i]});
+        result.interests.push_back(
+            {fmt::format("gap_{}", i + 1), fmt::format("gap of {}", contact_gaps[i]), {x, 0, 0}, colours[i]});
     }
     result.world.meshes.push_back(ground({0, 0, 0}, 14, 14, {0.40f, 0.43f, 0.34f}));
     result.eye = perspective_view_from({0.4, 3.2, 1.9}, {0, 0, 0}, bounds_of(result.world).corners(),

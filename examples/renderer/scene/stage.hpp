@@ -13,9 +13,9 @@
 
 namespace gnomon::renderer {
 
-// A place to magnify, and the colour of its frame.
+// A place to magnify: its id, its name in words, and the colour of its frame.
 struct point_of_interest {
-    std::string name;
+    std::string id, name;
     glm::vec3 position, colour;
 };
 

@@ -1,4 +1,4 @@
-// From four depths to one texel: the mean of their moments, in the map's format (Peters et al. 2017, D.1).
+// From four depths to one texel: the mean of their channels (Peters et al. 2017, D.1).
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -14,11 +14,12 @@ void main()
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     texel mean = texel(vec4(0), vec4(0));
     for (int i = 0; i < 4; ++i) {
-        texel t = moments_of_depth(depth_from_unit(texelFetch(depths, p, i).x));
+        texel t = encode(depth_from_unit(texelFetch(depths, p, i).x));
         mean.first += 0.25 * t.first;
         mean.second += 0.25 * t.second;
     }
-    texel encoded = encode(mean);
-    imageStore(first_map, p, encoded.first);
-    if (images == 2) imageStore(second_map, p, encoded.second);
+    imageStore(first_map, p, mean.first);
+#if GNOMON_METHOD_IMAGES == 2
+    imageStore(second_map, p, mean.second);
+#endif
 }

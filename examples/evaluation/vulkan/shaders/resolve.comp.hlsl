@@ -10,11 +10,12 @@ void main(uint3 id : SV_DispatchThreadID)
 {
     texel mean = {float4(0, 0, 0, 0), float4(0, 0, 0, 0)};
     for (int i = 0; i < 4; ++i) {
-        texel t = moments_of_depth(depth_from_unit(depths.Load(int2(id.xy), i)));
+        texel t = encode(depth_from_unit(depths.Load(int2(id.xy), i)));
         mean.first += 0.25 * t.first;
         mean.second += 0.25 * t.second;
     }
-    texel encoded = encode(mean);
-    first_map[id.xy] = encoded.first;
-    if (images == 2) second_map[id.xy] = encoded.second;
+    first_map[id.xy] = mean.first;
+#if GNOMON_METHOD_IMAGES == 2
+    second_map[id.xy] = mean.second;
+#endif
 }
