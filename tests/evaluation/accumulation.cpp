@@ -76,7 +76,7 @@ TEST_CASE("receivers of accumulated maps see what the texels around them say")
                          "accumulation: 2 look-ups, 1 and 3 are possible", std::invalid_argument);
 }
 
-TEST_CASE("interleaved maps give a receiver at rest the mean over the maps")
+TEST_CASE("interleaved maps give a static receiver the mean over the maps")
 {
     const moving_stage stage = random_cubes(1, 60, 1, 0.4f);
     for (const int count : {4, 20}) {
@@ -88,15 +88,15 @@ TEST_CASE("interleaved maps give a receiver at rest the mean over the maps")
             const glm::vec3 p(0.4f * float(i % 20) - 4, 0, 0.4f * float(i / 20) - 4);
             seen.segments.push_back({0, 1, 1, 1u << 20, p, p, up, up});
         }
-        std::vector<resting_receiver> receivers;
+        std::vector<static_place> receivers;
         for (const light_receiver& r : light_receivers_of(seen, stage.light, resolution))
             receivers.push_back({r.path.x0 / r.path.w0, r.path.y0 / r.path.w0, r.path.depth.z0});
         receivers.push_back({-0.2f, 3.5f, 1}), receivers.push_back({resolution + 9.f, 3.5f, 1}); // half and all outside
         std::vector<float> found(receivers.size());
-        resting_visibility(together, receivers, found);
+        static_visibility(together, receivers, found);
         int between = 0;
         for (std::size_t i = 0; i < receivers.size(); ++i) {
-            const resting_receiver& r = receivers[i];
+            const static_place& r = receivers[i];
             double expected = 0;
             for (const auto& depths : maps.depths)
                 expected += lit(depths, double(r.x), double(r.y), double(r.depth), 1) / count;

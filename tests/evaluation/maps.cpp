@@ -1,7 +1,8 @@
 // Shadow maps of ranges, one kind against another: what each leaves out, or rounds, must not change what it promises.
-#include "evaluation/motion/cube_curves.hpp"
-#include "evaluation/motion/shadow_tests.hpp"
-#include "passes/range/range_questions.hpp"
+#include "evaluation/motion/cube_costs.hpp"
+#include "evaluation/motion/packed_map.hpp"
+#include "evaluation/motion/receivers/stochastic.hpp"
+#include "range_questions.hpp"
 #include "renderer/scene/camera.hpp"
 #include "renderer/scene/moving_stages.hpp"
 #include "renderer/scene/surface_ids.hpp"
@@ -32,9 +33,9 @@ TEST_CASE("resolved ranges have the front of the exact ones, as have prisms wher
         renderer::moving_camera light = cubes().light;
         if (!perspective)
             light = {renderer::orthographic_view(renderer::bounds_of(cubes().world).corners(), {0.3, -1, 0.2})};
-        const auto all = exact_ranges(cubes().world, light, resolution);
-        const auto resolved = resolved_ranges(cubes().world, light, resolution);
-        const auto prisms = prism_ranges(cubes().world, light, resolution);
+        map_source maps(cubes().world, light, resolution);
+        const range_shadow_map all = *maps.map("exact_ranges"), resolved = *maps.map("resolved_ranges"),
+                               prisms = *maps.map("prism_ranges");
         int asked = 0, other_front = 0, other_prism = 0;
         ask(1, [&](const question& q, bit_source&) {
             const auto differs = [&](const range_shadow_map& m, float tolerance) {
@@ -52,11 +53,11 @@ TEST_CASE("resolved ranges have the front of the exact ones, as have prisms wher
 
 TEST_CASE("a cover changes no shadow test, whoever asks")
 {
-    const auto covered = covered_ranges(exact());
+    const auto covered = built("covered_ranges");
     CHECK(covered.covers > 1000);
     CHECK(covered.ranges.size() < exact().ranges.size());
-    const auto by_passes = covered_prism_ranges(cubes().world, cubes().light, resolution);
-    const auto prisms = prism_ranges(cubes().world, cubes().light, resolution);
+    const auto by_passes = built("covered_prism_ranges");
+    const auto prisms = built("prism_ranges");
     CHECK(by_passes.covers > 1000);
     int shadowed = 0;
     ask(2, [&](const question& q, bit_source& bits) {
@@ -78,9 +79,9 @@ TEST_CASE("a cover changes no shadow test, whoever asks")
 TEST_CASE("a cut range that covers is a cover, as many as of prisms, and changes no shadow test")
 {
     const moving_stage turning = renderer::cube_over_plane(1, 20, 2, 0);
-    const auto all = exact_ranges(turning.world, turning.light, resolution);
-    const auto covered = covered_ranges(all);
-    const auto prisms = covered_prism_ranges(turning.world, turning.light, resolution);
+    const auto all = built("exact_ranges", {}, turning);
+    const auto covered = built("covered_ranges", {}, turning);
+    const auto prisms = built("covered_prism_ranges", {}, turning);
     CHECK(prisms.covers > 1000);
     // Prisms pair only two fragments: where a triangle's edge passes a texel they may find what edge functions do not.
     CHECK(double(covered.covers) == doctest::Approx(double(prisms.covers)).epsilon(0.02));
@@ -94,11 +95,11 @@ TEST_CASE("a cut range that covers is a cover, as many as of prisms, and changes
     CHECK(shadowed > effort(20'000) / 20);
 }
 
-TEST_CASE("a cover that is asked first answers as the list does")
+TEST_CASE("a cover that is read first answers as the list does")
 {
     for (const moving_stage& stage : {cubes(), renderer::cube_over_plane(1, 20, 2, 0)}) {
-        const auto all = exact_ranges(stage.world, stage.light, resolution);
-        const auto first = cover_first_ranges(all);
+        const auto all = built("exact_ranges", {}, stage);
+        const auto first = built("cover_first_ranges", {}, stage);
         CHECK(first.covers > 1000);
         int decided = 0, other = 0;
         ask(7, [&](const question& q, bit_source& bits) {
@@ -126,13 +127,14 @@ TEST_CASE("ids of surfaces change ids alone, and merging lists keeps them")
     const auto mixed = [](const range_shadow_map& m) {
         return std::ranges::count(m.ranges, float(range_mixed), &range::id);
     };
-    CHECK(mixed(interval_lists(renamed, 4)) < mixed(interval_lists(exact(), 4)));
+    CHECK(mixed(built("interval_lists", {{"capacity", 4}, {"surfaces", 1}})) <
+          mixed(built("interval_lists", {{"capacity", 4}})));
 }
 
 TEST_CASE("without backdrops, every surface of the scene gets the shadow it had")
 {
-    const auto casters = with_totals(caster_ranges(cubes().world, cubes().light, resolution));
-    const auto resolved = resolved_ranges(cubes().world, cubes().light, resolution);
+    const auto casters = with_totals(built("caster_ranges"));
+    const auto resolved = built("resolved_ranges");
     CHECK(casters.ranges.size() < resolved.ranges.size());
     int asked = 0, shadowed = 0, other = 0;
     ask(5, [&](const question& q, bit_source&) {
@@ -150,29 +152,28 @@ TEST_CASE("without backdrops, every surface of the scene gets the shadow it had"
 
 TEST_CASE("kinds of maps take the memory that they say, in the order that they should")
 {
-    const auto& stage = cubes();
-    const auto packed = compact_ranges(resolved_ranges(stage.world, stage.light, resolution));
-    const auto covered = covered_ranges(exact()), resolved = resolved_ranges(stage.world, stage.light, resolution),
-               prisms = prism_ranges(stage.world, stage.light, resolution),
-               covered_prisms = covered_prism_ranges(stage.world, stage.light, resolution);
+    const auto packed = packed_map_of(built("resolved_ranges"));
+    const auto covered = built("covered_ranges"), resolved = built("resolved_ranges"), prisms = built("prism_ranges"),
+               covered_prisms = built("covered_prism_ranges");
     CHECK(packed.bytes < resolved.bytes);
     CHECK(resolved.bytes < covered.bytes);
     CHECK(covered.bytes < exact().bytes);
     CHECK(covered_prisms.bytes < prisms.bytes);
     CHECK(covered_prisms.building_bytes < prisms.building_bytes);
-    for (const auto& m : {exact(), covered, resolved, prisms, covered_prisms, interval_lists(exact(), 4)})
+    for (const auto& m :
+         {exact(), covered, resolved, prisms, covered_prisms, built("interval_lists", {{"capacity", 4}})})
         CHECK(m.bytes == 20 * m.ranges.size() + 4 * m.first.size());
-    const auto first = cover_first_ranges(exact());
+    const auto first = built("cover_first_ranges");
     CHECK(first.bytes == 20 * (first.ranges.size() + first.texel_covers.size()) + 4 * first.first.size());
     // Fragments come in pairs, but for what rounding takes.
     CHECK(double(prisms.building_bytes) ==
           doctest::Approx(double((2 * 16 + 24) * prisms.ranges.size() + 8 * 128 * 128)).epsilon(0.01));
-    CHECK(same_maps(exact(), exact_ranges(stage.world, stage.light, resolution)));
-    CHECK(same_maps(prisms, prism_ranges(stage.world, stage.light, resolution)));
-    CHECK(same_maps(interval_lists(exact(), 4), interval_lists(exact(), 4)));
-    CHECK(packed.bodies == compact_ranges(resolved).bodies);
-    const auto casters = caster_ranges(stage.world, stage.light, resolution);
-    const auto packed_casters = compact_ranges(casters);
+    CHECK(same_maps(exact(), built("exact_ranges")));
+    CHECK(same_maps(prisms, built("prism_ranges")));
+    CHECK(same_maps(built("interval_lists", {{"capacity", 4}}), built("interval_lists", {{"capacity", 4}})));
+    CHECK(packed.bodies == packed_map_of(resolved).bodies);
+    const auto casters = built("caster_ranges");
+    const auto packed_casters = packed_map_of(casters);
     CHECK(casters.bytes < resolved.bytes);
     CHECK(packed_casters.bytes < packed.bytes);
     CHECK(with_totals(casters).bytes == casters.bytes + 16 * (casters.first.size() - 1));
@@ -182,24 +183,25 @@ TEST_CASE("rows of curves have all maps, and pairs grow with the number, the spe
 {
     std::size_t pairs = 0;
     for (const cube_case& some : {cube_case{20, 1}, {40, 1}, {40, 8}, {40, 8, 0.5f}}) {
-        const auto row = cube_costs(some, 64);
-        CHECK(row["maps"].size() == 8);
-        for (const auto& map : row["maps"]) {
-            CHECK(map["bytes"].get<double>() > 0);
-            CHECK(map["build_ms"].get<double>() > 0);
+        const cube_costs row = costs_of(some, 64);
+        CHECK(row.maps.size() >= 8);
+        for (const map_costs& map : row.maps) {
+            CHECK(map.facts.bytes > 0);
+            CHECK(map.facts.build_ms > 0);
+            CHECK(map.ns_per_pair > 0);
         }
-        CHECK(row["triangles"] == some.count * 12 + 2);
-        CHECK(row["pairs"].get<std::size_t>() > pairs);
-        pairs = row["pairs"].get<std::size_t>();
+        CHECK(row.triangles == std::size_t(some.count * 12 + 2));
+        CHECK(row.pairs > pairs);
+        pairs = row.pairs;
     }
 }
 
 TEST_CASE("coverage saves most of what prisms need where cubes are large and slow")
 {
     const auto saved = [](const cube_case& some) {
-        const moving_stage stage = renderer::random_cubes(1, some.count, 0.5f * some.factor, some.half_extent);
-        return double(prism_ranges(stage.world, stage.light, resolution).building_bytes) /
-               double(covered_prism_ranges(stage.world, stage.light, resolution).building_bytes);
+        const moving_stage stage = renderer::random_cubes(1, some.count, 0.5f * some.speed, some.half_extent);
+        return double(built("prism_ranges", {}, stage).building_bytes) /
+               double(built("covered_prism_ranges", {}, stage).building_bytes);
     };
     CHECK(saved({400, 1.f / 32, 0.5f}) > 4);
     CHECK(saved({400, 8, 0.5f}) < 2);

@@ -1,6 +1,7 @@
 // Maps in less memory: compact lists, and lists of a fixed capacity.
+#include "evaluation/motion/packed_map.hpp"
 #include "passes/range/compact_maps.hpp"
-#include "passes/range/range_questions.hpp"
+#include "range_questions.hpp"
 
 #include <gnomon/motion/range/range_list.h>
 #include <gnomon/passes/range/look_up.hpp>
@@ -24,7 +25,7 @@ TEST_CASE("lists of any capacity shadow what exact ranges shadow, the larger the
     std::array<int, 3> more{};
     std::array<float, 3> time{}, depth{};
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto lists = interval_lists(exact(), 4 << k);
+        const auto lists = built("interval_lists", {{"capacity", 4 << k}});
         CHECK(lists.resolved);
         time[k] = lists.mean_time_added, depth[k] = lists.mean_depth_added;
         ask(3, [&](const question& q, bit_source&) {
@@ -43,15 +44,15 @@ TEST_CASE("lists of any capacity shadow what exact ranges shadow, the larger the
     CHECK(more[1] >= more[2]);
     CHECK(time[0] > time[1]);
     CHECK(depth[0] > depth[1]);
-    CHECK_THROWS_WITH_AS(interval_lists(exact(), 5), "interval lists: capacity 5, 4, 8 and 16 are possible",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(built("interval_lists", {{"capacity", 5}}),
+                         "interval lists: capacity 5, 4, 8 and 16 are possible", std::invalid_argument);
 }
 
 TEST_CASE("lists by packs have the bits of one texel alone")
 {
     const moving_stage quads = renderer::crossed_quads(1);
-    const auto all = exact_ranges(quads.world, quads.light, resolution);
-    const auto lists = interval_lists(all, 16);
+    const auto all = built("exact_ranges", {}, quads);
+    const auto lists = built("interval_lists", {{"capacity", 16}}, quads);
     std::array<int, 3> checked{}; // of one, two and more ranges
     for (std::size_t i = 0; i < texels_of(resolution); i += 3) {
         auto list = range_list_make<float, 16>(range_empty(0.f));
@@ -70,8 +71,8 @@ TEST_CASE("lists by packs have the bits of one texel alone")
 
 TEST_CASE("compact maps are close to the resolved ones, less than half as large, and looked up as they are")
 {
-    const auto resolved = with_totals(resolved_ranges(cubes().world, cubes().light, resolution));
-    const compact_shadow_map compact = compact_ranges(resolved);
+    const auto resolved = with_totals(built("resolved_ranges"));
+    const packed_map compact = packed_map_of(resolved);
     const unpacked_lists lists(compact.map().spans);
     range_map<float> unpacked = resolved.map();
     unpacked.first = lists.first, unpacked.ranges = lists.ranges;
@@ -96,8 +97,8 @@ TEST_CASE("compact, the ranges of casters take at most a third of what all range
 {
     for (const int count : {100, 200, 400, 800}) {
         const moving_stage stage = renderer::random_cubes(1, count, 0.5f);
-        const auto all = exact_ranges(stage.world, stage.light, 256);
-        const auto compact = compact_ranges(caster_ranges(stage.world, stage.light, 256));
+        const auto all = built("exact_ranges", {}, stage, 256);
+        const auto compact = packed_map_of(built("caster_ranges", {}, stage, 256));
         CHECK(3 * compact.bytes <= all.bytes);
     }
 }

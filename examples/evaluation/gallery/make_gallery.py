@@ -46,7 +46,7 @@ def page_of(driver, drivers, frame):
     parts = [f'<section id="part{i + 1}">{render(block, page, f"{driver.file}: facts.blocks[{i}]")}</section>'
              for i, block in enumerate(blocks)]
     titles = "".join(f'<li><a href="#part{i + 1}">{escape(block["title"])}</a></li>'
-                     for i, block in enumerate(blocks) if block.get("title"))
+                     for i, block in enumerate(blocks) if block.get("title") and not block.get("folded"))
     others = " ".join(other.link("../") for other in drivers if other is not driver)
     head = (f'<nav aria-label="Gallery"><a href="../index.html">Gnomon</a> {others}</nav>\n<h1>{driver.title}</h1>\n'
             f'<p class="summary">{escape(driver.facts["summary"])}</p>\n')

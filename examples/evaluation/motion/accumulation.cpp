@@ -25,7 +25,7 @@ using pack = accumulation_pack;
 using whole_pack = xsimd::batch<std::int32_t>;
 static_assert(sizeof(pack) == sizeof(whole_pack));
 
-constexpr float cleared = 1; // depth where a map has nothing, which is in front of nothing
+constexpr float cleared = 1; // depth of a texel without a surface: in front of nothing
 
 void fetch([[maybe_unused]] const float* from)
 {
@@ -36,7 +36,7 @@ void fetch([[maybe_unused]] const float* from)
 
 std::size_t whole_packs(std::size_t count) { return (count + pack::size - 1) / pack::size * pack::size; }
 
-// A row or column of texels that a look-up reads: where it is in the map, and its weight, 0 where it is outside.
+// A row or column of texels that a look-up reads: its place in the map, and its weight, 0 outside of the map.
 struct tap_line {
     pack place, weight;
 };
@@ -178,10 +178,10 @@ interleaved_maps interleave(const accumulated_maps& maps)
     return result;
 }
 
-void resting_visibility(const interleaved_maps& maps, std::span<const resting_receiver> receivers,
-                        std::span<float> visibility)
+void static_visibility(const interleaved_maps& maps, std::span<const static_place> receivers,
+                       std::span<float> visibility)
 {
-    // Some are fetched before any of them is asked for, since maps do not fit into a cache.
+    // Some are fetched before any of them is read, since maps do not fit into a cache.
     constexpr std::size_t at_once = 32, taps = 4;
     struct tap {
         const float* depths;

@@ -1,8 +1,9 @@
-// What motion blur is made of without ranges: a shadow map and a picture for each of some times, and their mean
-// (Haeberli & Akeley 1990). Look-ups are by percentage-closer filtering with bilinear weights, a pack at a time.
+// Motion blur without ranges: a shadow map and a picture for each of some times, and their mean (Haeberli & Akeley 1990).
+// Look-ups are by percentage-closer filtering with bilinear weights, a pack at a time.
 #pragma once
 
 #include "light_receivers.hpp"
+#include "range_maps.hpp"
 #include "renderer/output/image.hpp"
 #include "renderer/shade/moving_view.hpp"
 
@@ -29,10 +30,13 @@ std::vector<float> middle_times(int count);
 accumulated_maps accumulate(const renderer::moving_scene& world, const renderer::moving_camera& light, int resolution,
                             std::vector<float> times);
 
+// Of maps of depth, one after the other.
+map_facts accumulation_facts(int count, int resolution);
+
 // What each pixel sees at these times, as segments of one time, in order.
 renderer::seen_motion seen_at_times(const renderer::seen_motion& seen, std::span<const float> times);
 
-// Those of these segments that face the light, as the map of their time sees them, and which segments they are.
+// Those of these segments that face the light, as the map of their time sees them, and their numbers.
 struct accumulated_receivers {
     std::vector<float> x, y, depth; // texel position and biased depth; whole packs of them
     std::vector<std::uint32_t> segment;
@@ -47,12 +51,12 @@ std::vector<accumulated_receivers> accumulated_receivers_of(const renderer::seen
 void accumulated_visibility(const accumulated_maps& maps, std::span<const accumulated_receivers> receivers,
                             std::vector<float>& visibility, int look_ups = 1);
 
-// The same in the order of the segments, and 0 for those that face away.
+// The visibility of each segment; 0 for those that face away.
 std::vector<float> in_order_of_segments(std::span<const accumulated_receivers> receivers,
                                         std::span<const float> visibility, std::size_t segments);
 
-// The maps of a light at rest for receivers at rest, which ask all of them at one place: the depths of a texel are one
-// after the other.
+// Maps of a static light for static receivers, which read all of them at one place: the depths of a texel are side by
+// side.
 struct interleaved_maps {
     int resolution = 0, count = 0;
     std::vector<float> depths; // texel by texel, in the order of range_map, whole packs of them
@@ -62,13 +66,13 @@ struct interleaved_maps {
 
 interleaved_maps interleave(const accumulated_maps& maps);
 
-// A receiver at rest that faces the light.
-struct resting_receiver {
+// A static receiver that faces the light.
+struct static_place {
     float x, y, depth; // texel position and biased depth
 };
 
 // The mean of each receiver's visibility over all maps, by bilinear weights.
-void resting_visibility(const interleaved_maps& maps, std::span<const resting_receiver> receivers,
-                        std::span<float> visibility);
+void static_visibility(const interleaved_maps& maps, std::span<const static_place> receivers,
+                       std::span<float> visibility);
 
 } // namespace gnomon::evaluation

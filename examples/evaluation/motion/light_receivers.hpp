@@ -1,5 +1,5 @@
-// What a camera sees of motion, as the light's shadow map sees it: for each segment the way of its point over the map,
-// and when it faces the light.
+// What a camera sees of motion, as the light's shadow map sees it: the path of each point over the map, and the times at
+// which it faces the light.
 #pragma once
 
 #include "renderer/shade/moving_view.hpp"
@@ -13,7 +13,7 @@
 
 namespace gnomon::evaluation {
 
-// Times of the segment itself, from 0 to 1, at which it faces the light; the depths of the path are biased.
+// `facing` has times of the path itself, from 0 to 1. The depths of the path are biased.
 struct light_receiver {
     receiver_path<float> path;
     edge_intervals<float> facing;
@@ -23,11 +23,11 @@ struct light_receiver {
 // either side.
 inline constexpr double motion_bias_radius = 1.5;
 
-// The receiver of each segment, with a bias for so many texels around its point.
+// The receiver of each path, with a bias for so many texels around its point.
 std::vector<light_receiver> light_receivers_of(const renderer::seen_motion& seen, const renderer::moving_camera& light,
                                                int resolution, double radius = motion_bias_radius);
 
-// Another id than the triangle's own.
+// Replaces the triangles' ids.
 void set_ids(std::span<light_receiver> receivers, std::span<const std::uint32_t> id_of_triangle);
 
 // Calls tap(column, row, weight) for the four texels around a place.

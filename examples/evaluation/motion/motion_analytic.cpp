@@ -1,85 +1,26 @@
-// Shadows in motion by intervals of time, after Palmer 2011 and Hong & Oh: every scene by every method, known answers,
-// and what maps take.
-#include <atomic>
-#include <exception>
-#include <functional>
-#include <string>
+// Shadows in motion by intervals of time, after Palmer 2011 and Hong & Oh: all parts of the page, from their registry.
+#include "evaluation/core/driver.hpp"
+#include "scene_blocks.hpp"
+
+#include <algorithm>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 
-#include "cube_curves.hpp"
-#include "evaluation/core/driver.hpp"
-#include "known_answers.hpp"
-#include "mesh_costs.hpp"
-#include "motion_comparison.hpp"
-#include "renderer/output/file.hpp"
-#include "renderer/scene/moving_stages.hpp"
-#include "resting_receivers.hpp"
-#include "wide_filter.hpp"
-
 namespace gnomon::evaluation {
 
 namespace {
 
-// Parts of the driver, each on one core; their results are in their order.
-class parts {
-  public:
-    void add(std::function<motion_results()> part)
-    {
-        parts_.push_back(std::move(part));
-        results_.emplace_back();
-    }
-
-    std::vector<motion_results> run(std::size_t at_once)
-    {
-        std::vector<std::exception_ptr> failures(at_once);
-        const auto work = [&](std::exception_ptr& failure) {
-            try {
-                for (std::size_t i = next_++; i < parts_.size(); i = next_++) results_[i] = parts_[i]();
-            } catch (...) {
-                failure = std::current_exception();
-                next_ = parts_.size();
-            }
-        };
-        {
-            std::vector<std::jthread> others;
-            for (std::size_t i = 1; i < at_once; ++i) others.emplace_back(work, std::ref(failures[i]));
-            work(failures[0]);
-        }
-        for (const std::exception_ptr& failure : failures)
-            if (failure) std::rethrow_exception(failure);
-        return std::move(results_);
-    }
-
-  private:
-    std::vector<std::function<motion_results()>> parts_;
-    std::vector<motion_results> results_;
-    std::atomic<std::size_t> next_ = 0;
-};
-
-motion_results answers(const motion_sizes& size)
-{
-    motion_results result{nlohmann::json::array(), known_answers(size)};
-    for (const report_row& row : result.rows)
-        result.facts.push_back({{"scene", row.scene},
-                                {"method", row.method},
-                                {"receivers", row.receivers},
-                                {"max_abs", row.errors.max_abs}});
-    return result;
-}
-
 // Two, where they fit into memory: times are of one core each.
-std::size_t parts_at_once(const motion_sizes& size)
+int tasks_at_once(const motion_sizes& size)
 {
     return size.map_resolution < 1024 && std::thread::hardware_concurrency() > 1 ? 2 : 1;
 }
 
-// Maps are given back and asked for again many times: what the system takes back it has to clear each time.
+// Maps are freed and allocated many times; memory that the system has taken back has to be cleared each time.
 void keep_memory()
 {
 #ifdef __GLIBC__
@@ -88,64 +29,60 @@ void keep_memory()
 #endif
 }
 
+constexpr const char* introduction =
+    "While a shutter is open, everything moves along straight lines. A shadow map of ranges keeps for each texel what "
+    "the "
+    "light sees: from one time to another, from one depth to another. The time for which a receiver is lit is an "
+    "integral in "
+    "closed form, with no noise and no bands. Accumulation, the common method, is the mean over ordinary shadow maps "
+    "at "
+    "some "
+    "times.\n\n"
+    "Maps keep all ranges, <i>exact</i> by edge functions in time or by <i>prisms</i> (Hong &amp; Oh, <i>Motion "
+    "Blurred "
+    "Shadows Utilizing a Depth-Time Ranges Shadow Map</i>), each also <i>with coverage</i>, without what is hidden "
+    "while the "
+    "shutter is open (Hong &amp; Oh, <i>Efficient Motion Blurred Shadows Using a Temporal Shadow Map</i>, 2017). Or "
+    "they are "
+    "<i>resolved</i> to what is in front at each time, those of <i>casters</i> without what is behind all else. Or "
+    "<i>lists</i> of a fixed capacity merge what is most similar (Gribel et al. 2010; Palmér, <i>Analytical Motion "
+    "Blurred "
+    "Shadows</i>, 2011). Receivers look a map up at one time for each sample of the camera, or for all the time in "
+    "which a "
+    "pixel sees a surface: as if the surface were static, by samples, in closed form within a texel (semi-analytic), "
+    "or in "
+    "closed form along its path (analytic). Scenes are from these papers and from Andersson et al., <i>Filtered "
+    "Stochastic "
+    "Shadow Mapping Using a Layered Approach</i> (2015).\n\n";
+
 void motion_analytic(const settings& how)
 {
     keep_memory();
     const motion_sizes size = motion_sizes_of(how);
-    const std::filesystem::path folder = how.out / "gallery" / "motion_analytic";
-    nlohmann::ordered_json facts = facts_of(size);
-    parts all;
-    std::vector<std::string> names; // where in the facts each part's go
-    const auto add = [&](std::string name, std::function<motion_results()> part) {
-        names.push_back(std::move(name));
-        all.add(std::move(part));
-    };
-    for (const renderer::listed_stage& listed : renderer::moving_stages())
-        add("scenes", [&] {
-            const motion_scene scene{.key = std::string(listed.key),
-                                     .title = std::string(listed.title),
-                                     .surfaces = listed.key == "cubes_to_the_light" || listed.key == "random_cubes",
-                                     .cover_first = listed.key == "random_cubes"};
-            return compare_motion(scene, listed.make(double(size.width) / size.height), size, folder);
-        });
-    for (const char* name : {"static", "meshes", "closed_forms"}) facts[name] = nlohmann::json::array();
-    for (const float factor : {1.f, 4.f})
-        add("static", [&, factor] {
-            progress("motion_analytic", "receivers at rest");
-            return compare_resting_receivers(size, factor);
-        });
-    add("meshes", [&] {
-        progress("motion_analytic", "meshes");
-        return motion_results{mesh_costs(size), {}};
-    });
-    add("closed_forms", [&] {
-        progress("motion_analytic", "known answers");
-        return answers(size);
-    });
-    add("wide_filter", [&] {
-        progress("motion_analytic", "a wide filter");
-        return compare_wide_filters(size);
-    });
-    for (const cube_case& some : cube_cases())
-        add("memory", [&] {
-            if (&some == cube_cases().data())
-                progress("motion_analytic", "memory and time of maps against number and speed of cubes");
-            return motion_results{cube_costs(some, size.map_resolution), {}};
-        });
-    facts["memory"] = {
-        {"resolution", size.map_resolution}, {"longest", longest_way}, {"rows", nlohmann::json::array()}};
-    std::vector<report_row> rows;
-    facts["parts_at_once"] = parts_at_once(size);
-    const std::vector<motion_results> found = all.run(parts_at_once(size));
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        const nlohmann::ordered_json& fact = found[i].facts;
-        auto& to = names[i] == "memory" ? facts["memory"]["rows"] : facts[names[i]];
-        if (fact.is_array()) to.insert(to.end(), fact.begin(), fact.end());
-        else if (names[i] == "wide_filter") to = fact;
-        else to.push_back(fact);
-        rows.insert(rows.end(), found[i].rows.begin(), found[i].rows.end());
+    const motion_settings with{size, how.folder("motion_analytic"), tasks_at_once(size)};
+    std::vector<part_run> parts;
+    std::vector<std::function<void()>> tasks;
+    for (const motion_part* part : registry_of<motion_part>().all()) {
+        parts.push_back(part->begin(with));
+        const auto& its = parts.back().tasks;
+        tasks.insert(tasks.end(), its.begin(), its.end());
     }
-    renderer::write_file(folder / "facts.json", facts.dump(1));
+    run_tasks(tasks, with.tasks_at_once);
+    page shown{.driver = "motion_analytic",
+               .title = "Shadows in motion",
+               .family = "motion",
+               .summary =
+                   "Shadows of what moves while the shutter is open: intervals of time in closed form, against the "
+                   "mean over many shadow maps.",
+               .blocks = {text_block{.text = introduction + words_of(with)}}};
+    std::vector<report_row> rows;
+    for (const part_run& part : parts) {
+        part_results found = part.results();
+        if (found.front) shown.front = std::move(found.front);
+        std::ranges::move(found.rows, std::back_inserter(rows));
+        std::ranges::move(found.blocks, std::back_inserter(shown.blocks));
+    }
+    write_page(with.folder, shown);
     merge_report(how.out / "report.json", rows);
 }
 

@@ -7,7 +7,6 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -326,26 +325,6 @@ moving_stage animated_model_stage(moving_scene model, double aspect)
     const stage framed = model_stage({"", {everywhere}}, aspect);
     add(model, framed.world.meshes.back(), glm::vec3(0));
     return {std::move(model), framed.eye, {framed.light, glm::dvec3(0)}, {}};
-}
-
-std::span<const listed_stage> moving_stages()
-{
-    static constexpr std::array<listed_stage, 11> all{{
-        {"pillars", "pillars, the light rises", pillars},
-        {"crossed_quads", "crossed quads", crossed_quads},
-        {"toward_and_away", "toward the light and away", toward_and_away},
-        {"cubes_to_the_light", "cubes that rise to the light", cubes_to_the_light},
-        {"random_cubes", "400 random cubes", [](double aspect) { return random_cubes(aspect, 400, 0.5f); }},
-        {"cube_over_plane", "a cube over a plane", [](double aspect) { return cube_over_plane(aspect, 0, 2, 0); }},
-        {"cube_over_turning_plane", "a cube over a plane that turns",
-         [](double aspect) { return cube_over_plane(aspect, 20, 2, 0); }},
-        {"cube_near_turning_plane", "a cube close to a plane that turns a little",
-         [](double aspect) { return cube_over_plane(aspect, 5, 1, -1); }},
-        {"fan", "a fan that turns by 90 degrees", fan},
-        {"lit_ramp", "a ramp that shadows nothing", lit_ramp},
-        {"trapezoid", "a bar, known in closed form", trapezoid},
-    }};
-    return all;
 }
 
 } // namespace gnomon::renderer

@@ -5,9 +5,6 @@
 
 #include <glm/vec3.hpp>
 
-#include <span>
-#include <string_view>
-
 namespace gnomon::renderer {
 
 // A spot light that moves along a straight line and looks at the middle of the casters. Its square picture just holds
@@ -54,12 +51,5 @@ double trapezoid_visibility(const glm::dvec3& ground_point);
 
 // A moving model of unit size (see model.hpp) on a ground plane. Camera and sun are framed by all places of the model.
 moving_stage animated_model_stage(moving_scene model, double aspect);
-
-// The scenes of the papers and those with a known answer; a key names files.
-struct listed_stage {
-    std::string_view key, title;
-    moving_stage (*make)(double aspect);
-};
-std::span<const listed_stage> moving_stages();
 
 } // namespace gnomon::renderer

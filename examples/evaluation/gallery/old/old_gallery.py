@@ -6,7 +6,6 @@ from pathlib import Path
 from string import Template
 
 import old_charts as charts
-import motion
 from page import chart, legend_of_errors, picture, table
 
 HERE = Path(__file__).resolve().parent
@@ -215,7 +214,7 @@ that touches both bounds; it is all that the kernels have to find. The more mome
 
 
 SECTIONS = {"hard_shadows": hard_shadows, "contact": contact, "vulkan_shadows": vulkan_shadows, "bounds": bounds,
-            "motion_analytic": motion.analytic, "model": model, "animated_model": motion.animated_model}
+            "model": model}
 
 
 def old_page(out):
