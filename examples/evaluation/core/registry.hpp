@@ -18,12 +18,15 @@
 
 namespace gnomon::evaluation {
 
-// True for ids: letters from a to z, digits and single underscores between them, with a letter first.
+// True for ids: letters from a to z, digits, and single underscores or hyphens between them, with a letter first.
 inline bool is_id(std::string_view text)
 {
     const auto letter = [](char c) { return 'a' <= c && c <= 'z'; };
-    if (text.empty() || !letter(text.front()) || text.back() == '_' || text.find("__") != text.npos) return false;
-    return std::ranges::all_of(text, [&](char c) { return letter(c) || ('0' <= c && c <= '9') || c == '_'; });
+    const auto joint = [](char c) { return c == '_' || c == '-'; };
+    if (text.empty() || !letter(text.front()) || joint(text.back())) return false;
+    if (std::ranges::adjacent_find(text, [&](char a, char b) { return joint(a) && joint(b); }) != text.end())
+        return false;
+    return std::ranges::all_of(text, [&](char c) { return letter(c) || ('0' <= c && c <= '9') || joint(c); });
 }
 
 template <class Kind> class registry {

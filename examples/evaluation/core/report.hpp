@@ -29,7 +29,7 @@ struct report_row {
     std::string scene{}, part{}, method{}, family{}, map{}, receiver{}, format{};
     evaluation::parameters parameters{};
     std::string label{};
-    std::string reference{}; // id: "filtered", "traced", "closed_form", or of a device "cpu", the same method there
+    std::string reference{}; // id: "filtered", "traced", "closed-form", or of a device "cpu", the same method there
     long long receivers = 0;
     double bytes_per_texel = 0;
     double map_bytes = 0;

@@ -9,9 +9,6 @@ from pathlib import Path
 from string import Template
 from urllib.parse import quote
 
-sys.path.append(str(Path(__file__).resolve().parent / "old"))
-from old_gallery import old_page
-
 from blocks import Page, chart, render
 from drawings import all_files
 from facts import Damaged, read, size_of_png
@@ -90,9 +87,8 @@ def front_chart(drivers):
     return ""
 
 
-def front_page(drivers, gallery, frame, old):
+def front_page(drivers, gallery, frame):
     pages = "".join(f"<li>{driver.link('')}: {escape(driver.facts['summary'])}</li>" for driver in drivers)
-    pages += '<li><a href="old.html">All other drivers</a></li>' if old else ""
     places = "".join(f'<li><a href="{quote(os.path.relpath(ROOT / file, gallery))}">{name}</a>: {why}</li>'
                      for file, name, why in PLACES if (ROOT / file).exists())
     return frame.substitute(
@@ -127,8 +123,7 @@ def write_all(files):
 def make(out):
     gallery = out / "gallery"
     found = sorted(gallery.glob("*/facts.json"))
-    old = old_page(out)
-    drivers = [Driver(file.parent) for file in found if not old or '"blocks"' in file.read_text(encoding="utf-8")]
+    drivers = [Driver(file.parent) for file in found]
     if not found:
         raise Damaged(f"{gallery}: no driver has left anything here; run the demo first")
     drivers.sort(key=lambda driver: driver.facts.get("order", float("inf")))
@@ -141,9 +136,7 @@ def make(out):
         text, needed = page_of(driver, drivers, frame)
         files.append((driver.folder / "index.html", text.encode()))
         drawings += needed
-    if old:
-        files.append((gallery / "old.html", old.encode()))
-    files.append((gallery / "index.html", front_page(drivers, gallery, frame, old).encode()))
+    files.append((gallery / "index.html", front_page(drivers, gallery, frame).encode()))
     write_all(all_files(drawings) + files)
 
 

@@ -19,7 +19,7 @@ using namespace renderer;
 
 namespace {
 
-const registered<reference> closed_form{"closed_form", "the exact answer", 30.0};
+const registered<reference> closed_form{"closed-form", "the exact answer", 30.0};
 
 constexpr std::uint32_t nobody = 1u << 20; // receivers cast no shadow
 
