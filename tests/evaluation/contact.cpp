@@ -1,4 +1,4 @@
-// What methods make of contacts, where a filter region holds two close surfaces and the receiver is the farther one, as
+// Errors of methods at contacts, where a filter region holds two close surfaces and the receiver is the farther one, as
 // the demo's maps and look-ups have it. The truth is percentage-closer filtering with the same weights.
 #include "evaluation/core/percentage_closer.hpp"
 #include "evaluation/core/receivers.hpp"

@@ -146,7 +146,7 @@ TEST_CASE("without backdrops, every surface of the scene gets the shadow it had"
         }
     });
     CHECK(shadowed > asked / 4);
-    // Where fronts change, rounding decides.
+    // Rounding decides where fronts change.
     CHECK(other <= asked / 2000);
 }
 

@@ -247,7 +247,7 @@ TEST_CASE("the trapezoid's closed form is that of the tracer")
             const receiver there{{0.04f * static_cast<float>(i), 0, z}, {0, 1, 0}};
             receivers.push_back({there, there});
         }
-    // What hides the light is one interval of time; each of its ends falls into one of n parts, which counts wholly or
+    // The light is hidden for one interval of time; each of its ends falls into one of n parts, which counts wholly or
     // not at all.
     constexpr int n = 4096;
     std::vector<float> visible(receivers.size());

@@ -153,7 +153,7 @@ TEST_CASE("one layer over all depths is a variance shadow map; a cut between two
         const auto state = layered_variance_add(layered_variance_begin(z_f), b, all);
         REQUIRE(layered_variance_end(state) == variance_intensity(b, z_f, {all.minimum_variance}));
     });
-    // What covers two thirds of the region lies in front of the last layer, the receiver in it.
+    // Two thirds of the region lie in front of the last layer, the receiver in it.
     layered_variance<double> state = layered_variance_begin(0.9);
     for (const double centre : {-0.5, 0.25, 0.75}) {
         const layered_variance_settings<double> settings{centre, centre < 0 ? 2.0 : 4.0, 0};

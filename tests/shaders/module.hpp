@@ -1,4 +1,4 @@
-// What a shared object exports to be a route (module_route.cpp loads it).
+// Functions that a shared object exports to be a route (module_route.cpp loads it).
 #pragma once
 
 #include <cstddef>

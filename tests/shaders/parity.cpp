@@ -28,7 +28,7 @@ constexpr kernel kernels[] = {
 #define SHAPE(name, inputs, outputs, families, unit) {#name, inputs, outputs, families, unit},
     GNOMON_FOR_EACH_KERNEL(SHAPE)};
 
-/// What a processor does with denormals: nothing, or it takes them for zero where they go in or come out. A driver does
+/// Treatment of denormals by a processor: none, or they are zero where they go in or come out. A driver does
 /// as it likes (only a probe tells), and the host that it is compared with then does the same.
 struct denormals {
     bool in_flushed = false, out_flushed = false;
@@ -75,7 +75,7 @@ struct candidate {
     denormals flush;
 };
 
-/// What the host makes of one kernel's rows, computed when first asked for.
+/// The host's results for one kernel's rows, computed at their first use.
 class references {
   public:
     references() : split_(module_route(built("host_split.so"))), fused_(module_route(built("host_scalar.so"))) {}
@@ -127,7 +127,7 @@ std::vector<float> row_of(std::span<const float> blocks, std::size_t n, std::siz
     return row;
 }
 
-/// Where products by fused multiply-add and by splitting are the same: products of these, and of their products, stay
+/// Operands whose products are the same fused and split: products of these, and of their products, stay
 /// within the domain of two_product.
 bool tame(const std::vector<float>& row)
 {

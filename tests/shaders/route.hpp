@@ -26,7 +26,7 @@ struct kernel {
     bool unit;
 };
 
-/// How two_product finds the error of a product (numerics/two_product.h): by Dekker's splitting, as shaders do, or by
+/// Source of a product's error in two_product (numerics/two_product.h): by Dekker's splitting, as shaders do, or by
 /// fused multiply-add. Both give the same bits but where products leave the comment's domain. So a route is compared
 /// with a host of its own kind; whether the two hosts agree within the domain is a route of its own.
 enum class products { split, fused, fused_against_split };
@@ -41,12 +41,12 @@ class route {
     /// Runs the kernel over whole blocks.
     virtual void run(const kernel& k, std::span<const float> in, std::span<float> out) = 0;
 
-    /// Where it runs, for the report: a driver's own name, say.
+    /// The place where a route runs, for the report: a driver's own name, say.
     [[nodiscard]] virtual std::string device() const = 0;
 
     [[nodiscard]] virtual products computes() const { return products::split; }
 
-    /// What a validation layer has to say after the last kernel: anything is a failure.
+    /// Words of a validation layer after the last kernel: any word is a failure.
     [[nodiscard]] virtual std::vector<std::string> complaints() const { return {}; }
 };
 
@@ -63,7 +63,7 @@ struct named_route {
 /// Every route, by name.
 const std::vector<named_route>& all_routes();
 
-/// Where the build has put modules and shaders: beside the program.
+/// The folder of modules and shaders: beside the program.
 std::filesystem::path built(const std::string& name);
 
 /// Of a shared object that exports module.hpp.

@@ -1,4 +1,4 @@
-// What lies outside [-1, 1], for every storage format: a map that was cleared shadows nothing, wherever the receiver is; a
+// Depths outside [-1, 1], for every storage format: a map that was cleared shadows nothing, wherever the receiver is; a
 // border texel darkens no lit surface, mixed with the map's own; casters in front of the near plane shadow, casters and
 // receivers beyond a plane are as on it. The table of docs/conventions.md has the clear values.
 #include "support/documented.hpp"

@@ -1,4 +1,4 @@
-// What a driver leaves for the gallery: a page of blocks, written to facts.json beside the driver's pictures. A block has
+// Pages that drivers leave for the gallery: blocks, written to facts.json beside the driver's pictures. A block has
 // a title and a text; texts may hold <b>, <i>, <sub>, <sup> and <a href>, and escaped() protects what must not be read
 // as these.
 #pragma once

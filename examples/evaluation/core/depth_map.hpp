@@ -1,4 +1,4 @@
-// What shadow maps are made from: four depths per texel, from a rasterizer with four samples.
+// The source of shadow maps: four depths per texel, from a rasterizer with four samples.
 #pragma once
 
 #include "renderer/output/image.hpp"

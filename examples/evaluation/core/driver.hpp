@@ -10,7 +10,7 @@
 
 namespace gnomon::evaluation {
 
-// What a driver shows: scenes of its own, a model from a file, or such a model in motion.
+// The subject of a driver: scenes of its own, a model from a file, or such a model in motion.
 enum class subject { own, model, animation };
 
 struct driver {

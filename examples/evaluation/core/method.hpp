@@ -107,7 +107,7 @@ class shadow_map {
     // Shadow intensity of one receiver after the other.
     virtual void intensities(std::span<const map_receiver> where, std::span<float> result) const = 0;
 
-    // The same receiver by receiver, and by packs of them where the method has a kernel for packs. The map and the
+    // Runs to time, receiver by receiver, and by packs of them where the method has a kernel for packs. The map and the
     // receivers outlive what is returned.
     virtual std::vector<timed_look_up> timed(std::span<const map_receiver> where) const = 0;
 };
@@ -121,7 +121,7 @@ class shadow_method : public method {
     virtual std::unique_ptr<shadow_map> build(const depth_map& depths, std::span<const float> taps) const = 0;
 };
 
-// How a device stores and looks up a method: the images of a texel, one or two, and the two kernels of the storage format.
+// Storage and look-up of a method on a device: the one or two images of a texel, and the storage format's two kernels.
 // CMake reads device forms in the files of methods and compiles the shaders of each.
 struct device_image {
     std::string format; // as Vulkan-Hpp names it

@@ -1,4 +1,4 @@
-// What a long program says while it runs.
+// Messages of a long program while it runs.
 #pragma once
 
 #include <string_view>

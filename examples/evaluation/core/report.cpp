@@ -68,7 +68,8 @@ std::string not_finite(const json& object)
     for (const auto& [name, value] : object.items()) {
         if (value.is_number_float() && !std::isfinite(value.get<double>())) return name;
         if (value.is_object())
-            if (const std::string within = not_finite(value); !within.empty()) return name + "." + within;
+            if (const std::string within = not_finite(value); !within.empty())
+                return fmt::format("{}.{}", name, within);
     }
     return {};
 }

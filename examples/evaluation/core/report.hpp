@@ -1,4 +1,4 @@
-// What the demo leaves behind in numbers: error statistics, and rows of out/report.json.
+// Numbers that the demo leaves behind: error statistics, and rows of out/report.json.
 #pragma once
 
 #include "method.hpp"

@@ -37,7 +37,7 @@ class still_scene : public scene_entry {
     const std::function<renderer::stage(double aspect)> stage;
 };
 
-// What a row compares with.
+// The answer that a row is compared with.
 class reference {
   public:
     using kind = reference;

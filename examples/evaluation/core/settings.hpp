@@ -1,4 +1,4 @@
-// What the command line of the demo sets.
+// Settings from the command line of the demo.
 #pragma once
 
 #include <array>

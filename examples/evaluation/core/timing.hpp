@@ -1,4 +1,4 @@
-// How long something takes on one core.
+// Times of work on one core.
 #pragma once
 
 #include <tbb/global_control.h>
@@ -23,7 +23,7 @@ double seconds(auto&& run)
     return cpu_seconds() - start;
 }
 
-// The same, with whatever runs in parallel on this thread.
+// The time of work whose parallel parts run on this thread.
 double seconds_on_one_core(auto&& run)
 {
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);

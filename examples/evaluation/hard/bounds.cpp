@@ -24,7 +24,7 @@ struct surface {
     double nearest, farthest, share;
 };
 
-// What a filter region sees of three surfaces, each of them at a slant.
+// The depths of three slanted surfaces in a filter region.
 constexpr std::array surfaces{surface{-0.75, -0.6, 0.3}, surface{-0.15, 0.1, 0.35}, surface{0.45, 0.65, 0.35}};
 constexpr int samples_of_surface = 32;
 

@@ -19,7 +19,7 @@ struct comparison_facts {
 // Pictures and the page go to OUT/gallery/DRIVER, rows to OUT/report.json. The registered scene has the stage.
 void compare_methods(const comparison_facts& facts, const settings& how);
 
-// The same of a given stage.
+// Compares all methods on a given stage.
 void compare_methods(const comparison_facts& facts, const settings& how, const renderer::stage& scenery);
 
 } // namespace gnomon::evaluation

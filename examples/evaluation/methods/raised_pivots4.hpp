@@ -11,8 +11,8 @@ namespace gnomon::bench {
 inline constexpr double raised4_unorm16_noise = 9 * 0x1p-20, raised4_half_noise = 13 * 0x1p-15,
                         raised4_float_noise = 3 * 0x1p-26; // of each stored moment
 
-/// Raises D_2, from V, already raised, L and M. On the boundary of valid moments L^2 = V M, and D_1 |P_2(i)|^2 is had
-/// without a division; it is V at least.
+/// Raises D_2, from V, already raised, L and M. On the boundary of valid moments L^2 = V M, so D_1 |P_2(i)|^2, at
+/// least V, is computed without a division.
 template <class Real>
 GNOMON_INLINE constexpr hankel4<Real> hankel4_raised_last(moments4<Real> b, Real v, Real l, Real m, Real noise)
 {
@@ -30,7 +30,7 @@ template <class Real> GNOMON_INLINE constexpr hankel4<Real> hankel4_raised(momen
     return hankel4_raised_last(b, v, l, m, least);
 }
 
-/// The same in plain arithmetic.
+/// Raises the pivots in plain arithmetic.
 template <class Real> GNOMON_INLINE constexpr hankel4<Real> hankel4_raised_fast(moments4<Real> b, double noise)
 {
     const Real least = literal<Real>(noise);

@@ -33,7 +33,7 @@ accumulated_maps accumulate(const renderer::moving_scene& world, const renderer:
 // Of maps of depth, one after the other.
 map_facts accumulation_facts(int count, int resolution);
 
-// What each pixel sees at these times, as segments of one time, in order.
+// Segments of one time each that the pixels see at these times, in order.
 renderer::seen_motion seen_at_times(const renderer::seen_motion& seen, std::span<const float> times);
 
 // Those of these segments that face the light, as the map of their time sees them, and their numbers.

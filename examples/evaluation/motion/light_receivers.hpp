@@ -1,4 +1,4 @@
-// What a camera sees of motion, as the light's shadow map sees it: the path of each point over the map, and the times at
+// Receivers that a camera sees, in the light's shadow map: the path of each point over the map, and the times at
 // which it faces the light.
 #pragma once
 

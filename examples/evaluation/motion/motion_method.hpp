@@ -30,7 +30,7 @@ class motion_method : public method {
     // Measures the maps and receivers of the method in a scene with these tags, and calls add for each.
     virtual void measure(motion_view& view, std::span<const std::string> tags, const outcome_sink& add) const = 0;
 
-    // What a map takes, for curves of memory and time against cubes; none where the method has no curve.
+    // Memory and time of a map, for curves against cubes; none where the method has no curve.
     virtual std::optional<map_facts> costs(map_source&) const { return {}; }
 };
 

@@ -13,7 +13,7 @@
 
 namespace gnomon::evaluation {
 
-// What a scene shows beyond others. Tags name what only some methods are measured for: "surfaces", of many triangles
+// A scene in motion and its tags. Tags name what only some methods are measured for: "surfaces", of many triangles
 // each, whose ids may be those of surfaces, and "covers", triangles that hide a texel while the shutter is open.
 struct motion_scene_facts {
     std::vector<std::string> tags{};

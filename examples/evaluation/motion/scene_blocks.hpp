@@ -1,4 +1,4 @@
-// What a page shows of scenes in motion: pictures and numbers of every method, and methods against accumulation.
+// Blocks of a page about scenes in motion: pictures and numbers of every method, and methods against accumulation.
 #pragma once
 
 #include "motion_part.hpp"

@@ -1,4 +1,4 @@
-// What the page shows of static receivers: a table, and in words which of ranges and accumulated maps are faster.
+// Blocks of a page about static receivers: a table, and in words which of ranges and accumulated maps are faster.
 #pragma once
 
 #include "evaluation/core/blocks.hpp"

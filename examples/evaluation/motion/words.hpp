@@ -11,7 +11,7 @@ std::string grouped(double value, int digits = 0);
 // A speed: 1/32 or 4.
 std::string ratio(double value);
 
-// How many times as much: 3.4 x or 12 x.
+// A factor in words: 3.4 x or 12 x.
 std::string so_many(double times);
 
 } // namespace gnomon::evaluation

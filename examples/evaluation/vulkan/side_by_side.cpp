@@ -12,7 +12,7 @@ using namespace renderer;
 
 namespace {
 
-// Whether visibility changes by more than a sixteenth from this pixel to one of its neighbours.
+// True if visibility changes by more than a sixteenth from this pixel to one of its neighbours.
 bool at_edge(const image<float>& visibility, int x, int y)
 {
     const auto [low, high] = [&] {

@@ -24,7 +24,7 @@ const registered<reference> on_cpu{"cpu", "the same method on the CPU", 40};
 constexpr const char* driver_name = "vulkan_shadows";
 constexpr float error_scale = 0.05f; // visibility at which error colours saturate
 
-// What the CPU builds of a map is resolve, blur and mip levels too.
+// On the CPU, too, building a map is resolve, blur and mip levels.
 report_row row_of(const filterable_method& m, const std::string& scene, const std::string& device,
                   const side_by_side& both, std::size_t receivers)
 {

@@ -107,7 +107,7 @@ void copy(const vk::raii::CommandBuffer& commands, const image& source, const bu
 // Fills the mip levels after the first, each from the one before, with means of 2 x 2 texels.
 void build_mips(const vk::raii::CommandBuffer& commands, const image& target);
 
-// How a shader uses a resource: all levels of a sampled image, the first level of a stored image, a buffer as uniform
+// Uses of a resource by a shader: all levels of a sampled image, the first level of a stored image, a buffer as uniform
 // or, by itself, as storage buffer.
 struct sampled {
     const image& source;

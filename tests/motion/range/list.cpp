@@ -14,7 +14,7 @@
 using namespace gnomon;
 using namespace gnomon::test;
 
-// Where the next depth is farther than the slack, the range in front is known.
+// The range in front is known if the next depth is farther than the slack.
 TEST_CASE_TEMPLATE("a resolved list has the front at a thousand times, by depth and id, in disjoint spans", T, float,
                    double)
 {

@@ -132,7 +132,7 @@ TEST_CASE_TEMPLATE("range_occluding_part: the times at which a range shadows a s
         const wide from = wide(std::max({begin, r.t0, receiver.t0})), to = wide(std::min({end, r.t1, receiver.t1}));
         if (!(from < to) || wide(begin) < wide(receiver.t0) || wide(end) > wide(receiver.t1)) return;
         const auto ahead = [&](wide t) { return depth(receiver, t) - depth(r, t); };
-        // Where both are this close, rounding decides, and equally this close to their crossing.
+        // Rounding decides where both are this close, and this close to their crossing.
         const wide slack = wide(26 * largest * u<T>), speed = std::abs(ahead(to) - ahead(from)) / (to - from);
         for (int i = 0; i <= 32; ++i) {
             const T t = T(i) / T(32);

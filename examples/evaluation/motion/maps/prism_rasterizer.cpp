@@ -62,7 +62,7 @@ prism_rasterizer::drawn_prism prism_rasterizer::drawn(const setup& s) const
     return result;
 }
 
-// Where its edges are while they are within the margin of the row.
+// The extent along x of its edges within the margin of the row.
 prism_rasterizer::interval prism_rasterizer::row_of(const prism_triangle<float>& v, float y)
 {
     interval result{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};

@@ -1,5 +1,5 @@
 // The prisms of a moving scene (Hong & Oh; comparators/prism.h) drawn into a shadow map, row by row, by packs of texels.
-// What to compare the exact rasterizer of motion with: on one thread, and once for each pass that a method needs.
+// A comparator for the exact rasterizer of motion: on one thread, and once for each pass that a method needs.
 #pragma once
 
 #include "renderer/scene/moving_scene.hpp"

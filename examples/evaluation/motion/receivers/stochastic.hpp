@@ -9,7 +9,7 @@ namespace gnomon::evaluation {
 
 float visibility_at(const range_map<float>& map, const light_receiver& r, float t);
 
-// The same by a map with covers: the list of a texel is read where its cover does not decide.
+// Visibility by a map with covers: the list of a texel is read where its cover does not decide.
 float cover_first_visibility_at(const range_shadow_map& map, const light_receiver& r, float t);
 
 } // namespace gnomon::evaluation
