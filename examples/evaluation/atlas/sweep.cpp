@@ -16,7 +16,8 @@ std::vector<double> sweep_axis::values() const
     return result;
 }
 
-std::vector<sweep_layer> layers_of_methods(std::function<double(const filterable_method&, double x, double y)> error)
+std::vector<sweep_layer> layers_of_methods(
+    const std::function<double(const filterable_method&, double x, double y)>& error)
 {
     std::vector<sweep_layer> result;
     for (const method* m : methods_in_order())

@@ -42,7 +42,8 @@ struct sweep {
 };
 
 // A layer for each filterable method of the registry.
-std::vector<sweep_layer> layers_of_methods(std::function<double(const filterable_method&, double x, double y)> error);
+std::vector<sweep_layer> layers_of_methods(
+    const std::function<double(const filterable_method&, double x, double y)>& error);
 
 // The errors of a layer, a row for each value of y.
 std::vector<std::vector<double>> errors_of(const sweep& s, const sweep_layer& l);
