@@ -140,9 +140,10 @@ class Demo(unittest.TestCase):
         def identity(row):
             return row["method"], row["receiver"], row["map"], row["format"], tuple(sorted(row["parameters"].items()))
 
-        traced = [row for row in self.report if row["reference"] == "traced" and row["receiver"] and row["part"] == ""]
-        scenes = {scene: {identity(row) for row in traced if row["scene"] == scene}
-                  for scene in {row["scene"] for row in traced}}
+        moving = {row["scene"] for row in self.report if row["receiver"] == "analytic" and row["part"] == ""}
+        traced = [row for row in self.report
+                  if row["scene"] in moving and row["reference"] == "traced" and row["part"] == ""]
+        scenes = {scene: {identity(row) for row in traced if row["scene"] == scene} for scene in moving}
         self.assertGreaterEqual(scenes.keys(), {"crossed_quads", "random_cubes", "lit_ramp", "trapezoid"})
         common = set.intersection(*scenes.values())
         self.assertEqual(len(common), 17)

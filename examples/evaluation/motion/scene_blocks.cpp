@@ -106,7 +106,8 @@ void add_scene_blocks(const scene_results& scene, std::vector<block>& to)
         .columns = 3,
         .pictures = {picture_of(scene, analytic, "ranges, analytic receivers: " + in_short(analytic.row)),
                      picture_of(scene, accumulated, accumulated.row.label + ": " + in_short(accumulated.row)),
-                     {scene.reference, scene.scene.label + " in motion, by ray tracing", "the reference, by ray tracing"},
+                     {scene.reference, scene.scene.label + " in motion, by ray tracing",
+                      "the reference, by ray tracing"},
                      errors_of(scene, analytic, "its errors, analytic receivers"),
                      errors_of(scene, accumulated, "its errors, " + accumulated.row.label)},
         .key = key_of_errors(double(error_scale))});
