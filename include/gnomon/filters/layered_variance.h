@@ -27,8 +27,8 @@ GNOMON_KERNEL Real layered_variance_depth(Real z, GNOMON_T(layered_variance_sett
 /// NaN: the far end of the layer, which shadows nothing.
 GNOMON_KERNEL GNOMON_T(variance_moments) layered_variance_encode(Real z, GNOMON_T(layered_variance_settings) settings)
 {
-    // One clamp, not that of variance_encode behind that of layered_variance_depth: clang 14 takes the second for
-    // redundant, which it is not for NaN.
+    // Clamp once, not by layered_variance_depth and then by variance_encode: clang 14 drops the second clamp, and a
+    // NaN would stay a NaN.
     GNOMON_T(variance_moments) r;
     r.mean = clamp_or_high((z - settings.centre) * settings.scale, Real(-1), Real(1));
     r.square = r.mean * r.mean;

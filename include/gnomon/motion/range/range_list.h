@@ -200,7 +200,7 @@ GNOMON_LIST_KERNEL GNOMON_T(depth_time_range) range_list_front(GNOMON_LIST_T(ran
         depth_time_range ahead = range_visible_part(r, front);
         Real next = gnomon_select(some, ahead.t0, r.t0);
         end = gnomon_select(begin < next, gnomon_min(end, next), end);
-        // Where three ranges meet, rounding may put each in front of the next. The tie lasts as long as all comparisons
+        // Rounding may put each of three ranges that meet in front of the next. The tie lasts as long as all comparisons
         // do.
         GNOMON_MASK circle = ahead.t0 <= begin && begin < ahead.t1;
         end = gnomon_select(circle, gnomon_min(end, unchanged), end);

@@ -1,4 +1,4 @@
-// One range that replaces two, for full lists of few ranges (the compression of Gribel et al. 2010). It lasts from the
+// A range that replaces two, for full lists of few ranges (the compression of Gribel et al. 2010). It lasts from the
 // begin of the earlier range to the end of the later one, and its depth line is in front of both, so that all that was
 // shadowed stays shadowed. To find the two most similar ranges, Gribel et al. weight the gap between them and their
 // differences in depth, slope and duration. Here a single measure without weights covers all of these: the area of the
@@ -20,7 +20,7 @@ GNOMON_STRUCT(range_pair)
 
 GNOMON_CONSTANT(range_merge_margin, 0.000003814697265625); // 2^-18, exact
 
-/// One range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
+/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
 /// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
 /// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
 /// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
