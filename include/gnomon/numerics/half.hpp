@@ -3,9 +3,9 @@
 #ifndef GNOMON_NUMERICS_HALF_HPP
 #define GNOMON_NUMERICS_HALF_HPP
 
+#include "../portable.h"
 #include "../portable/cpp_only.h"
 
-#include <bit>
 #include <concepts>
 #include <cstdint>
 #include <limits>
@@ -27,14 +27,15 @@ template <std::floating_point T> constexpr std::uint16_t half_encode(T x)
     // Subtracts the difference between the two exponent biases, limits::max_exponent - 1 and 15.
     constexpr bits rebias = bits(limits::max_exponent - 16) << (limits::digits - 1);
 
-    const bits word = std::bit_cast<bits>(x);
+    const bits word = gnomon_bit_cast<bits>(x);
     const bits sign = word >> (8 * sizeof(T) - 1) << 15;
     const bits magnitude = word & (~bits(0) >> 1);
-    const T a = std::bit_cast<T>(magnitude);
+    const T a = gnomon_bit_cast<T>(magnitude);
     bits code = 0;
     if (a >= T(65520)) code = 0x7c00;
     else if (a != a) code = 0x7e00;
-    else if (a < T(0x1p-14)) code = std::bit_cast<bits>(a + denormal_rounder) - std::bit_cast<bits>(denormal_rounder);
+    else if (a < T(0x1p-14))
+        code = gnomon_bit_cast<bits>(a + denormal_rounder) - gnomon_bit_cast<bits>(denormal_rounder);
     else code = (magnitude - rebias + (one << (shift - 1)) - 1 + (magnitude >> shift & 1)) >> shift;
     return static_cast<std::uint16_t>(sign | code);
 }
@@ -46,8 +47,9 @@ constexpr float half_decode(std::uint16_t code)
     const std::uint32_t sign = std::uint32_t(code & 0x8000) << 16;
     const std::uint32_t magnitude = code & 0x7fff;
     const std::uint32_t rebias = magnitude < 0x7c00 ? 112u << 23 : 224u << 23;
-    const float a = magnitude < 0x0400 ? float(magnitude) * 0x1p-24f : std::bit_cast<float>((magnitude << 13) + rebias);
-    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(a) | sign);
+    const float a =
+        magnitude < 0x0400 ? float(magnitude) * 0x1p-24f : gnomon_bit_cast<float>((magnitude << 13) + rebias);
+    return gnomon_bit_cast<float>(gnomon_bit_cast<std::uint32_t>(a) | sign);
 }
 
 } // namespace gnomon

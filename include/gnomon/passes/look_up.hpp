@@ -52,7 +52,7 @@ channel_array<Format> bilinear_channels(map_view<const format_texel<Format>> map
 template <storage_format Format>
 format_channels<Format> bilinear(map_view<const format_texel<Format>> map, float x, float y)
 {
-    return std::bit_cast<format_channels<Format>>(detail::bilinear_channels<Format>(map, x, y));
+    return gnomon_bit_cast<format_channels<Format>>(detail::bilinear_channels<Format>(map, x, y));
 }
 
 /// Filtered channels at position (x, y) of a mip chain, interpolated between two levels. Level 0 is the map itself; the
@@ -70,7 +70,7 @@ format_channels<Format> trilinear(mip_view<const format_texel<Format>> mips, flo
     };
     channel_array<Format> c = at(nl.lower);
     if (nl.fraction > 0) c = detail::mix(c, at(nl.upper), nl.fraction);
-    return std::bit_cast<format_channels<Format>>(c);
+    return gnomon_bit_cast<format_channels<Format>>(c);
 }
 
 } // namespace gnomon

@@ -8,7 +8,6 @@
 #include "expects.hpp"
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -40,13 +39,13 @@ struct row_range {
 /// The channels of a texel as numbers.
 template <storage_format Format> channel_array<Format> load_channels(const format_texel<Format>& t)
 {
-    return std::bit_cast<channel_array<Format>>(Format::decode(t));
+    return gnomon_bit_cast<channel_array<Format>>(Format::decode(t));
 }
 
 /// The texel of channels that are numbers.
 template <storage_format Format> format_texel<Format> store_channels(const channel_array<Format>& c)
 {
-    return Format::encode(std::bit_cast<format_channels<Format>>(c));
+    return Format::encode(gnomon_bit_cast<format_channels<Format>>(c));
 }
 
 /// Check that the map has texels, that its rows do not overlap, and that all of them lie in the span.

@@ -7,12 +7,14 @@
 #include "map_view.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <limits>
 
 namespace gnomon {
 
 constexpr std::size_t mip_extent(std::size_t extent, std::size_t level)
 {
-    return level < 64 ? std::max<std::size_t>(extent >> level, 1) : 1;
+    return level < std::numeric_limits<std::size_t>::digits ? std::max<std::size_t>(extent >> level, 1) : 1;
 }
 
 /// Number of levels down to 1 x 1, including the map itself.

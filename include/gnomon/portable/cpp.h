@@ -106,10 +106,16 @@ template <class T> constexpr bool fma_is_fused()
 }
 template <class T> inline constexpr bool is_fused = fma_is_fused<T>();
 
+/// The value of type To with the bits of `from`: std::bit_cast, which libc++ lacks before version 14.
+template <class To, class From> GNOMON_INLINE constexpr To gnomon_bit_cast(const From& from)
+{
+    return __builtin_bit_cast(To, from);
+}
+
 template <class T, class Bits> GNOMON_INLINE constexpr T select_by_bits(bool mask, T a, T b)
 {
     const Bits ones = Bits(0) - Bits(mask);
-    return std::bit_cast<T>(Bits((std::bit_cast<Bits>(a) & ones) | (std::bit_cast<Bits>(b) & ~ones)));
+    return gnomon_bit_cast<T>(Bits((gnomon_bit_cast<Bits>(a) & ones) | (gnomon_bit_cast<Bits>(b) & ~ones)));
 }
 
 // GCC compiles a conditional operator to a branch, to skip work that only one side needs. For receivers that differ
@@ -178,11 +184,11 @@ template <class T> GNOMON_INLINE constexpr T gnomon_power_of_two(T n)
 {
     if constexpr (std::is_same_v<T, float>) {
         // The sum has n in its low bits, and the shift moves n into the exponent.
-        return __builtin_bit_cast(
-            float, (__builtin_bit_cast(std::uint32_t, n + 0x1.8p23f) << 23) + (std::uint32_t{127} << 23));
+        return gnomon_bit_cast<float>((gnomon_bit_cast<std::uint32_t>(n + 0x1.8p23f) << 23) +
+                                      (std::uint32_t{127} << 23));
     } else if constexpr (std::is_same_v<T, double>) {
-        return __builtin_bit_cast(
-            double, (__builtin_bit_cast(std::uint64_t, n + 0x1.8p52) << 52) + (std::uint64_t{1023} << 52));
+        return gnomon_bit_cast<double>((gnomon_bit_cast<std::uint64_t>(n + 0x1.8p52) << 52) +
+                                       (std::uint64_t{1023} << 52));
     } else if constexpr (requires { pack_operations<T>::power_of_two(n); }) {
         return pack_operations<T>::power_of_two(n);
     } else {

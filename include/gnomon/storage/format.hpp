@@ -15,7 +15,6 @@
 #include "../numerics/unorm.hpp"
 
 #include <array>
-#include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -87,7 +86,7 @@ template <template <class...> class Channels, int bits> struct unorm_texel : cod
     using typename coded_texel<Channels, unorm_code<bits>>::texel;
     static constexpr texel encode(const Channels<float>& c)
     {
-        const auto numbers = std::bit_cast<std::array<float, texel{}.size()>>(c);
+        const auto numbers = gnomon_bit_cast<std::array<float, texel{}.size()>>(c);
         texel t{};
         for (std::size_t k = 0; k < t.size(); ++k) t[k] = unorm_encode<bits>(numbers[k]);
         return t;
@@ -96,7 +95,7 @@ template <template <class...> class Channels, int bits> struct unorm_texel : cod
     {
         std::array<float, texel{}.size()> numbers{};
         for (std::size_t k = 0; k < t.size(); ++k) numbers[k] = unorm_decode<bits>(t[k]);
-        return std::bit_cast<Channels<float>>(numbers);
+        return gnomon_bit_cast<Channels<float>>(numbers);
     }
 };
 
@@ -105,7 +104,7 @@ template <template <class...> class Channels> struct half_texel : coded_texel<Ch
     using typename coded_texel<Channels, std::uint16_t>::texel;
     static constexpr texel encode(const Channels<float>& c)
     {
-        const auto numbers = std::bit_cast<std::array<float, texel{}.size()>>(c);
+        const auto numbers = gnomon_bit_cast<std::array<float, texel{}.size()>>(c);
         texel t{};
         for (std::size_t k = 0; k < t.size(); ++k) t[k] = half_encode(numbers[k]);
         return t;
@@ -114,15 +113,15 @@ template <template <class...> class Channels> struct half_texel : coded_texel<Ch
     {
         std::array<float, texel{}.size()> numbers{};
         for (std::size_t k = 0; k < t.size(); ++k) numbers[k] = half_decode(t[k]);
-        return std::bit_cast<Channels<float>>(numbers);
+        return gnomon_bit_cast<Channels<float>>(numbers);
     }
 };
 
 /// Floats.
 template <template <class...> class Channels> struct float_texel : coded_texel<Channels, float> {
     using typename coded_texel<Channels, float>::texel;
-    static constexpr texel encode(const Channels<float>& c) { return std::bit_cast<texel>(c); }
-    static constexpr Channels<float> decode(const texel& t) { return std::bit_cast<Channels<float>>(t); }
+    static constexpr texel encode(const Channels<float>& c) { return gnomon_bit_cast<texel>(c); }
+    static constexpr Channels<float> decode(const texel& t) { return gnomon_bit_cast<Channels<float>>(t); }
 };
 
 } // namespace gnomon

@@ -70,7 +70,7 @@ template <class T> std::span<depth_time_range<T>> without_backdrop(std::span<dep
     for (const depth_time_range<T>& r : list) filter.add(r);
     if (!filter.is_backdrop()) return list;
     const depth_time_range<T> backdrop = filter.waiting();
-    const auto found = std::ranges::find_if(list, [&](const depth_time_range<T>& r) {
+    const auto found = std::find_if(list.begin(), list.end(), [&](const depth_time_range<T>& r) {
         return r.id == backdrop.id && r.t0 == backdrop.t0 && r.t1 == backdrop.t1 && r.z0 == backdrop.z0 &&
                r.z1 == backdrop.z1;
     });
