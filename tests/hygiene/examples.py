@@ -4,7 +4,8 @@
 usage: examples.py ROOT PACKAGES               prints what a compiler has against an example; exit code 1 if there is any
        examples.py ROOT PACKAGES CHECKER...    the example in WGSL by a checker that takes a folder
 
-ROOT holds README.md, PACKAGES the shader packages. An example is the indented text of a section.
+ROOT holds README.md, PACKAGES the shader packages. An example is the indented text of a section, up to the next that begins
+with an include or a version.
 """
 import re
 import shutil
@@ -32,16 +33,22 @@ EXAMPLES = {
         "Vulkan": (".frag", GLSLANG),
         "OpenGL and OpenGL ES": (".frag", [*GLSLANG, "--auto-map-bindings", "--auto-map-locations"]),
         "Direct3D": (".hlsl", [*GLSLANG, "-D", "-S", "frag", "-e", "main"]),
-        "Metal": (".metal", ROUTES["metal"].compiler),
+        "Metal": (".metal", [*ROUTES["metal"].compiler, "-Wno-unknown-attributes"]),
         "CUDA": (".cu", [*CUDA, "-c"]),
         "OpenCL": (".cl", ROUTES["opencl"].compiler),
     },
 }
 
 
-def example_in(root, document, section):
-    page = (root / document).read_text().split(f"## {section}\n")[1].split("\n## ")[0]
-    return "\n".join(re.findall(r"^    (.*)$|^$", page, re.MULTILINE)).lstrip()
+def examples_in(root, document, section):
+    page = (root / document).read_text().split(f"\n## {section}\n")[1].split("\n## ")[0]
+    examples = []
+    for block in re.findall(r"^    .*\n(?:(?:    .*)?\n)*", page + "\n", re.MULTILINE):
+        text = re.sub(r"^    ", "", block, flags=re.MULTILINE)
+        if not examples or text.startswith("#"):
+            examples.append("")
+        examples[-1] += text
+    return examples
 
 
 def pasted(text, packages):
@@ -51,7 +58,7 @@ def pasted(text, packages):
 
 def checked_wgsl(root, packages, checker):
     with tempfile.TemporaryDirectory() as folder:
-        text = (packages / "moments4.wgsl").read_text() + example_in(root, "docs/shaders.md", "WebGPU")
+        text = (packages / "moments4.wgsl").read_text() + "".join(examples_in(root, "docs/shaders.md", "WebGPU"))
         (Path(folder) / "example.wgsl").write_text(text)
         return subprocess.run([*checker, folder]).returncode
 
@@ -63,24 +70,30 @@ def main():
     count = failed = 0
     for document, sections in EXAMPLES.items():
         for section, (ending, compiler) in sections.items():
-            example = example_in(root, document, section)
-            if "OpenGL" in section:
-                example = pasted(example, packages)
-            with tempfile.TemporaryDirectory() as folder:
-                unit = Path(folder) / f"example{ending}"
-                unit.write_text(example)
-                run = subprocess.run([*compiler, f"-I{root / 'include'}", f"-I{packages}", "-o", f"{folder}/out", str(unit)],
-                                     capture_output=True, text=True)
-            count += 1
-            if run.returncode:
-                failed += 1
-                print(f"{document}, {section}: {complaints(run)[0]}")
+            examples = examples_in(root, document, section)
+            assert examples, f"{document}, {section}: no example"
+            for example in examples:
+                if "OpenGL" in section:
+                    example = pasted(example, packages)
+                with tempfile.TemporaryDirectory() as folder:
+                    unit = Path(folder) / f"example{ending}"
+                    unit.write_text(example)
+                    run = subprocess.run([*compiler, f"-I{root / 'include'}", f"-I{packages}", "-o", f"{folder}/out", str(unit)],
+                                         capture_output=True, text=True)
+                count += 1
+                if run.returncode:
+                    failed += 1
+                    print(f"{document}, {section}: {complaints(run)[0]}")
     words = re.findall(r"`(\w+)`", (root / "docs/shaders.md").read_text())
+    header = Path("/usr/include/vulkan/vulkan_core.h")
+    unknown = {word for word in words if word.startswith("VK_")} - set(re.findall(r"\w+", header.read_text()))
+    for name in sorted(unknown):
+        print(f"docs/shaders.md: {name} is not a name of {header}")
     unnamed = {path.stem for path in packages.glob("*.glsl")} - set(words)
     for name in sorted(unnamed):
         print(f"docs/shaders.md: does not name the package {name}")
     print(f"{count} examples, {failed} refused")
-    sys.exit(bool(failed or unnamed))
+    sys.exit(bool(failed or unnamed or unknown))
 
 
 main()

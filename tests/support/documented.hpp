@@ -9,20 +9,23 @@
 
 namespace gnomon::test {
 
-/// The numbers of the row "| KEY | number | ..." in a file; path is relative to the root of the project. KEY
-/// may have bars.
-inline std::vector<double> documented(const std::string& path, const std::string& key)
+/// The row "| KEY | ..." in a file behind its key; path is relative to the root of the project. KEY may have bars.
+inline std::string documented_row(const std::string& path, const std::string& key)
 {
     std::ifstream file(std::filesystem::path(__FILE__).parent_path() / "../.." / path);
     const std::string begin = "| " + key + " |";
+    for (std::string line; std::getline(file, line);)
+        if (line.starts_with(begin)) return line.substr(begin.size());
+    return {};
+}
+
+/// The numbers of the row "| KEY | number | ...", up to a cell that is none.
+inline std::vector<double> documented(const std::string& path, const std::string& key)
+{
+    std::istringstream cells(documented_row(path, key));
     std::vector<double> numbers;
-    for (std::string line; std::getline(file, line);) {
-        if (!line.starts_with(begin)) continue;
-        std::istringstream cells(line.substr(begin.size()));
-        double x = 0;
-        for (char bar = 0; cells >> x >> bar;) numbers.push_back(x);
-        break;
-    }
+    double x = 0;
+    for (char bar = 0; cells >> x >> bar && bar == '|';) numbers.push_back(x);
     return numbers;
 }
 
