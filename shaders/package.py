@@ -29,9 +29,9 @@ LANGUAGES = {
 # Technique: the headers that it starts from, and for moments how many of them. What else it takes follows from the
 # headers' includes. A header below one of FOLDERS is a technique by itself, with its storage formats.
 TECHNIQUES = {
-    "moments4": (["moments/quantization.h", "storage/moments4.h", "storage/moments4_within.h",
+    "moments4": (["moments/quantization.h", "moments/affine.h", "storage/moments4.h", "storage/moments4_within.h",
                   "moments/hamburger4.h"], "4"),
-    "moments6": (["moments/quantization.h", "storage/moments6.h", "moments/hamburger6.h"], "6"),
+    "moments6": (["moments/quantization.h", "moments/affine.h", "storage/moments6.h", "moments/hamburger6.h"], "6"),
     "two_point": (["moments/two_point.h"], ""),
     "depth": (["moments/depth.h"], ""),
 }

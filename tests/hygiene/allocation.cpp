@@ -92,13 +92,22 @@ TEST_CASE_TEMPLATE("no pass allocates", Format, gnomon::exponential_variance_hal
     std::array<texel, mip_texels(12, 9)> texels{};
     std::array<texel, 12 * 9> scratch{};
     const mip_view<texel> mips{texels, 12, 9};
+    std::array<texel, 3 * 6 * 8 * 8> cube_texels{};
+    const auto cube = [&](std::size_t k) {
+        cube_view<texel> view;
+        for (auto& face : view.faces) face = {std::span(cube_texels).subspan(64 * k++, 64), 8, 8};
+        return view;
+    };
     const auto weights = gaussian_weights();
     const long before = allocations;
+    blur_cube<Format>(cube(0), cube(6), cube(12), weights);
+    const float behind = Format::intensity(cube_bilinear<Format>(cube(12), 1.0f, 2.0f, 3.0f), 0.5f);
     blur<Format>(mips.level(0), {scratch, 12, 9}, mips.level(0), weights);
     build_mips<Format>(mips);
     const float shadow = Format::intensity(trilinear<Format>(mips, 3.0f, 4.0f, 1.5f), 0.5f);
     CHECK(allocations == before);
     CHECK(shadow >= 0);
+    CHECK(behind >= 0);
 }
 
 TEST_CASE("no pass over ranges allocates")
