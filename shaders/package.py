@@ -97,7 +97,7 @@ class Packager:
         self.version = version
         self.number = int("".join(f"{int(part):02}" for part in version.split(".")))
         names = sorted(path.relative_to(self.root).as_posix() for path in self.root.rglob("*.h"))
-        names = [name for name in names if not name.startswith("portable")]
+        names = [name for name in names if not name.startswith(("portable", "version"))]
         self.headers = {name: Header.read(self.root, name) for name in names}
         roots = TECHNIQUES | {Path(name).stem: (self.with_storage(name), "") for name in names if Path(name).parts[0] in FOLDERS}
         self.packages = {technique: (closure(self.headers, start), count) for technique, (start, count) in roots.items()}

@@ -38,6 +38,7 @@
 // returns -0 for the 0 in gnomon_select(mask, Real(-1), Real(0)), and 0 for Real(0) * x with any x.
 #ifndef GNOMON_PORTABLE_H
 #define GNOMON_PORTABLE_H
+#include "version.h"
 
 #if defined(GNOMON_PACKAGE)
 #error "gnomon: a shader package is included already; packages and headers exclude one another"
