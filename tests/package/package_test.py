@@ -75,9 +75,10 @@ class Package(unittest.TestCase):
     @CHECKED_IN
     def test_everything_is_installed(self):
         for folder, installed in {"include/gnomon": "include/gnomon", "shaders/packages": "share/gnomon/shaders"}.items():
-            sources = {path.relative_to(ROOT / folder) for path in (ROOT / folder).rglob("*") if path.is_file()}
+            sources = {path.relative_to(ROOT / folder): path.read_bytes() for path in (ROOT / folder).rglob("*.*")}
             self.assertTrue(sources)
-            self.assertLessEqual(sources, {path.relative_to(PREFIX / installed) for path in (PREFIX / installed).rglob("*")})
+            for name, content in sources.items():
+                self.assertEqual(content, (PREFIX / installed / name).read_bytes(), name)
         licence = PREFIX / "share/licenses/gnomon/LICENSE"
         self.assertEqual(licence.read_text(), (ROOT / "LICENSE").read_text())
 
