@@ -96,9 +96,9 @@ def operation_counts(headers):
 
 class Reference:
     def __init__(self):
-        self.packager = packager = Packager(ROOT / "include", "0.0.0")
-        self.headers = {header.name: header for header in packager.packages["gnomon"][0]} # in the order of the flow
-        self.packages = {name: sorted(package for package, (headers, _) in packager.packages.items()
+        self.packager = packager = Packager()
+        self.headers = {header.name: header for header in packager.techniques["gnomon"][0]} # in the order of the flow
+        self.packages = {name: sorted(package for package, (headers, _) in packager.techniques.items()
                                       if any(header.name == name for header in headers) and package != "gnomon")
                          for name in self.headers}
         self.entries = {name: [entry for block in header.blocks for entry in entries(block)]

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Writes the shader packages: the kernels of include/gnomon as files of one language each, that include nothing.
 
-usage: package.py INCLUDE VERSION OUTPUT [PREFIX]    writes gnomon.ENDING and TECHNIQUE.ENDING into the folder OUTPUT
-
-INCLUDE is the folder that holds gnomon/, VERSION is like 0.1.0. PREFIX, or else gnomon_, begins the names of helpers where
-the language has no namespaces. docs/architecture.md says how packages come about.
+Without an argument, every package anew, into shaders/packages. With techniques, one file that holds them all, in each
+language: package.py moments4 variance --language wgsl writes moments4_variance.wgsl. docs/architecture.md says how
+packages come about.
 """
+import argparse
+import difflib
 import itertools
 import os
 import re
@@ -17,6 +18,11 @@ from dialect import CONSTANT, DEFINED, DialectError, Header, Prelude
 from helpers import internal
 from layout import laid_out
 
+ROOT = Path(__file__).resolve().parents[1]
+PACKAGES = ROOT / "shaders/packages"
+VERSION = re.compile(r"^#define GNOMON_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)$", re.MULTILINE)
+PREFIX = re.compile(r"(?!gl_)[A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)*_?") # no language reserves a name that begins so
+
 # Ending of the packages: prelude, the language's name, and how the preprocessor tells another language.
 LANGUAGES = {
     "glsl": ("glsl.h", "GLSL", "defined(__cplusplus) || defined(__HLSL_VERSION) || defined(__OPENCL_C_VERSION__)"),
@@ -25,6 +31,7 @@ LANGUAGES = {
     "cl": ("opencl.h", "OpenCL C", "!defined(__OPENCL_C_VERSION__) && !defined(__OPENCL_CPP_VERSION__)"),
     "cuh": ("cpp.h", "CUDA and C++20", "!defined(__cplusplus) || defined(__METAL_VERSION__)"),
 }
+ENDINGS = [*LANGUAGES, "wgsl"] # which is the GLSL, translated
 
 # Technique: the headers that it starts from, and for moments how many of them. What else it takes follows from the
 # headers' includes. A header below one of FOLDERS is a technique by itself, with its storage formats.
@@ -92,61 +99,82 @@ def section(title, guard, comment, text):
 
 
 class Packager:
-    def __init__(self, include, version, prefix="gnomon_"):
+    """The packages of the kernels in a folder that holds gnomon/."""
+
+    def __init__(self, include=ROOT / "include", prefix="gnomon_"):
         self.root = include / "gnomon"
-        self.version = version
-        self.number = int("".join(f"{int(part):02}" for part in version.split(".")))
+        version = VERSION.findall((self.root / "version.h").read_text())
+        self.version, self.number = ".".join(version), int("".join(part.zfill(2) for part in version))
         names = sorted(path.relative_to(self.root).as_posix() for path in self.root.rglob("*.h"))
         names = [name for name in names if not name.startswith(("portable", "version"))]
         self.headers = {name: Header.read(self.root, name) for name in names}
-        roots = TECHNIQUES | {Path(name).stem: (self.with_storage(name), "") for name in names if Path(name).parts[0] in FOLDERS}
-        self.packages = {technique: (closure(self.headers, start), count) for technique, (start, count) in roots.items()}
-        counted = [headers for headers, count in self.packages.values() if count]
-        self.shared = [header for header in counted[0] if all(header in headers for headers in counted)]
         everything = closure(self.headers, ["gnomon.h", *names])
+        self.starts = TECHNIQUES | {Path(name).stem: (self.with_storage(name), "") for name in names
+                                    if Path(name).parts[0] in FOLDERS}
+        self.techniques = {technique: (closure(self.headers, start), count) for technique, (start, count) in self.starts.items()}
+        counted = [headers for headers, count in self.techniques.values() if count]
+        self.shared = [header for header in counted[0] if all(header in headers for headers in counted)]
         for header in everything:
-            if not any(header in headers for headers, _ in self.packages.values()):
+            if not any(header in headers for headers, _ in self.techniques.values()):
                 raise DialectError(f"{self.root / header.name}: in no technique of package.py")
-        self.packages["gnomon"] = (everything, "")
-        self.prefix, self.internal = prefix, internal(everything)
+        self.starts["gnomon"], self.techniques["gnomon"] = (["gnomon.h", *names], ""), (everything, "")
+        self.prefix, self.internal, self.preludes = prefix, internal(everything), {}
 
     def with_storage(self, name):
         """The header of a technique and that of its storage formats, which includes it."""
         storage = f"storage/{Path(name).name}"
         return [storage] if name.startswith("filters/") and storage in self.headers else [name]
 
-    def files(self):
-        """(name, text) of every package."""
+    def files(self, endings=ENDINGS):
+        """(name, text) of the package of every technique, and of the one that holds them all."""
+        for technique in self.techniques:
+            yield from self.file([technique], endings)
+
+    def file(self, techniques, endings=ENDINGS):
+        """(name, text) of one package that holds these techniques, in each language."""
+        package = "_".join(techniques)
+        headers = closure(self.headers, [start for technique in techniques for start in self.starts[technique][0]])
+        parts = [(header, [part for part in self.parts(header) if self.wanted(techniques, header, part[0])]) for header in headers]
         for ending, (prelude, language, other) in LANGUAGES.items():
-            prelude = Prelude.read(self.root / "portable" / prelude)
+            if ending in endings or ending == "glsl" and "wgsl" in endings:
+                name = f"{package}.{ending}"
+                checks = CHECKS.format(name=name, language=language, other=other, number=self.number)
+                text = self.package(name, language, checks, self.prelude(prelude), parts)
+                if ending in endings:
+                    yield name, text
+                if ending == "glsl" and "wgsl" in endings:
+                    yield f"{package}.wgsl", wgsl.translated(text)
+
+    def prelude(self, name):
+        if name not in self.preludes:
+            prelude = Prelude.read(self.root / "portable" / name)
             prelude.forget_unused(self.headers.values())
             if not prelude.has_namespaces:
                 prelude.names, prelude.prefix = self.internal, self.prefix
-            for package, (headers, count) in self.packages.items():
-                name = f"{package}.{ending}"
-                checks = CHECKS.format(name=name, language=language, other=other, number=self.number)
-                text = self.package(name, language, checks, prelude, headers, count)
-                yield name, text
-                if ending == "glsl":
-                    yield f"{package}.wgsl", wgsl.translated(text)
+            self.preludes[name] = prelude
+        return self.preludes[name]
 
     def name(self, name):
         """A name of the headers as it is in packages of languages without namespaces."""
         return self.prefix + name if name in self.internal else name
 
-    def package(self, name, language, checks, prelude, headers, count):
+    def package(self, name, language, checks, prelude, parts):
         guard = "GNOMON_" + re.sub(r"\W", "_", name).upper()
         text = HEADING.format(version=self.version, name=name, language=language)
         text += f"#ifndef {guard}\n#define {guard}\n\n" + "".join(f"{block}\n" for block in prelude.frame)
         text += section("the language", prelude.guard, prelude.comment + checks, prelude.own_text())
-        for header in headers:
+        for header, some in parts:
             comment = laid_out(prelude.prefixed(header.comment))
-            for about, title, part_guard, blocks in self.parts(header):
-                if not count or about in ("", count):
-                    text += section(title, part_guard, comment, prelude.spelled(blocks))
-                    comment = ""
+            for _, title, part_guard, blocks in some:
+                text += section(title, part_guard, comment, prelude.spelled(blocks))
+                comment = ""
         undone = dict.fromkeys(re.findall(r"#define (\w+)", "".join(prelude.frame)))
         return text + "".join(f"#undef {macro}\n" for macro in undone) + "#endif\n"
+
+    def wanted(self, techniques, header, about):
+        """Whether one of the techniques takes the part of a header that is about so many moments."""
+        return any(header in headers and (not count or about in ("", count))
+                   for headers, count in (self.techniques[technique] for technique in techniques))
 
     def parts(self, header):
         """(count, title, guard, blocks) of a header: one part, or one per count where a technique takes but its own."""
@@ -161,28 +189,100 @@ class Packager:
                 for count, blocks in taken.items() if blocks]
 
 
-def write(files, output):
-    """Each file aside, then under its name; packages of an earlier run that are none any more go."""
+def write(output, files):
+    """Each file aside, then under its name."""
     output.mkdir(parents=True, exist_ok=True)
-    for name, text in files:
+    for name, text in files.items():
         aside = output / f"{name}.new"
         aside.write_text(text)
         os.replace(aside, output / name)
-    for path in output.glob("*.*"):
-        if path.name not in dict(files) and "Written by shaders/package.py" in path.read_text():
-            path.unlink()
+
+
+def left_over(output, files, endings):
+    """Packages in these languages in a folder that are none of the files."""
+    return [path for ending in endings for path in sorted(output.glob(f"*.{ending}"))
+            if path.name not in files and path.read_text().startswith("// Gnomon ")]
+
+
+def replace(output, files, endings):
+    """The files in place of all packages in these languages that the folder holds."""
+    write(output, files)
+    for path in left_over(output, files, endings):
+        path.unlink()
+
+
+def check(files):
+    """Prints a line for each file of PACKAGES that is not what the kernels say; the number of them."""
+    differing = [name for name, text in files.items() if not (PACKAGES / name).exists() or (PACKAGES / name).read_text() != text]
+    differing += [path.name for path in left_over(PACKAGES, files, ENDINGS)]
+    for name in differing:
+        print(f"shaders/packages/{name}: not what include/gnomon says; run: python3 shaders/package.py")
+    print(f"{len(files)} packages, {len(differing)} differ")
+    return len(differing)
+
+
+def known(kind, name, names):
+    if name not in names:
+        near = difflib.get_close_matches(name, names, 1)
+        raise ValueError(f"no {kind} '{name}'; " + (f"'{near[0]}' is near" if near else f"there are {', '.join(names)}"))
+    return name
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise ValueError(message)
+
+
+def arguments(words):
+    parser = Parser(prog="package.py", allow_abbrev=False, description="Writes shader packages. Without an argument, every "
+                    "package in every language, into shaders/packages.")
+    parser.add_argument("techniques", nargs="*", metavar="TECHNIQUE", help="one file with all of these; without any, a file for "
+                        f"each of: {', '.join(Packager().techniques)}")
+    parser.add_argument("--language", action="append", metavar="ENDING", help=f"of {', '.join(ENDINGS)}; may be repeated")
+    parser.add_argument("--prefix", metavar="PREFIX", help="of helpers where the language has no namespaces; else gnomon_")
+    parser.add_argument("--bevy", action="store_true", help="WGSL for Bevy, which begins with #define_import_path gnomon::NAME")
+    parser.add_argument("--output", metavar="FOLDER", type=Path, help="else the folder that you are in")
+    parser.add_argument("--check", action="store_true", help="writes nothing; says which files of shaders/packages are not fresh")
+    asked, unknown = parser.parse_known_intermixed_args(words)
+    for word in unknown:
+        known("option", word, [option for action in parser._actions for option in action.option_strings])
+    return asked
+
+
+def run(words):
+    asked = arguments(words)
+    if asked.check:
+        if words != ["--check"]:
+            raise ValueError("--check goes alone")
+        return check(dict(Packager().files())) > 0
+    if asked.bevy and asked.language not in (None, ["wgsl"]):
+        raise ValueError(f"--bevy is WGSL, not {asked.language[0]}")
+    endings = ["wgsl"] if asked.bevy else [known("language", ending, ENDINGS) for ending in asked.language or ENDINGS]
+    if asked.prefix is not None and not PREFIX.fullmatch(asked.prefix):
+        raise ValueError(f"'{asked.prefix}' begins no name in every language: letters, digits and single underscores expected")
+    packager = Packager(prefix=asked.prefix or "gnomon_")
+    techniques = [known("technique", technique, list(packager.techniques)) for technique in dict.fromkeys(asked.techniques)]
+    files = dict(packager.file(techniques, endings) if techniques else packager.files(endings))
+    if asked.bevy:
+        files = {name: f"#define_import_path gnomon::{Path(name).stem}\n\n{text}" for name, text in files.items()}
+    output = asked.output or (Path() if words else PACKAGES)
+    write(output, files) if techniques else replace(output, files, endings)
+    print("\n".join(str(output / name) for name in files) if techniques else f"{len(files)} packages in {output}")
+    return 0
+
+
+def refused(why):
+    print(f"package.py: {why}", file=sys.stderr)
+    return 2
 
 
 def main():
-    if len(sys.argv) not in (4, 5) or not re.fullmatch(r"\d+\.\d+\.\d+", sys.argv[2]):
-        print("package.py: INCLUDE, VERSION such as 0.1.0, OUTPUT, and perhaps PREFIX expected", file=sys.stderr)
-        sys.exit(2)
-    include, version, output = Path(sys.argv[1]), sys.argv[2], Path(sys.argv[3])
     try:
-        write(list(Packager(include, version, *sys.argv[4:]).files()), output)
-    except (DialectError, OSError) as error:
-        print(f"package.py: {error}", file=sys.stderr)
-        sys.exit(2)
+        sys.exit(run(sys.argv[1:]))
+    except OSError as error:
+        sys.exit(refused(f"{error.filename}: {error.strerror}"))
+    except (DialectError, ValueError) as error:
+        sys.exit(refused(error))
 
 
 if __name__ == "__main__":

@@ -27,7 +27,26 @@ STATEMENTS = [(re.compile(pattern, re.MULTILINE), replacement) for pattern, repl
     (r"\bfor \(int (\w+) = (.*); \+\+\1\)", r"for (var \1 = \2; \1++)"),
     (r"^( *(?:for|if) \(.*\)) ([^{;]*;)$", r"\1 { \2 }"),
 ]]
+IN_CODE = re.compile(r"(\.?)\b([A-Za-z]\w*\d)\b")
+IN_COMMENT = re.compile(r"()\b([A-Za-z]\w*\d)\b(?!\.\w)") # a file's name stays
 NOT_WGSL = re.compile(r"^#.*|.*(?:\?|\+\+\w|[^.\w]\w+\[|\b(?:bool|float|int) \w|\b(?:do|while)\b|\belse [^{i]).*", re.MULTILINE)
+
+
+def spelled(name):
+    """A name that a user may write, as WGSL has it: naga would put this underscore, and Bevy's composer then refuses the name."""
+    return name + "_" if name[-1].isdigit() else name
+
+
+def all_spelled(text):
+    """The text with all names so: of what it defines, in comments too, and of members where they are read."""
+    names = set(re.findall(r"^(?:const|fn|struct) (\w*\d)\b", text, re.MULTILINE))
+
+    def name(found):
+        dot, word = found.groups()
+        return dot + (spelled(word) if dot or word in names else word)
+
+    parts = re.split(r"(//.*)", text)
+    return "".join((IN_COMMENT if part.startswith("//") else IN_CODE).sub(name, part) for part in parts)
 
 
 def type_of(word):
@@ -51,7 +70,7 @@ def structure(found):
 
     def typed(some):
         type_ = type_of(some[1]) if not some[3] else f"array<{type_of(some[1])}, {some[3]}>"
-        return re.sub(r"\w+", lambda word: f"{word[0]}: {type_}", some[2]) + ","
+        return re.sub(r"\w+", lambda word: f"{spelled(word[0])}: {type_}", some[2]) + ","
 
     members = MEMBERS.sub(typed, text)
     return "\n".join(wrapped(f"struct {name}{opening}{re.sub(', $', ' ', members)}}}"))
@@ -61,6 +80,7 @@ def function(found):
     result, name, parameters, body = found.groups()
     parameters = [parameter.split() for parameter in re.split(r",\s*", parameters)]
     assigned = set(re.findall(r"(?:^ *|\) )(\w+)(?:\.\w+|\[[^\]]*\])* = ", body, re.MULTILINE))
+    assigned |= set(re.findall(r"(\w+)(?:\.\w+)*\[[a-z]", body)) # naga before 23 indexes nothing else by a variable
 
     def declaration(found):
         indent, kind, word, rest = found.groups()
@@ -83,7 +103,7 @@ def translated(glsl):
         glsl = CAPACITY.sub(r"const \1: i32 = \2;", glsl, 1).replace(name, name.lower())
     text = GUARDS.sub("", PRELUDE.sub(lambda rule: f"{rule[1]}{LANGUAGE.read_text()}\n", glsl))
     text = text.replace(" in GLSL,", " in WGSL,", 1).replace(".glsl:", ".wgsl:", 1)
-    text = STRUCT.sub(structure, laid_out(FUNCTION.sub(function, CONSTANT.sub(constant, text))))
+    text = STRUCT.sub(structure, laid_out(all_spelled(FUNCTION.sub(function, CONSTANT.sub(constant, text)))))
     code = re.sub(r"//.*", "", text)
     if left := NOT_WGSL.search(code):
         raise DialectError(f"wgsl.py: cannot say in WGSL: {left[0].strip()}")

@@ -2,7 +2,7 @@
 """Compiles the examples of README.md, docs/lessons.md and docs/shaders.md, so that what a newcomer copies works.
 
 usage: examples.py ROOT PACKAGES               prints what a compiler has against an example; exit code 1 if there is any
-       examples.py ROOT PACKAGES CHECKER...    the example in WGSL by a checker that takes a folder
+       examples.py ROOT PACKAGES SECTION CHECKER...    those of a section in WGSL, and packages, by a checker that takes a folder
 
 ROOT holds README.md, PACKAGES the shader packages. An example is the indented text of a section, up to the next that begins
 with an include or a version.
@@ -41,7 +41,7 @@ EXAMPLES = {
 
 
 def examples_in(root, document, section):
-    page = (root / document).read_text().split(f"\n## {section}\n")[1].split("\n## ")[0]
+    page = (root / document).read_text().split(f"# {section}\n")[1].split("\n#")[0]
     examples = []
     for block in re.findall(r"^    .*\n(?:(?:    .*)?\n)*", page + "\n", re.MULTILINE):
         text = re.sub(r"^    ", "", block, flags=re.MULTILINE)
@@ -56,17 +56,32 @@ def pasted(text, packages):
     return re.sub(r'^#include "(.*)"\n', lambda include: (packages / include[1]).read_text(), text, flags=re.MULTILINE)
 
 
-def checked_wgsl(root, packages, checker):
+def checked_wgsl(root, packages, section, checker):
+    """The examples of a section beside every package in Bevy's form, or beside files that hold two techniques each."""
+    sys.path.insert(0, str(root / "shaders"))
+    from package import Packager
+
+    examples = examples_in(root, "docs/shaders.md", section)
     with tempfile.TemporaryDirectory() as folder:
-        text = (packages / "moments4.wgsl").read_text() + "".join(examples_in(root, "docs/shaders.md", "WebGPU"))
-        (Path(folder) / "example.wgsl").write_text(text)
+        folder = Path(folder)
+        if section == "Bevy":
+            subprocess.run([sys.executable, "-B", root / "shaders/package.py", "--bevy", "--output", folder], check=True)
+        else:
+            examples = [(packages / "moments4.wgsl").read_text() + "".join(examples)]
+            packager = Packager()
+            techniques = list(packager.techniques)
+            for pair in [*zip(techniques, techniques[1:]), ("moments4", "variance")]:
+                (name, text), = packager.file(pair, ["wgsl"])
+                (folder / name).write_text(text)
+        for i, example in enumerate(examples):
+            (folder / f"example{i}.wgsl").write_text(example)
         return subprocess.run([*checker, folder]).returncode
 
 
 def main():
     root, packages = Path(sys.argv[1]), Path(sys.argv[2])
     if sys.argv[3:]:
-        sys.exit(checked_wgsl(root, packages, sys.argv[3:]))
+        sys.exit(checked_wgsl(root, packages, sys.argv[3], sys.argv[4:]))
     count = failed = 0
     for document, sections in EXAMPLES.items():
         for section, (ending, compiler) in sections.items():

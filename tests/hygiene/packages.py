@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The shader packages of one language: each by itself, all in one unit, and the same code as the headers have.
+"""The shader packages of one language: each by itself, all in one unit, and the same code as the headers have. Files of some
+techniques together are among them.
 
 usage: packages.py LANGUAGE INCLUDE PACKAGES             prints one line for each fault; exit code 1 if there is any
        packages.py LANGUAGE INCLUDE --prefix PREFIX      the same of packages that are written with another prefix
@@ -29,6 +30,7 @@ SPIRV_PASSES = ["--eliminate-dead-branches", "--merge-blocks", "--eliminate-loca
 
 
 NAMESPACES = ("c++", "metal")
+SUBSETS = [["moments4", "variance"], ["moments6", "moments4"]]
 DEFINED = re.compile(r"^GNOMON_(?:(?:LIST_)?STRUCT|CONSTANT)\((\w+)", re.MULTILINE)
 GLOBAL = re.compile(r"^(?:typedef )?(?:static inline |__constant |static |const )*(?!return|else|precision)\w+ (\w+)(\(| = |\s*\{)",
                     re.MULTILINE)
@@ -153,9 +155,12 @@ def main():
     prefix = (sys.argv[4:] or ["gnomon_"])[0]
     names = Names(include, prefix)
     kernels = names.kernels
+    packager = Packager(include, prefix)
     files = {path.name: path.read_text() for path in sorted(packages.glob("*"))}
     if sys.argv[4:]:
-        files = dict(Packager(include, "0.0.0", prefix).files())
+        files = dict(packager.files())
+    for techniques in SUBSETS:
+        files |= dict(packager.file(techniques, [ROUTES[language].package]))
     texts = {Path(name).stem: text for name, text in files.items() if name.endswith("." + ROUTES[language].package)}
     faults, functions = [], {}
     with tempfile.TemporaryDirectory() as folder:

@@ -32,6 +32,15 @@ TRANSLATIONS = [
      "fn f(given_x: f32) -> f32\n{\n    var x = given_x;\n    for (var i = 0; i < 4; i++) { x = x + f32(i); }\n    return x;\n}\n"),
     ("float f(float x)\n{\n    bool m = x < 1.0;\n    if (m) {\n        return x;\n    }\n    return 1.0;\n}\n",
      "fn f(x: f32) -> f32\n{\n    let m = x < 1.0;\n    if (m) {\n        return x;\n    }\n    return 1.0;\n}\n"),
+    # Names that end in a digit: of what is defined, in comments too, and of members; not of variables, nor of files.
+    ("const float a1 = 0.5; // a1 of a1.h, b1\nstruct s4 { float b1, c; };\nfloat f2(s4 x1)\n{\n    float b1 = x1.b1;\n"
+     "    return b1 * a1;\n}\n",
+     "const a1_: f32 = 0.5; // a1_ of a1.h, b1\nstruct s4_ { b1_: f32, c: f32 }\nfn f2_(x1: s4_) -> f32\n{\n    let b1 = x1.b1_;\n"
+     "    return b1 * a1_;\n}\n"),
+    # A parameter whose elements are read by a variable.
+    ("float f(s x)\n{\n    float y = x.c[0];\n    for (int i = 0; i < 4; ++i) y = y + x.c[i].a0;\n    return y;\n}\n",
+     "fn f(given_x: s) -> f32\n{\n    var x = given_x;\n    var y = x.c[0];\n"
+     "    for (var i = 0; i < 4; i++) { y = y + x.c[i].a0_; }\n    return y;\n}\n"),
 ]
 REFUSED = [
     "float f(float x) { return x < 0.0 ? x : 1.0; }\n",

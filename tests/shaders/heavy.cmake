@@ -21,7 +21,7 @@ if(GNOMON_EGL_INCLUDE AND GNOMON_GLES_INCLUDE AND GNOMON_EGL AND GNOMON_GLES)
 endif()
 heavy_test(gles essl-gles)
 
-# Dawn, Tint and naga as node's modules, in the versions of package-lock.json, over the network.
+# Dawn, Tint, naga and naga_oil as node's modules, in the versions of package-lock.json, over the network.
 parity_shaders(wgsl kernels.wgsl gnomon_heavy)
 if(GNOMON_GLSLANG AND GNOMON_SPIRV_AS)
     parity_shaders(naga modules gnomon_heavy)
@@ -37,12 +37,13 @@ if(GNOMON_NODE AND GNOMON_NPM)
     # naga-wasm asks for a later node than it needs, hence the log level; nothing here needs its scripts of installation.
     add_custom_command(OUTPUT ${dawn}/node_modules/.package-lock.json
         COMMAND ${GNOMON_NPM} ci --ignore-scripts --no-audit --no-fund --loglevel=error
-        DEPENDS dawn/package-lock.json WORKING_DIRECTORY ${dawn} COMMENT "Fetching Dawn and naga from npm")
+        DEPENDS dawn/package-lock.json WORKING_DIRECTORY ${dawn} COMMENT "Fetching Dawn, naga and naga_oil from npm")
     add_custom_target(gnomon_dawn DEPENDS ${dawn}/node_modules/.package-lock.json)
     add_dependencies(gnomon_heavy gnomon_dawn)
     add_test(NAME wgsl/packages COMMAND ${GNOMON_NODE} ${dawn}/check.mjs ${GNOMON_SHADERS})
-    add_test(NAME wgsl/example COMMAND python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/../hygiene/examples.py
-        ${PROJECT_SOURCE_DIR} ${GNOMON_SHADERS} ${GNOMON_NODE} ${dawn}/check.mjs)
-    set_tests_properties(wgsl/packages wgsl/example PROPERTIES LABELS "shader;heavy" SKIP_RETURN_CODE 77)
+    set(examples python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/../hygiene/examples.py ${PROJECT_SOURCE_DIR} ${GNOMON_SHADERS})
+    add_test(NAME wgsl/example COMMAND ${examples} WebGPU ${GNOMON_NODE} ${dawn}/check.mjs)
+    add_test(NAME wgsl/bevy COMMAND ${examples} Bevy ${GNOMON_NODE} ${dawn}/bevy.mjs)
+    set_tests_properties(wgsl/packages wgsl/example wgsl/bevy PROPERTIES LABELS "shader;heavy" SKIP_RETURN_CODE 77)
 endif()
 heavy_test(wgsl wgsl-dawn naga-dawn)

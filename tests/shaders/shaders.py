@@ -12,6 +12,7 @@ opencl, metal, wgsl: OUTPUT/kernels.cl, .metal, .wgsl, one text with a function 
 
 Where a language knows no #include, the kernels come from its package.
 """
+import re
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -25,6 +26,7 @@ import exact_arithmetic
 from kept import kept
 from package import Packager
 from precise import precise
+from wgsl import spelled
 
 BLOCK = 64 # block_rows of kernel_call.hpp
 GLSLANG = ["glslangValidator", "-V", "--target-env", "vulkan1.1"]
@@ -41,8 +43,13 @@ class Language(NamedTuple):
     declare: str = "{} {}"
     package: str = "" # what holds the kernels where there is no #include
     name: Callable = str # of a struct, as the package has it
+    spelled: Callable = str # the headers' names, as the language has them
     changed: Callable = str # what becomes of the package's text
     compiler: list = [] # to SPIR-V, one module per kernel
+
+
+def spelled_in_wgsl(text):
+    return re.sub(r"[A-Za-z]\w*", lambda word: spelled(word[0]), text)
 
 
 GLSL_BUFFERS = """layout(local_size_x = 64) in;
@@ -77,12 +84,12 @@ alias float = f32;
 @group(0) @binding(1) var<storage, read_write> y: array<u32>;
 """, "@compute @workgroup_size(64)\nfn parity_{}(@builtin(workgroup_id) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32)\n"
         "{{\n    let group = groups.x;", load="bitcast<f32>(x[{}])", store="y[{}] = bitcast<u32>({})", declare="var {1}: {0}",
-        package="gnomon.wgsl", changed=kept),
+        package="gnomon.wgsl", spelled=spelled_in_wgsl, changed=kept),
 }
 
 
 def type_of(language, name):
-    return "float" if name == "Real" else language.struct.format(language.name(name))
+    return "float" if name == "Real" else language.struct.format(language.spelled(language.name(name)))
 
 
 def function(language, headers, kernel):
@@ -95,12 +102,12 @@ def function(language, headers, kernel):
     for k, parameter in enumerate(kernel.parameters):
         lines.append(f"    {language.declare.format(type_of(language, parameter), f'a{k}')};")
         for number in headers.numbers(parameter):
-            lines.append(f"    a{k}{number} = {language.load.format(f'i + {BLOCK * column}u')};")
+            lines.append(f"    a{k}{language.spelled(number)} = {language.load.format(f'i + {BLOCK * column}u')};")
             column += 1
     arguments = ", ".join(f"a{k}" for k in range(len(kernel.parameters)))
     result = language.declare.format(type_of(language, kernel.result), "r")
-    lines.append(f"    {result} = {language.call.format(kernel.name)}({arguments});")
-    lines += [f"    {language.store.format(f'o + {BLOCK * j}u', f'r{number}')};" for j, number in enumerate(outputs)]
+    lines.append(f"    {result} = {language.call.format(language.spelled(kernel.name))}({arguments});")
+    lines += [f"    {language.store.format(f'o + {BLOCK * j}u', f'r{language.spelled(number)}')};" for j, number in enumerate(outputs)]
     return "\n".join(lines) + "\n}\n"
 
 
@@ -124,7 +131,7 @@ def main():
     output.mkdir(parents=True, exist_ok=True)
     packages = {}
     if language.package:
-        packager = Packager(include, "0.0.0")
+        packager = Packager(include)
         packages, language = dict(packager.files()), language._replace(name=packager.name)
     if "{}" in language.entry:
         text = text_around(language, headers, headers.kernels, packages)
