@@ -100,7 +100,7 @@ class Package(unittest.TestCase):
         build = self.configured(library, f"-DGNOMON_ROOT={ROOT}", f"-DCMAKE_INSTALL_PREFIX={self.prefix}")
         self.succeeds("cmake", "--install", build)
         for options in ([f"-DCMAKE_PREFIX_PATH={self.prefix}"], [f"-Dshadows_DIR={build}", f"-Dgnomon_DIR={build / 'gnomon'}"]):
-            application = self.configured(library / "application", *options)
+            application = self.configured(library / "application", f"-DMAIN={HERE}/consumer/main.cpp", *options)
             self.succeeds("cmake", "--build", application)
             self.assertIn("shadow intensity 0.", self.succeeds(application / "application"))
             shutil.rmtree(application)
