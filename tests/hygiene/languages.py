@@ -24,13 +24,15 @@ class Route:
     begin: str
     main: str
     compiler: list[str]
+    writes: bool = True # false where the compiler reads this version and has no code for it
 
     def compiled(self, text, output, include=None):
         """The compiler's run on a unit of this text."""
         unit = output.with_suffix(self.ending)
         unit.write_text(text)
         options = [f"-I{include}"] if include else []
-        return subprocess.run([*self.compiler, *options, "-o", str(output), str(unit)], capture_output=True, text=True)
+        options += ["-o", str(output)] if self.writes else []
+        return subprocess.run([*self.compiler, *options, str(unit)], capture_output=True, text=True)
 
 
 def complaints(run):
@@ -44,7 +46,9 @@ LLVM = ["-O1", "-ffp-contract=off", "-S", "-emit-llvm", "-Wall", "-Wextra", "-We
 ROUTES = {
     "glsl": Route("glsl", ".comp", "#version 450\n" + INCLUDES,
                   "layout(local_size_x = 1) in;\nvoid main() {{{}}}\n", GLSLANG),
+    "glsl330": Route("glsl", ".frag", "#version 330\n" + INCLUDES, "void main() {{{}}}\n", ["glslangValidator", "-G"]),
     "glsl400": Route("glsl", ".frag", "#version 400\n" + INCLUDES, "void main() {{{}}}\n", ["glslangValidator", "-G"]),
+    "essl300": Route("glsl", ".frag", "#version 300 es\n" + INCLUDES, "void main() {{{}}}\n", ["glslangValidator", "-l"], writes=False),
     "essl310": Route("glsl", ".frag", "#version 310 es\n" + INCLUDES, "void main() {{{}}}\n", GLSLANG),
     "essl320": Route("glsl", ".frag", "#version 320 es\n" + INCLUDES, "void main() {{{}}}\n", GLSLANG),
     "hlsl": Route("hlsl", ".hlsl", "", "[numthreads(1, 1, 1)] void main() {{{}}}\n",

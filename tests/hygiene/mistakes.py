@@ -43,7 +43,7 @@ def mistakes(include, packages):
     yield "OpenCL C 1.1", [*OPENCL, "-cl-std=CL1.1"], ".cl", EVERYTHING, "gnomon: -cl-std=CL1.2 or later"
     yield "OpenCL, relaxed", [*OPENCL, "-cl-fast-relaxed-math"], ".cl", EVERYTHING, "gnomon: -cl-fast-relaxed-math voids"
     yield "OpenCL, embedded", [*OPENCL, "-D__EMBEDDED_PROFILE__"], ".cl", EVERYTHING, "gnomon: the full profile needed"
-    for version, answer in {"330": "gnomon: #version 400", "300 es": "gnomon: #version 310 es"}.items():
+    for version, answer in {"150": "gnomon: #version 330", "100": "gnomon: #version 300 es"}.items():
         begin = f"#version {version}\n"
         yield f"#version {version}", PREPROCESS, ".frag", begin + INCLUDES + EVERYTHING, answer
         for package in sorted(packages.glob("*.glsl")):

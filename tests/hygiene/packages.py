@@ -102,6 +102,8 @@ def code(language, text, kernels, folder, names, include=None):
     run = route.compiled(route.begin + plain + text + definitions + route.main.format(statements), output, include)
     if run.returncode:
         raise Refused(complaints(run)[0])
+    if not route.writes:
+        return {}
     if route.compiler[0] == "glslangValidator":
         return spirv_functions(output, names.plain)
     return llvm_functions(names.plain(output.read_text()))

@@ -1,12 +1,12 @@
-// GLSL from version 400, ESSL from version 310.
+// GLSL from version 330, ESSL from version 300.
 // Compile without contraction for the same bits as on the CPU (docs/shaders.md). Exact products are exact in any case.
 #ifndef GNOMON_PORTABLE_GLSL_H
 #define GNOMON_PORTABLE_GLSL_H
 
-#if defined(GL_ES) && __VERSION__ < 310
-#error "gnomon: #version 310 es or later needed"
-#elif !defined(GL_ES) && __VERSION__ < 400
-#error "gnomon: #version 400 or later needed"
+#if defined(GL_ES) && __VERSION__ < 300
+#error "gnomon: #version 300 es or later needed"
+#elif !defined(GL_ES) && __VERSION__ < 330
+#error "gnomon: #version 330 or later needed"
 #endif
 
 #if defined(GL_ES)
@@ -18,9 +18,10 @@ precision highp int;
 #define GNOMON_CONSTANT(name, value) const Real name = Real(value)
 #include "glsl_like.h"
 
-#if defined(GL_ES) && __VERSION__ < 320
-// This version has no precise. Mesa rewrites nothing across a choice, though, and both sides of this one are equal.
-Real gnomon_kept(Real x) { return gnomon_select(abs(x) <= Real(3.4028234663852886e38), x, x + x); }
+#if defined(GL_ES) && __VERSION__ < 320 || __VERSION__ < 400 && !defined(GL_ES)
+// These versions have no precise. No compiler rewrites floating-point operations across a minimum of integers, though,
+// and this one changes no value: only bits of NaN are above the bound, which is one.
+Real gnomon_kept(Real x) { return intBitsToFloat(min(floatBitsToInt(x), 0x7FC00000)); }
 Real gnomon_min(Real a, Real b) { return gnomon_select(a < b, a, gnomon_kept(b)); }
 Real gnomon_max(Real a, Real b) { return gnomon_select(b < a, a, gnomon_kept(b)); }
 Real gnomon_product(Real a, Real b) { return gnomon_kept(a * b); }
@@ -28,6 +29,7 @@ Real gnomon_difference(Real a, Real b) { return gnomon_kept(a - b); }
 #else
 #include "precise.h"
 #endif
-Real gnomon_power_of_two(Real n) { return intBitsToFloat((int(n) + 127) << 23); }
+// The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
+Real gnomon_power_of_two(Real n) { return uintBitsToFloat((floatBitsToUint(n + Real(12582912)) << 23u) + 0x3F800000u); }
 
 #endif
