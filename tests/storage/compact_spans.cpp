@@ -28,6 +28,7 @@ TEST_CASE("the code of a depth is the last step that is not farther")
     CHECK(compact_depth_code(1) == compact_depths - 1);
     CHECK(compact_depth_code(std::numeric_limits<double>::infinity()) == compact_depths - 1);
     CHECK(compact_depth_code(-std::numeric_limits<double>::infinity()) == 0);
+    CHECK(compact_depth_code(std::numeric_limits<double>::quiet_NaN()) == compact_depths - 1);
 }
 
 TEST_CASE("a body holds two depths and an id")

@@ -54,7 +54,7 @@ TEST_CASE_TEMPLATE("every code round-trips in every channel", Format, moments4_u
     }
 }
 
-TEST_CASE_TEMPLATE("floats are stored as they are", Format, moments4_float, moments6_float)
+TEST_CASE_TEMPLATE("floats are stored as they are, but for NaN", Format, moments4_float, moments6_float)
 {
     hostile_source<float> source(2);
     for (std::int64_t i = 0; i < effort(100'000); ++i) {
@@ -62,7 +62,8 @@ TEST_CASE_TEMPLATE("floats are stored as they are", Format, moments4_float, mome
         typename Format::texel t;
         std::copy_n(x.begin(), t.size(), t.begin());
         const auto back = Format::encode(Format::decode(t));
-        for (std::size_t j = 0; j < t.size(); ++j) REQUIRE((back[j] == t[j] || std::isnan(t[j])));
+        if (are_known(Format::decode(t))) REQUIRE(back == t);
+        else REQUIRE(back == Format::clear());
     }
 }
 
@@ -95,7 +96,7 @@ TEST_CASE_TEMPLATE("numbers outside the range, and NaN, have a code", Format, mo
     };
     CHECK(filled(-1) == filled(0));
     CHECK(filled(-infinity) == filled(0));
-    CHECK(filled(nan) == filled(0));
+    CHECK(filled(nan) == Format::clear());
     CHECK(filled(2) == filled(1));
     CHECK(filled(infinity) == filled(1));
     CHECK(filled(0) == typename Format::texel{});

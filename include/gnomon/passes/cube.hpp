@@ -86,8 +86,10 @@ void blur_cube_face(const cube_view<const format_texel<Format>>& source, map_vie
             load(i + radius);
             channel_array<Format> sum{};
             for (std::ptrdiff_t tap = 0; tap < taps; ++tap) {
+                const float weight = weights[std::size_t(tap)];
+                if (!(std::abs(weight) > 0)) continue; // 0 times NaN is NaN
                 const channel_array<Format>& c = ring[std::size_t((i + tap) % taps)];
-                for (std::size_t k = 0; k < c.size(); ++k) sum[k] += weights[std::size_t(tap)] * c[k];
+                for (std::size_t k = 0; k < c.size(); ++k) sum[k] += weight * c[k];
             }
             const auto x = std::size_t(along_u ? i : line), y = std::size_t(along_u ? line : i);
             target(x, y) = store_channels<Format>(sum);
@@ -106,9 +108,7 @@ void expect_blur_cube(const cube_view<const format_texel<Format>>& source,
         expect_same_extent(pass, source.faces[face], target.faces[face]);
         for (std::size_t other = 0; other < 6; ++other) expect_apart(pass, source.faces[other], target.faces[face]);
     }
-    GNOMON_EXPECTS(weights.size() % 2 == 1, mismatch(pass, "weights.size()", weights.size(), "its remainder by 2", 0));
-    GNOMON_EXPECTS(weights.size() <= maximum_blur_taps,
-                   mismatch(pass, "weights.size()", weights.size(), "maximum_blur_taps", maximum_blur_taps));
+    expect_weights(pass, weights);
     GNOMON_EXPECTS(weights.size() / 2 < source.size(),
                    mismatch(pass, "weights.size() / 2", weights.size() / 2, "source.size()", source.size()));
 }
@@ -116,7 +116,7 @@ void expect_blur_cube(const cube_view<const format_texel<Format>>& source,
 } // namespace detail
 
 /// Blur all faces along both axes: source to scratch, scratch to target. Target may be source. Weights: an odd number of
-/// them, whose half is less than the size of a face, of any sign.
+/// them, whose half is less than the size of a face, of any sign, with a sum within 0.01 of 1.
 template <storage_format Format>
 void blur_cube(const cube_view<const format_texel<Format>>& source, const cube_view<format_texel<Format>>& scratch,
                const cube_view<format_texel<Format>>& target, std::span<const float> weights)
@@ -132,19 +132,22 @@ void blur_cube(const cube_view<const format_texel<Format>>& source, const cube_v
 
 /// Filtered channels in direction (x, y, z) from the light, of any length, by bilinear interpolation across edges.
 /// Domain: a cube with texels, and any direction.
-/// NaN: some direction.
+/// NaN: the border, lit.
 template <storage_format Format>
 format_channels<Format> cube_bilinear(const cube_view<const format_texel<Format>>& cube, float x, float y, float z)
 {
+    if (std::isunordered(x, y) || std::isnan(z)) return Format::border();
     const cube_position p = cube_position_from_direction(x, y, z);
     const auto face = std::size_t(p.face);
     const float u = p.u * float(cube.size()) - 0.5f, v = p.v * float(cube.size()) - 0.5f;
     const float left = std::floor(u), top = std::floor(v);
+    const int next_u = u > left ? 1 : 0, next_v = v > top ? 1 : 0; // a texel without weight is not read
     const auto at = [&](int i, int j) {
         return load_channels<Format>(detail::cube_texel(cube, face, std::ptrdiff_t(left) + i, std::ptrdiff_t(top) + j));
     };
-    return std::bit_cast<format_channels<Format>>(
-        detail::mix(detail::mix(at(0, 0), at(1, 0), u - left), detail::mix(at(0, 1), at(1, 1), u - left), v - top));
+    return gnomon_bit_cast<format_channels<Format>>(
+        detail::mix(detail::mix(at(0, 0), at(next_u, 0), u - left),
+                    detail::mix(at(0, next_v), at(next_u, next_v), u - left), v - top));
 }
 
 } // namespace gnomon

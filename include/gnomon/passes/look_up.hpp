@@ -1,29 +1,33 @@
 // Bilinear and trilinear look-up in a shadow map in its storage format. Texels are decoded, then interpolated in float,
 // so nothing is rounded to the format. Positions are in texels of the map itself, texel centres at +0.5. Beyond the
-// map's edge the outermost texel repeats.
+// map's edge the outermost texel repeats, or is lit (border_mode).
 #ifndef GNOMON_PASSES_LOOK_UP_HPP
 #define GNOMON_PASSES_LOOK_UP_HPP
 
 #include "mips.hpp"
 
+#include <cmath>
+
 namespace gnomon {
 
 namespace detail {
 
-/// The two neighbouring whole numbers in [0, extent - 1] around a coordinate, and the fraction from the lower to the
-/// upper one.
-/// NaN: the coordinate counts as 0.
+/// The whole numbers on either side of a coordinate, and the fraction from the lower to the upper one; a whole coordinate
+/// is both. The coordinate is clamped to [0, extent - 1], and by border_mode::lit to a texel more on either side.
 struct neighbours {
-    std::size_t lower, upper;
+    std::size_t lower, upper; // -1 for the texel before the first
     float fraction;
 };
 
-inline neighbours neighbours_of(float coordinate, std::size_t extent)
+template <border_mode mode> neighbours neighbours_of(float coordinate, std::size_t extent)
 {
-    const float last = float(extent - 1);
-    const float x = coordinate > 0 ? (coordinate < last ? coordinate : last) : 0.0f;
-    const std::size_t lower = std::min(std::size_t(x), extent - 1);
-    return {lower, std::min(lower + 1, extent - 1), x - float(lower)};
+    constexpr std::size_t margin = mode == border_mode::lit ? 1 : 0;
+    const float first = -float(margin), last = float(extent - 1 + margin);
+    const float x = coordinate > first ? (coordinate < last ? coordinate : last) : first;
+    if (margin > 0 && x < 0) return {std::size_t(-1), std::size_t(-1) + (x > -1), x + 1};
+    const std::size_t lower = std::min(std::size_t(x), extent - 1 + margin);
+    const float fraction = x - float(lower);
+    return {lower, lower + (fraction > 0), fraction};
 }
 
 /// Linear interpolation from a to b. Exact if both are equal, so a constant map stays constant.
@@ -34,39 +38,54 @@ template <std::size_t n> std::array<float, n> mix(const std::array<float, n>& a,
     return r;
 }
 
-template <storage_format Format>
+template <storage_format Format, border_mode mode>
 channel_array<Format> bilinear_channels(map_view<const format_texel<Format>> map, float x, float y)
 {
-    const neighbours nx = neighbours_of(x - 0.5f, map.width);
-    const neighbours ny = neighbours_of(y - 0.5f, map.height);
-    const auto at = [&](std::size_t i, std::size_t j) { return load_channels<Format>(map(i, j)); };
+    const neighbours nx = neighbours_of<mode>(x - 0.5f, map.width);
+    const neighbours ny = neighbours_of<mode>(y - 0.5f, map.height);
+    const auto at = [&](std::size_t i, std::size_t j) {
+        const bool beyond = mode == border_mode::lit && !(i < map.width && j < map.height);
+        return beyond ? gnomon_bit_cast<channel_array<Format>>(Format::border()) : load_channels<Format>(map(i, j));
+    };
     return mix(mix(at(nx.lower, ny.lower), at(nx.upper, ny.lower), nx.fraction),
                mix(at(nx.lower, ny.upper), at(nx.upper, ny.upper), nx.fraction), ny.fraction);
+}
+
+template <storage_format Format>
+channel_array<Format> bilinear_channels(map_view<const format_texel<Format>> map, float x, float y, border_mode mode)
+{
+    return mode == border_mode::lit ? bilinear_channels<Format, border_mode::lit>(map, x, y)
+                                    : bilinear_channels<Format, border_mode::clamp>(map, x, y);
 }
 
 } // namespace detail
 
 /// Filtered channels at position (x, y), for the intensity or factor of a format.
-/// Domain: a map with texels, and any position.
-/// NaN: a coordinate counts as 0.
+/// Domain: any position. A map without texels gives the border, lit.
+/// NaN: the border, for a coordinate of NaN.
 template <storage_format Format>
-format_channels<Format> bilinear(map_view<const format_texel<Format>> map, float x, float y)
+format_channels<Format> bilinear(map_view<const format_texel<Format>> map, float x, float y,
+                                 border_mode mode = border_mode::clamp)
 {
-    return gnomon_bit_cast<format_channels<Format>>(detail::bilinear_channels<Format>(map, x, y));
+    if (std::isunordered(x, y) || map.width == 0 || map.height == 0) return Format::border();
+    return gnomon_bit_cast<format_channels<Format>>(detail::bilinear_channels<Format>(map, x, y, mode));
 }
 
 /// Filtered channels at position (x, y) of a mip chain, interpolated between two levels. Level 0 is the map itself; the
 /// level is clamped to the chain.
-/// NaN: a coordinate or level counts as 0.
+/// Domain: any position and level. A map without texels gives the border, lit.
+/// NaN: the border, for a coordinate or level of NaN.
 template <storage_format Format>
-format_channels<Format> trilinear(mip_view<const format_texel<Format>> mips, float x, float y, float level)
+format_channels<Format> trilinear(mip_view<const format_texel<Format>> mips, float x, float y, float level,
+                                  border_mode mode = border_mode::clamp)
 {
-    const detail::neighbours nl = detail::neighbours_of(level, mips.levels());
+    if (std::isunordered(x, y) || std::isnan(level) || mips.width == 0 || mips.height == 0) return Format::border();
+    const detail::neighbours nl = detail::neighbours_of<border_mode::clamp>(level, mips.levels());
     const auto at = [&](std::size_t k) {
         const map_view<const format_texel<Format>> map = mips.level(k);
         const float sx = float(map.width) / float(mips.width);
         const float sy = float(map.height) / float(mips.height);
-        return detail::bilinear_channels<Format>(map, x * sx, y * sy);
+        return detail::bilinear_channels<Format>(map, x * sx, y * sy, mode);
     };
     channel_array<Format> c = at(nl.lower);
     if (nl.fraction > 0) c = detail::mix(c, at(nl.upper), nl.fraction);

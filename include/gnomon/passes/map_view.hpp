@@ -31,6 +31,11 @@ template <class T> struct map_view {
     constexpr T& operator()(std::size_t x, std::size_t y) const { return texels[y * stride + x]; }
 };
 
+/// The texels beyond the edge of a map: the outermost texel again, as GPUs clamp to the edge, or the border of the format,
+/// which shadows nothing, as GPUs clamp to a border. Interpolation and blur mix the border with the map's own texels. A
+/// caster at the edge shadows everything beyond that edge by clamp, and nothing beyond the filter by lit.
+enum class border_mode { clamp, lit };
+
 /// A band of rows, first to last - 1, such as one thread's share.
 struct row_range {
     std::size_t first = 0, last = 0;

@@ -1,6 +1,7 @@
 // Mip chain of a shadow map in its storage format. A texel is the mean of the texels that it covers in the level below.
 // Along an even extent these are 2. Along an odd extent they are 3, weighted by their overlap, so that every level has
-// the mean of the map except for rounding.
+// the mean of the map except for rounding. No texel beyond the map's edge has a part in it. A NaN becomes the border in
+// the levels above.
 #ifndef GNOMON_PASSES_MIPS_HPP
 #define GNOMON_PASSES_MIPS_HPP
 
@@ -51,19 +52,19 @@ template <class T> struct mip_view {
 
 namespace detail {
 
-/// The texels under a texel of the next level: begin to begin + 2, of which the last may have weight 0.
+/// The texels under a texel of the next level: count texels from begin on, with their weights.
 struct footprint {
-    std::size_t begin;
+    std::size_t begin, count;
     std::array<float, 3> weights;
 };
 
 constexpr footprint mip_footprint(std::size_t extent, std::size_t i)
 {
-    if (extent == 1) return {0, {1, 0, 0}};
-    if (extent % 2 == 0) return {2 * i, {0.5f, 0.5f, 0}};
+    if (extent == 1) return {0, 1, {1, 0, 0}};
+    if (extent % 2 == 0) return {2 * i, 2, {0.5f, 0.5f, 0}};
     const float n = float(extent / 2);
     const float scale = 1 / float(extent);
-    return {2 * i, {(n - float(i)) * scale, n * scale, (float(i) + 1) * scale}};
+    return {2 * i, 3, {(n - float(i)) * scale, n * scale, (float(i) + 1) * scale}};
 }
 
 } // namespace detail
@@ -87,10 +88,9 @@ void downsample(map_view<const format_texel<Format>> source, map_view<format_tex
         for (std::size_t x = 0; x < target.width; ++x) {
             const detail::footprint fx = detail::mip_footprint(source.width, x);
             channel_array<Format> sum{};
-            for (std::size_t j = 0; j < 3; ++j) {
-                for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t j = 0; j < fy.count; ++j) {
+                for (std::size_t i = 0; i < fx.count; ++i) {
                     const float weight = fx.weights[i] * fy.weights[j];
-                    if (weight == 0) continue;
                     const auto c = load_channels<Format>(source(fx.begin + i, fy.begin + j));
                     for (std::size_t k = 0; k < c.size(); ++k) sum[k] += weight * c[k];
                 }

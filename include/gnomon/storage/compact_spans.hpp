@@ -29,10 +29,11 @@ inline constexpr std::uint32_t compact_nothing = 0xffffff; // id of a span witho
 inline constexpr std::uint32_t compact_mixed = 0xfffffe;   // id of a range of several surfaces, range_mixed
 
 /// Largest code of a depth that is not behind z by more than 2^-53, for z in [-1, 1]; clamped outside.
+/// NaN: the code farthest from the light.
 inline std::uint64_t compact_depth_code(double z)
 {
-    const double steps = std::floor((z + 1) * (0.5 * compact_depths));
-    return static_cast<std::uint64_t>(std::clamp(steps, 0.0, compact_depths - 1.0));
+    const double steps = std::floor((z + 1) * (0.5 * compact_depths)), last = compact_depths - 1.0;
+    return static_cast<std::uint64_t>(steps < last ? std::max(steps, 0.0) : last);
 }
 
 /// Depth of a code in the low 20 bits, exact in float.

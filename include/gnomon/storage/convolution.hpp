@@ -8,7 +8,7 @@
 namespace gnomon {
 
 /// 256 bits: 32 UNORM8 channels.
-struct convolution_unorm8 : unorm_texel<channels32, 8>, far_plane<convolution_unorm8> {
+struct convolution_unorm8 : stored_texel<convolution_unorm8, unorm_texel<channels32, 8>> {
     static constexpr std::string_view name = "32x8 UNORM", id = "convolution_unorm8";
     static constexpr double darkening = convolution_unorm8_darkening, filtered_darkening = darkening;
 

@@ -8,7 +8,7 @@
 namespace gnomon {
 
 /// 32 bits: one float.
-struct exponential_float : float_texel<channels1>, far_plane<exponential_float> {
+struct exponential_float : stored_texel<exponential_float, float_texel<channels1>> {
     static constexpr std::string_view name = "1x32 float", id = "exponential_float";
     static constexpr double darkening = exponential_float_darkening, filtered_darkening = darkening;
 

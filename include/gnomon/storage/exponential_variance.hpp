@@ -8,7 +8,7 @@
 namespace gnomon {
 
 /// 64 bits: four half floats.
-struct exponential_variance_half : half_texel<channels4>, far_plane<exponential_variance_half> {
+struct exponential_variance_half : stored_texel<exponential_variance_half, half_texel<channels4>> {
     static constexpr std::string_view name = "4x16 half", id = "exponential_variance_half";
     static constexpr double darkening = exponential_variance_half_darkening, filtered_darkening = darkening;
 
@@ -29,7 +29,7 @@ struct exponential_variance_half : half_texel<channels4>, far_plane<exponential_
 static_assert(storage_format<exponential_variance_half>);
 
 /// 128 bits: four floats.
-struct exponential_variance_float : float_texel<channels4>, far_plane<exponential_variance_float> {
+struct exponential_variance_float : stored_texel<exponential_variance_float, float_texel<channels4>> {
     static constexpr std::string_view name = "4x32 float", id = "exponential_variance_float";
     static constexpr double darkening = exponential_variance_float_darkening, filtered_darkening = darkening;
 

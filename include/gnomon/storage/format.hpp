@@ -7,6 +7,9 @@
 //     float shadow = format::intensity(format::decode(t), z_f);                 // floats or packs
 //
 // Filters are linear in the channels: decode, average, encode.
+//
+// NaN is no information, and lit. encode stores the border for channels that have a NaN. Maps of floats and halves that
+// were written elsewhere may hold a NaN: a filter is lit wherever that texel has a weight, and elsewhere unchanged.
 #ifndef GNOMON_STORAGE_FORMAT_HPP
 #define GNOMON_STORAGE_FORMAT_HPP
 
@@ -14,7 +17,9 @@
 #include "../numerics/half.hpp"
 #include "../numerics/unorm.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -33,7 +38,8 @@ template <class Format, class Real = float> using format_channels = typename For
 ///     name, id                     in words, and for programs: [a-z0-9_]
 ///     bytes_per_texel
 ///     from_depth(z)                the channels of one depth
-///     encode(channels), decode(texel)
+///     encode(channels)             the texel; the border for channels that have a NaN
+///     decode(texel)                the channels
 ///     intensity(channels, z_f)     the shadow after one rounding to the format, from any linear filter
 ///     filtered_intensity           the shadow after a filter of two passes that store their results in the format
 ///     darkening                    the most by which a lit surface is darkened by intensity
@@ -66,12 +72,6 @@ template <class Format> concept storage_format = requires(float z, double w, con
 /// The number of channels, and an array of them in order.
 template <class Format> inline constexpr std::size_t channel_count = sizeof(format_channels<Format>) / sizeof(float);
 template <class Format> using channel_array = std::array<float, channel_count<Format>>;
-
-/// The texel that shadows nothing, of a format that has from_depth and encode: a depth on the far plane.
-template <class Format> struct far_plane {
-    static constexpr auto border() { return Format::from_depth(1.0f); }
-    static constexpr auto clear() { return Format::encode(border()); }
-};
 
 /// A texel with a code of its own for each channel, in order.
 template <template <class...> class Channels, class Code> struct coded_texel {
@@ -122,6 +122,30 @@ template <template <class...> class Channels> struct float_texel : coded_texel<C
     using typename coded_texel<Channels, float>::texel;
     static constexpr texel encode(const Channels<float>& c) { return gnomon_bit_cast<texel>(c); }
     static constexpr Channels<float> decode(const texel& t) { return gnomon_bit_cast<Channels<float>>(t); }
+};
+
+/// True unless a channel is NaN.
+template <class Channels> constexpr bool are_known(const Channels& c)
+{
+    const auto numbers = gnomon_bit_cast<std::array<float, sizeof(Channels) / sizeof(float)>>(c);
+    bool known = true;
+    for (std::size_t k = 0; k < numbers.size(); k += 2)
+        known &= !std::isunordered(numbers[k], numbers[std::min(k + 1, numbers.size() - 1)]);
+    return known;
+}
+
+/// What all formats do with a kind of texel, given from_depth: the border, the texel that shadows nothing, is that of a
+/// depth on the far plane, and stands for channels that have a NaN.
+template <class Format, class Texel> struct stored_texel : Texel {
+    using typename Texel::texel;
+    static constexpr auto border() { return Format::from_depth(1.0f); }
+    static constexpr texel clear() { return Texel::encode(border()); }
+    static constexpr texel encode(const typename Texel::template channels<float>& c)
+    {
+        if (!are_known(c)) [[unlikely]]
+            return clear();
+        return Texel::encode(c);
+    }
 };
 
 } // namespace gnomon

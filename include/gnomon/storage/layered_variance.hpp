@@ -8,7 +8,7 @@
 namespace gnomon {
 
 /// 128 bits: four layers, each of two UNORM16 channels.
-struct layered_variance_unorm16 : unorm_texel<channels8, 16>, far_plane<layered_variance_unorm16> {
+struct layered_variance_unorm16 : stored_texel<layered_variance_unorm16, unorm_texel<channels8, 16>> {
     static constexpr std::string_view name = "8x16 UNORM", id = "layered_variance_unorm16";
     static constexpr double darkening = layered_variance_unorm16_darkening, filtered_darkening = darkening;
 

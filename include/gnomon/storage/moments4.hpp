@@ -12,7 +12,7 @@
 namespace gnomon {
 
 /// 64 bits: four UNORM16 channels after theta4.
-struct moments4_unorm16 : unorm_texel<channels4, 16>, far_plane<moments4_unorm16> {
+struct moments4_unorm16 : stored_texel<moments4_unorm16, unorm_texel<channels4, 16>> {
     static constexpr std::string_view name = "4x16 UNORM", id = "moments4_unorm16";
     static constexpr double darkening = stored4_arithmetic_weight, filtered_darkening = stored4_arithmetic_weight;
 
@@ -44,7 +44,7 @@ struct moments4_unorm16 : unorm_texel<channels4, 16>, far_plane<moments4_unorm16
 static_assert(storage_format<moments4_unorm16>);
 
 /// 64 bits: four half floats.
-struct moments4_half : half_texel<channels4>, far_plane<moments4_half> {
+struct moments4_half : stored_texel<moments4_half, half_texel<channels4>> {
     static constexpr std::string_view name = "4x16 half", id = "moments4_half";
     static constexpr double darkening = stored4_arithmetic_weight, filtered_darkening = stored4_arithmetic_weight;
 
@@ -78,7 +78,7 @@ struct moments4_half : half_texel<channels4>, far_plane<moments4_half> {
 static_assert(storage_format<moments4_half>);
 
 /// 128 bits: four floats.
-struct moments4_float : float_texel<channels4>, far_plane<moments4_float> {
+struct moments4_float : stored_texel<moments4_float, float_texel<channels4>> {
     static constexpr std::string_view name = "4x32 float", id = "moments4_float";
     static constexpr double darkening = stored4_arithmetic_weight, filtered_darkening = stored4_arithmetic_weight;
 

@@ -35,7 +35,7 @@ struct unorm10_words {
 };
 
 /// 64 bits, of which 60 are used: six UNORM10 channels after theta6.
-struct moments6_unorm10 : unorm10_words, far_plane<moments6_unorm10> {
+struct moments6_unorm10 : stored_texel<moments6_unorm10, unorm10_words> {
     static constexpr std::string_view name = "6x10 UNORM", id = "moments6_unorm10";
     static constexpr double darkening = stored6_unorm10_weight, filtered_darkening = stored6_unorm10_filtered_weight;
 
@@ -67,7 +67,7 @@ struct moments6_unorm10 : unorm10_words, far_plane<moments6_unorm10> {
 static_assert(storage_format<moments6_unorm10>);
 
 /// 96 bits: six UNORM16 channels after theta6.
-struct moments6_unorm16 : unorm_texel<channels6, 16>, far_plane<moments6_unorm16> {
+struct moments6_unorm16 : stored_texel<moments6_unorm16, unorm_texel<channels6, 16>> {
     static constexpr std::string_view name = "6x16 UNORM", id = "moments6_unorm16";
     static constexpr double darkening = stored6_unorm16_weight, filtered_darkening = stored6_unorm16_filtered_weight;
 
@@ -99,7 +99,7 @@ struct moments6_unorm16 : unorm_texel<channels6, 16>, far_plane<moments6_unorm16
 static_assert(storage_format<moments6_unorm16>);
 
 /// 192 bits: six floats.
-struct moments6_float : float_texel<channels6>, far_plane<moments6_float> {
+struct moments6_float : stored_texel<moments6_float, float_texel<channels6>> {
     static constexpr std::string_view name = "6x32 float", id = "moments6_float";
     static constexpr double darkening = stored6_float_weight, filtered_darkening = stored6_float_filtered_weight;
 

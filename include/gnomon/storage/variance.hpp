@@ -8,7 +8,7 @@
 namespace gnomon {
 
 /// 32 bits: two UNORM16 channels.
-struct variance_unorm16 : unorm_texel<channels2, 16>, far_plane<variance_unorm16> {
+struct variance_unorm16 : stored_texel<variance_unorm16, unorm_texel<channels2, 16>> {
     static constexpr std::string_view name = "2x16 UNORM", id = "variance_unorm16";
     static constexpr double darkening = variance_unorm16_darkening, filtered_darkening = darkening;
 

@@ -21,7 +21,7 @@ namespace detail {
 template <class T> class joining_cone {
   public:
     joining_cone(const depth_time_range<T>& first, T tolerance)
-        : joined_(first), tolerance_(tolerance), depth_(first.z0 + T(0.5) * tolerance)
+        : joined_(first), tolerance_(std::min(tolerance, T(2))), depth_(first.z0 + T(0.5) * tolerance_)
     {
         narrow(first.t1, first.z1);
     }
@@ -69,7 +69,8 @@ template <class T> class joining_cone {
 /// Join the ranges of a resolved list, in place and in order of time, and return the list that remains. Ranges are
 /// joined only if they follow one another without a gap and same(a, b) returns true, for ranges of one surface. A
 /// joined range lies behind every part by 0 to the tolerance, up to 8 roundings of its depths. A joined range of
-/// several ids has the id range_mixed, and shadows all of them. A tolerance that is not above 0 joins nothing.
+/// several ids has the id range_mixed, and shadows all of them. A tolerance that is not above 0 joins nothing; one above 2,
+/// the whole range of depth, counts as 2.
 /// Domain: lists without second layers (range_ids::any makes some).
 template <class T, class Same>
 std::span<depth_time_range<T>> join_ranges(std::span<depth_time_range<T>> list, T tolerance, const Same& same)

@@ -25,6 +25,7 @@ namespace gnomon {
 template <class Map, class T, class Shutter = box_shutter>
 T static_intensity(const Map& map, T x, T y, static_receiver<T> state, int look_ups = 1, const Shutter& shutter = {})
 {
+    detail::expect_look_ups("static_intensity", look_ups);
     detail::for_each_static_texel(map, x, y, look_ups, [&](T weight, std::size_t texel) {
         state = static_receiver_set_weight(state, weight);
         if constexpr (std::is_same_v<Shutter, box_shutter>) {
@@ -47,6 +48,7 @@ void static_intensities(const Map& map, std::span<const placed_receiver<T>> rece
     GNOMON_EXPECTS(shadows.size() == receivers.size(), mismatch("static_intensities", "shadows.size()", shadows.size(),
                                                                 "receivers.size()", receivers.size()));
     check_shape(map, "static_intensities");
+    detail::expect_look_ups("static_intensities", look_ups);
     for (std::size_t i = 0; i < receivers.size(); ++i) shadows[i] = receivers[i].state.shadowed;
     detail::static_taps<T, Map> taps(map, receivers, shadows);
     for (std::size_t i = 0; i < receivers.size(); ++i)
@@ -62,6 +64,7 @@ template <class Map, class T, class Shutter = box_shutter>
 T moving_intensity(const Map& map, const receiver_path<T>& path, T begin, T end, int look_ups = 1,
                    const Shutter& shutter = {})
 {
+    detail::expect_look_ups("moving_intensity", look_ups);
     const T k = T(look_ups);
     const receiver_path<T> shifted = receiver_path_shift(path, T(-0.5) * k, T(-0.5) * k);
     texel_sweep<T> sweep = texel_sweep_over(shifted, -k, -k, T(map.width), T(map.height)); // outside of the map is lit
@@ -104,6 +107,7 @@ T moving_intensity(const Map& map, const receiver_path<T>& path, T begin, T end,
 template <class Map, class T>
 T intensity_at(const Map& map, const receiver_path<T>& path, T t, T bias, int look_ups = 1)
 {
+    detail::expect_look_ups("intensity_at", look_ups);
     const T z = range_depth(path.depth, t);
     const texel_position<T> at = receiver_path_at(path, t);
     T shadow = 0;

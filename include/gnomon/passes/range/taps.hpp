@@ -14,6 +14,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace gnomon {
@@ -24,7 +26,17 @@ template <class T> struct placed_receiver {
     static_receiver<T> state;
 };
 
+/// Largest number of look-ups along each axis.
+inline constexpr int maximum_look_ups = 4096;
+
 namespace detail {
+
+inline void expect_look_ups(std::string_view pass, int look_ups)
+{
+    GNOMON_EXPECTS(0 < look_ups && look_ups <= maximum_look_ups,
+                   std::string("gnomon: ").append(pass) + ": look_ups is " + std::to_string(look_ups) + ", but 1 to " +
+                       std::to_string(maximum_look_ups) + " are possible");
+}
 
 /// Call visit(i, j, texel) for those of the (K + 1) x (K + 1) texels from (column, row) on that are in the map, K =
 /// look_ups.
@@ -77,7 +89,7 @@ template <class T, class List> void add_list_box(static_receiver<T>& state, cons
             state = add_range(state, r, box_shutter{});
             return;
         }
-        const T share = saturate_or_zero(r.t1) - saturate_or_zero(r.t0);
+        const T share = saturate_or_zero(r.t1) - clamp_or_high(r.t0, T(0), T(1)); // at most 0 if either is NaN
         state = static_receiver_add(state, receiver_lost_light(r, state.id, T(0), share));
     });
 }
