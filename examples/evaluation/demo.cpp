@@ -6,9 +6,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -39,7 +41,7 @@ try {
     std::string out = how.out.string(), model;
     bool full = false, tiny = false, registry = false;
 
-    CLI::App app("Renders shadows by every method of Gnomon; with no argument all drivers run.", "gnomon_demo");
+    CLI::App app("Renders shadows by every method of Gnomon; with no argument all drivers run.", "./run demo");
     const std::string facts = registry_facts(); // refuses ids that two share
     const std::vector<const driver*> drivers = registry_of<driver>().all();
     std::vector<std::string> known;
@@ -88,8 +90,12 @@ try {
         if (d.of == subject::model) return from_file && !in_motion;
         return names.empty() ? !from_file : std::ranges::count(names, d.id) > 0;
     };
-    for (const driver* d : drivers)
-        if (is_asked_for(*d)) d->run(how);
+    std::vector<const driver*> wanted;
+    std::ranges::copy_if(drivers, std::back_inserter(wanted), [&](const driver* d) { return is_asked_for(*d); });
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        progress(wanted[i]->id, fmt::format("driver {} of {}", i + 1, wanted.size()));
+        wanted[i]->run(how);
+    }
     return 0;
 } catch (const std::exception& error) {
     fmt::print(stderr, "demo: {}\n", error.what());

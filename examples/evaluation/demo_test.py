@@ -3,6 +3,7 @@
 
 import base64
 import json
+import re
 import struct
 import subprocess
 import sys
@@ -63,6 +64,8 @@ def weights(steps):
 
 
 class Demo(unittest.TestCase):
+    progress = ""
+
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
@@ -71,6 +74,7 @@ class Demo(unittest.TestCase):
             ended = run(*command)
             if ended.returncode:
                 raise RuntimeError(ended.stderr)
+            cls.progress = cls.progress or ended.stderr
         cls.report = json.loads((cls.out / "report.json").read_text())
         cls.rows = cls.report
         cls.registry = json.loads(run(DEMO, "--registry").stdout)
@@ -339,6 +343,19 @@ class Demo(unittest.TestCase):
             ended = run(DEMO, *words, *([] if "--out" in words else ["--out", self.out]))
             self.assertEqual((ended.returncode, ended.stdout, ended.stderr.count("\n")), (2, "", 1), (words, ended.stderr))
             self.assertEqual(state(), before, words)
+
+    def test_the_help_that_run_reads_is_the_programs(self):
+        known = (Path(__file__).parent / "help.txt").read_text()
+        self.assertEqual(run(DEMO, "--help").stdout, known, "gnomon_demo --help > examples/evaluation/help.txt")
+
+    def test_progress_says_what_is_left(self):
+        steps = re.findall(r"^demo: (\w+): (driver )?(\d+) of (\d+)", self.progress, re.MULTILINE)
+        drivers = [(driver, int(k), int(n)) for driver, is_driver, k, n in steps if is_driver]
+        self.assertEqual([k for _, k, _ in drivers], list(range(1, drivers[0][2] + 1)))
+        for counted in ("hard_shadows", "contact", "stability", "motion_analytic"):
+            numbers = [(int(k), int(n)) for driver, is_driver, k, n in steps if driver == counted and not is_driver]
+            self.assertGreater(len(numbers), 5)
+            self.assertEqual(sorted(numbers), [(k, len(numbers)) for k in range(1, len(numbers) + 1)], counted)
 
     def test_texts_in_charts_overlap_nothing(self):
         overlaps = Path(__file__).resolve().parents[2] / "tests" / "evaluation" / "gallery" / "overlaps.py"

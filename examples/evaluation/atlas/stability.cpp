@@ -47,8 +47,10 @@ void run(const settings& how)
         .summary =
             "Single filter regions with an exact answer: two parameters vary, and the region in which a method is "
             "wrong by more than a threshold is outlined."};
-    for (const sweep* s : registry_of<sweep>().all()) {
-        progress("stability", s->id);
+    const std::vector<const sweep*> sweeps = registry_of<sweep>().all();
+    steps all(result.driver, sweeps.size());
+    for (const sweep* s : sweeps) {
+        all.begin(s->id);
         result.blocks.emplace_back(block_of(*s));
     }
     write_page(how.out / "gallery" / result.driver, result);

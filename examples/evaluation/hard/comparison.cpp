@@ -29,10 +29,13 @@ struct known_visibility {
     image<float> picture;
 };
 
+std::vector<const hard_reference*> hard_references() { return registry_of<reference>().all_of<hard_reference>(); }
+
 class comparison {
   public:
-    comparison(const comparison_facts& facts, const settings& how, const stage& scenery)
-        : stage_(scenery, how),
+    comparison(const comparison_facts& facts, const settings& how, const stage& scenery, steps& all)
+        : steps_(all),
+          stage_(scenery, how),
           result_{facts, how, scenery.world.name, stage_.where.size(), stage_.taps.size(), {}, {}, {}},
           folder_(how.folder(facts.driver))
     {
@@ -44,8 +47,8 @@ class comparison {
             result_.insets.push_back(
                 {place.id, place.name, fmt::format("#{:02x}{:02x}{:02x}", srgb8(c.r), srgb8(c.g), srgb8(c.b))});
         }
-        for (const hard_reference* r : registry_of<reference>().all_of<hard_reference>()) {
-            progress(facts.driver, "reference: " + r->label);
+        for (const hard_reference* r : hard_references()) {
+            steps_.begin("reference: " + r->label);
             known_visibility known{r->visibility(stage_, stage_.where.biased), {}, {}};
             if (r->uses_depths) known.unbiased = r->visibility(stage_, stage_.where.unbiased);
             known.picture = image_of(known.biased);
@@ -57,7 +60,7 @@ class comparison {
 
     void add(const shadow_method& m)
     {
-        progress(result_.facts.driver, m.label);
+        steps_.begin(m.label);
         const measurement found = measure(m, stage_);
         const image<float> estimate = image_of(found.visibility);
         write_png(folder_ / (m.id + ".png"), figure(shaded(estimate)));
@@ -156,6 +159,7 @@ class comparison {
         }
     }
 
+    steps& steps_;
     shaded_stage stage_;
     compared_stage result_;
     std::filesystem::path folder_;
@@ -168,9 +172,12 @@ class comparison {
 void compare_methods(const comparison_facts& facts, const settings& how, const stage& scenery)
 {
     progress(facts.driver, "shadow map, camera image");
-    comparison c(facts, how, scenery);
+    std::vector<const shadow_method*> methods;
     for (const method* m : methods_in_order())
-        if (const auto* one = dynamic_cast<const shadow_method*>(m)) c.add(*one);
+        if (const auto* one = dynamic_cast<const shadow_method*>(m)) methods.push_back(one);
+    steps all(facts.driver, hard_references().size() + methods.size());
+    comparison c(facts, how, scenery, all);
+    for (const shadow_method* m : methods) c.add(*m);
     c.finish();
 }
 

@@ -3,6 +3,7 @@
 #include "scene_blocks.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -62,11 +63,16 @@ void motion_analytic(const settings& how)
     const motion_settings with{size, how.folder("motion_analytic"), tasks_at_once(size)};
     std::vector<part_run> parts;
     std::vector<std::function<void()>> tasks;
+    std::optional<steps> all;
     for (const motion_part* part : registry_of<motion_part>().all()) {
         parts.push_back(part->begin(with));
-        const auto& its = parts.back().tasks;
-        tasks.insert(tasks.end(), its.begin(), its.end());
+        for (const auto& one : parts.back().tasks)
+            tasks.emplace_back([one, &all, part] {
+                all->begin(part->label);
+                one();
+            });
     }
+    all.emplace("motion_analytic", tasks.size());
     run_tasks(tasks, with.tasks_at_once);
     page shown{.driver = "motion_analytic",
                .title = "Shadows in motion",

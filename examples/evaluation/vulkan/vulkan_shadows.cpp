@@ -159,12 +159,14 @@ void compare_on(const vulkan::device& gpu, const settings& how)
     const std::filesystem::path folder = how.folder(driver_name);
     std::vector<compared_method> methods;
     std::vector<report_row> rows;
-    for (const filterable_method* m : device_methods()) {
+    const auto known = device_methods();
+    steps all(driver_name, known.size());
+    for (const filterable_method* m : known) {
         if (!comparison.possible(*m)) {
-            progress(driver_name, fmt::format("{}: skipped, the device lacks its format", m->label));
+            all.begin(m->label + ": skipped, the device lacks its format");
             continue;
         }
-        progress(driver_name, m->label);
+        all.begin(m->label);
         const side_by_side both = comparison.render(*m);
         methods.push_back({m, both.difference, both.device.passes});
         const auto write = [&](const char* kind, const picture& whole) {

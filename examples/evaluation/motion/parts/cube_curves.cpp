@@ -179,10 +179,8 @@ part_run cube_curves(const motion_settings& how)
     const auto found = std::make_shared<all_costs>(cases.size());
     part_run result;
     for (std::size_t i = 0; i < cases.size(); ++i)
-        result.tasks.push_back([=, resolution = how.size.map_resolution] {
-            if (i == 0) progress("motion_analytic", "memory and time of maps against number and speed of cubes");
-            (*found)[i] = costs_of(cases[i], resolution);
-        });
+        result.tasks.push_back(
+            [=, resolution = how.size.map_resolution] { (*found)[i] = costs_of(cases[i], resolution); });
     result.results = [=, resolution = how.size.map_resolution] { return results(*found, resolution); };
     return result;
 }

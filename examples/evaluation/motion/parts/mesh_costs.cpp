@@ -110,10 +110,7 @@ block table_of(std::vector<table_row> rows)
 part_run mesh_costs(const motion_settings& how)
 {
     const auto found = std::make_shared<std::vector<table_row>>();
-    return {.tasks = {[=, size = how.size] {
-                progress("motion_analytic", "meshes");
-                *found = costs(size);
-            }},
+    return {.tasks = {[=, size = how.size] { *found = costs(size); }},
             .results = [=] { return part_results{.blocks = {table_of(*found)}}; }};
 }
 

@@ -268,10 +268,8 @@ part_run static_receivers(const motion_settings& how)
     const auto found = std::make_shared<std::vector<std::vector<report_row>>>(speeds.size());
     part_run result;
     for (std::size_t i = 0; i < speeds.size(); ++i)
-        result.tasks.push_back([=, size = how.size, speed = speeds[i]] {
-            progress("motion_analytic", "static receivers");
-            (*found)[i] = static_comparison(speed, size).rows();
-        });
+        result.tasks.push_back(
+            [=, size = how.size, speed = speeds[i]] { (*found)[i] = static_comparison(speed, size).rows(); });
     result.results = [=] {
         part_results r;
         for (const auto& some : *found) r.rows.insert(r.rows.end(), some.begin(), some.end());

@@ -150,10 +150,7 @@ block table_of(const std::vector<report_row>& rows)
 part_run wide_filter(const motion_settings& how)
 {
     const auto found = std::make_shared<std::vector<report_row>>();
-    return {.tasks = {[=, size = how.size] {
-                progress("motion_analytic", "a wide filter");
-                *found = wide_comparison(size).rows();
-            }},
+    return {.tasks = {[=, size = how.size] { *found = wide_comparison(size).rows(); }},
             .results = [=] { return part_results{.rows = *found, .blocks = {table_of(*found)}}; }};
 }
 
