@@ -5,7 +5,7 @@ usage: examples.py ROOT PACKAGES               prints what a compiler has agains
        examples.py ROOT PACKAGES SECTION CHECKER...    those of a section in WGSL, and packages, by a checker that takes a folder
 
 ROOT holds README.md, PACKAGES the shader packages. An example is the indented text of a section, up to the next that begins
-with an include or a version.
+with an include or a version. Commands are none.
 """
 import re
 import shutil
@@ -20,6 +20,7 @@ CXX = ["-std=c++20", "-Wall", "-Wextra", "-Werror"]
 # Where there is no CUDA, a C++ compiler, for which two words and the built-in names mean something plain.
 CUDA = ["nvcc", "-std=c++20", "-Werror", "all-warnings"] if shutil.which("nvcc") else [
     "g++", *CXX, "-x", "c++", "-D__global__=", "-include", str(Path(__file__).parent / "cuda_stand_in.hpp")]
+COMMANDS = ("cmake ", "python3 ", "./run ")
 # Document: section: the example's ending and compiler.
 EXAMPLES = {
     "README.md": {
@@ -45,6 +46,8 @@ def examples_in(root, document, section):
     examples = []
     for block in re.findall(r"^    .*\n(?:(?:    .*)?\n)*", page + "\n", re.MULTILINE):
         text = re.sub(r"^    ", "", block, flags=re.MULTILINE)
+        if text.startswith(COMMANDS):
+            continue
         if not examples or text.startswith("#"):
             examples.append("")
         examples[-1] += text
