@@ -58,8 +58,7 @@ CONSTRUCTS = [(rule, re.compile(pattern, re.MULTILINE)) for rule, pattern in CON
 RULES = [rule for rule, _ in CONSTRUCTS] + [
     "reserved word", "fused multiply-add", "not ASCII", "include of a library", "include of a .hpp",
     "include goes up", "no include guard", "too long", "test too long", "no comment", "unclear beginning", "field", "source", "mask",
-    "unused helper", "source of another folder"]
-
+    "unused helper", "source of another folder", "macro of others"]
 
 
 def reserved_words():
@@ -70,6 +69,16 @@ def reserved_words():
         for word in listed.split():
             words.setdefault(word, language)
     return words
+
+
+def foreign_macros():
+    """A pattern of the uses that macros of other headers would replace: of those with arguments where a bracket follows."""
+    text = (Path(__file__).parent / "foreign_macros.hpp").read_text()
+    plain, called = (set(re.findall(rf"^#define (\w+){end}", text, re.MULTILINE)) for end in (r"(?!\(|\w)", r"\("))
+    return re.compile(rf"(?<!\w)(?:(?:{'|'.join(plain)})(?!\w)|(?:{'|'.join(called)}) *(?=\())")
+
+
+FOREIGN = foreign_macros()
 
 
 def blank(text, pattern, flags=0):
@@ -172,6 +181,10 @@ def lint_header(path, text, words):
     if not re.match(r"\s*#ifndef (GNOMON_\w+)\n#define \1\n.*#endif\s*$", code, re.DOTALL):
         yield 0, "no include guard", "#ifndef GNOMON_..., #define, #endif expected"
     yield from lint_includes(path, code)
+    if path.parts[0] != "portable" or path.name == "cpp.h": # shader languages have min and max of their own
+        for match in FOREIGN.finditer(blank(code, r'^[ \t]*# *(?:include|error)\b.*$|"[^"\n]*"', re.MULTILINE)):
+            if not is_kernel(path) or match[0].strip() not in words:
+                yield match.start(), "macro of others", f"{match[0].strip()}: a macro in foreign_macros.hpp"
     if is_kernel(path):
         yield from lint_kernel(code, words)
     else:

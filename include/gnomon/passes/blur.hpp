@@ -60,10 +60,10 @@ void blur_lines(lines<const format_texel<Format>> source, lines<format_texel<For
     const auto border = gnomon_bit_cast<channel_array<Format>>(Format::border());
 
     for (std::size_t begin = 0; begin < count; begin += batch) {
-        const std::size_t lanes = std::min(batch, count - begin);
+        const std::size_t lanes = (std::min)(batch, count - begin);
         // Position p of the line, which is padded by radius texels at both ends, has slot p % taps.
         const auto load = [&](std::size_t p) {
-            const std::size_t i = std::min(p > radius ? p - radius : 0, length - 1);
+            const std::size_t i = (std::min)(p > radius ? p - radius : 0, length - 1);
             const bool beyond = mode == border_mode::lit && i + radius != p;
             for (std::size_t k = 0; k < lanes; ++k) {
                 const auto c = beyond
@@ -78,7 +78,7 @@ void blur_lines(lines<const format_texel<Format>> source, lines<format_texel<For
             decoded sum{};
             for (std::size_t t = 0, slot = i % taps; t < taps; ++t, slot = slot + 1 == taps ? 0 : slot + 1) {
                 const float weight = weights[t];
-                if (!(std::abs(weight) > 0)) continue; // 0 times NaN is NaN
+                if (!((std::abs)(weight) > 0)) continue; // 0 times NaN is NaN
                 const decoded& tap = ring[slot];
                 for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight * tap[k];
             }
@@ -98,8 +98,8 @@ inline void expect_weights(std::string_view pass, std::span<const float> weights
                    mismatch(pass, "weights.size()", weights.size(), "maximum_blur_taps", maximum_blur_taps));
     double sum = 0;
     for (const float w : weights) sum += double(w);
-    GNOMON_EXPECTS(std::abs(sum - 1) <= 0.01, std::string("gnomon: ").append(pass) + ": the sum of weights is " +
-                                                  std::to_string(sum) + ", but a filter needs 1");
+    GNOMON_EXPECTS((std::abs)(sum - 1) <= 0.01, std::string("gnomon: ").append(pass) + ": the sum of weights is " +
+                                                    std::to_string(sum) + ", but a filter needs 1");
 }
 
 template <storage_format Format>

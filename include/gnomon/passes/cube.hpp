@@ -52,7 +52,7 @@ inline float texel_centre(std::ptrdiff_t index, std::size_t size) { return (floa
 /// The texel at a texture coordinate.
 inline std::size_t texel_at(float coordinate, std::size_t size)
 {
-    return std::min(std::size_t(coordinate * float(size)), size - 1);
+    return (std::min)(std::size_t(coordinate * float(size)), size - 1);
 }
 
 /// The texel in column i and row j of a face; beyond an edge, that of the face folded over the edge.
@@ -87,7 +87,7 @@ void blur_cube_face(const cube_view<const format_texel<Format>>& source, map_vie
             channel_array<Format> sum{};
             for (std::ptrdiff_t tap = 0; tap < taps; ++tap) {
                 const float weight = weights[std::size_t(tap)];
-                if (!(std::abs(weight) > 0)) continue; // 0 times NaN is NaN
+                if (!((std::abs)(weight) > 0)) continue; // 0 times NaN is NaN
                 const channel_array<Format>& c = ring[std::size_t((i + tap) % taps)];
                 for (std::size_t k = 0; k < c.size(); ++k) sum[k] += weight * c[k];
             }
@@ -136,7 +136,7 @@ void blur_cube(const cube_view<const format_texel<Format>>& source, const cube_v
 template <storage_format Format>
 format_channels<Format> cube_bilinear(const cube_view<const format_texel<Format>>& cube, float x, float y, float z)
 {
-    if (std::isunordered(x, y) || std::isnan(z)) return Format::border();
+    if ((std::isunordered)(x, y) || (std::isnan)(z)) return Format::border();
     const cube_position p = cube_position_from_direction(x, y, z);
     const auto face = std::size_t(p.face);
     const float u = p.u * float(cube.size()) - 0.5f, v = p.v * float(cube.size()) - 0.5f;

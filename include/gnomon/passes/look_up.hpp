@@ -25,7 +25,7 @@ template <border_mode mode> neighbours neighbours_of(float coordinate, std::size
     const float first = -float(margin), last = float(extent - 1 + margin);
     const float x = coordinate > first ? (coordinate < last ? coordinate : last) : first;
     if (margin > 0 && x < 0) return {std::size_t(-1), std::size_t(-1) + (x > -1), x + 1};
-    const std::size_t lower = std::min(std::size_t(x), extent - 1 + margin);
+    const std::size_t lower = (std::min)(std::size_t(x), extent - 1 + margin);
     const float fraction = x - float(lower);
     return {lower, lower + (fraction > 0), fraction};
 }
@@ -67,7 +67,7 @@ template <storage_format Format>
 format_channels<Format> bilinear(map_view<const format_texel<Format>> map, float x, float y,
                                  border_mode mode = border_mode::clamp)
 {
-    if (std::isunordered(x, y) || map.width == 0 || map.height == 0) return Format::border();
+    if ((std::isunordered)(x, y) || map.width == 0 || map.height == 0) return Format::border();
     return gnomon_bit_cast<format_channels<Format>>(detail::bilinear_channels<Format>(map, x, y, mode));
 }
 
@@ -79,7 +79,7 @@ template <storage_format Format>
 format_channels<Format> trilinear(mip_view<const format_texel<Format>> mips, float x, float y, float level,
                                   border_mode mode = border_mode::clamp)
 {
-    if (std::isunordered(x, y) || std::isnan(level) || mips.width == 0 || mips.height == 0) return Format::border();
+    if ((std::isunordered)(x, y) || (std::isnan)(level) || mips.width == 0 || mips.height == 0) return Format::border();
     const detail::neighbours nl = detail::neighbours_of<border_mode::clamp>(level, mips.levels());
     const auto at = [&](std::size_t k) {
         const map_view<const format_texel<Format>> map = mips.level(k);

@@ -21,7 +21,7 @@ constexpr std::size_t mip_extent(std::size_t extent, std::size_t level)
 /// Number of levels down to 1 x 1, including the map itself.
 constexpr std::size_t mip_levels(std::size_t width, std::size_t height)
 {
-    return std::size_t(std::bit_width(std::max(width, height)));
+    return std::size_t(std::bit_width((std::max)(width, height)));
 }
 
 /// Number of texels of all levels.

@@ -27,6 +27,9 @@
 #define GNOMON_INLINE __attribute__((always_inline)) inline
 #endif
 
+// Between a name and its bracket: a macro of that name, of whatever header, is not meant.
+#define GNOMON_NO_MACRO
+
 #define GNOMON_NAMESPACE_BEGIN namespace gnomon {
 #define GNOMON_NAMESPACE_END }
 #define GNOMON_KERNEL template <class Real, class = gnomon::require_real<Real>> GNOMON_INLINE constexpr
@@ -69,14 +72,14 @@ using arithmetic_result =
 /// A type that can be Real: closed under its own arithmetic, so that one type holds every intermediate value, with
 /// lanes that are not integers. Expression templates are excluded: evaluate them into a value first.
 template <class T>
-concept real = std::same_as<arithmetic_result<T>, T> && !std::is_integral_v<lane_t<T>> &&
-               std::constructible_from<T, lane_t<T>> && requires
+concept real_number = std::same_as<arithmetic_result<T>, T> && !std::is_integral_v<lane_t<T>> &&
+                      std::constructible_from<T, lane_t<T>> && requires
 {
     typename mask_t<T>;
 };
 
 template <class T> struct require_real_of {
-    static_assert(real<T>,
+    static_assert(real_number<T>,
                   "gnomon: Real must be a floating-point value or a pack of them, closed under + - * / "
                   "(no integer, no expression template: evaluate it first)");
     using type = T;
@@ -123,7 +126,7 @@ template <class T, class Bits> GNOMON_INLINE constexpr T select_by_bits(bool mas
 // branches, and GCC vectorises them.
 template <class M, class T> GNOMON_INLINE constexpr T gnomon_select(M mask, T a, T b)
 {
-    if constexpr (!std::is_same_v<M, bool>) return select(mask, a, b);
+    if constexpr (!std::is_same_v<M, bool>) return select GNOMON_NO_MACRO(mask, a, b);
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
     else if constexpr (std::is_same_v<T, float>) return select_by_bits<T, std::uint32_t>(mask, a, b);
     else if constexpr (std::is_same_v<T, double>) return select_by_bits<T, std::uint64_t>(mask, a, b);
@@ -134,19 +137,21 @@ template <class M, class T> GNOMON_INLINE constexpr T gnomon_select(M mask, T a,
 template <class M> GNOMON_INLINE constexpr bool gnomon_any(M mask)
 {
     if constexpr (std::is_same_v<M, bool>) return mask;
-    else return any(mask);
+    else return any GNOMON_NO_MACRO(mask);
 }
 
 template <class T> GNOMON_INLINE constexpr T gnomon_min(T a, T b)
 {
-    if constexpr (requires { pack_operations<T>::min(a, b); }) return pack_operations<T>::min(a, b);
+    if constexpr (requires { pack_operations<T>::min GNOMON_NO_MACRO(a, b); })
+        return pack_operations<T>::min GNOMON_NO_MACRO(a, b);
     else if constexpr (std::is_floating_point_v<T>) return a < b ? a : b; // one instruction
     else return gnomon_select(a < b, a, b);
 }
 
 template <class T> GNOMON_INLINE constexpr T gnomon_max(T a, T b)
 {
-    if constexpr (requires { pack_operations<T>::max(a, b); }) return pack_operations<T>::max(a, b);
+    if constexpr (requires { pack_operations<T>::max GNOMON_NO_MACRO(a, b); })
+        return pack_operations<T>::max GNOMON_NO_MACRO(a, b);
     else if constexpr (std::is_floating_point_v<T>) return b < a ? a : b;
     else return gnomon_select(b < a, a, b);
 }
@@ -154,7 +159,7 @@ template <class T> GNOMON_INLINE constexpr T gnomon_max(T a, T b)
 template <class T> GNOMON_INLINE constexpr T gnomon_abs(T a)
 {
     using std::abs;
-    return abs(a);
+    return abs GNOMON_NO_MACRO(a);
 }
 
 template <class T> GNOMON_INLINE constexpr T gnomon_sqrt(T a)

@@ -120,7 +120,7 @@ template <class Pack, class Rows, class Fronts> void resolve_rows(Rows& rows, Fr
     std::size_t compared = 1;
     // Make a part of row k a row of its own, to be compared later.
     const auto add = [&](std::size_t i, std::size_t k, lane begin, lane end) {
-        const std::size_t to = std::max(ends[i], compared + 1);
+        const std::size_t to = (std::max)(ends[i], compared + 1);
         ends[i] = to + 1;
         if (to == rows.size()) {
             rows.emplace_back().set(range_empty(Pack(lane(range_nothing))));

@@ -21,7 +21,7 @@ template <class Mask> struct wide_mask {
     friend GNOMON_INLINE wide_mask operator&&(wide_mask a, wide_mask b) { return {a.low && b.low, a.high && b.high}; }
     friend GNOMON_INLINE wide_mask operator||(wide_mask a, wide_mask b) { return {a.low || b.low, a.high || b.high}; }
     friend GNOMON_INLINE wide_mask operator!(wide_mask a) { return {!a.low, !a.high}; }
-    friend GNOMON_INLINE bool any(wide_mask a) { return gnomon_any(a.low || a.high); }
+    friend GNOMON_INLINE bool any GNOMON_NO_MACRO(wide_mask a) { return gnomon_any(a.low || a.high); }
 };
 
 template <class Pack> struct wide {
@@ -67,22 +67,22 @@ template <class Pack> struct wide {
     friend GNOMON_INLINE mask operator==(wide a, wide b) { return {a.low == b.low, a.high == b.high}; }
     friend GNOMON_INLINE mask operator!=(wide a, wide b) { return {a.low != b.low, a.high != b.high}; }
 
-    friend GNOMON_INLINE wide select(mask m, wide a, wide b)
+    friend GNOMON_INLINE wide select GNOMON_NO_MACRO(mask m, wide a, wide b)
     {
         return {gnomon_select(m.low, a.low, b.low), gnomon_select(m.high, a.high, b.high)};
     }
-    friend GNOMON_INLINE wide abs(wide a) { return {gnomon_abs(a.low), gnomon_abs(a.high)}; }
+    friend GNOMON_INLINE wide abs GNOMON_NO_MACRO(wide a) { return {gnomon_abs(a.low), gnomon_abs(a.high)}; }
     friend GNOMON_INLINE wide sqrt(wide a) { return {gnomon_sqrt(a.low), gnomon_sqrt(a.high)}; }
 };
 
 template <class Pack> struct pack_operations<wide<Pack>> {
     static constexpr bool fused = is_fused<Pack>;
 
-    static GNOMON_INLINE wide<Pack> min(wide<Pack> a, wide<Pack> b)
+    static GNOMON_INLINE wide<Pack> min GNOMON_NO_MACRO(wide<Pack> a, wide<Pack> b)
     {
         return {gnomon_min(a.low, b.low), gnomon_min(a.high, b.high)};
     }
-    static GNOMON_INLINE wide<Pack> max(wide<Pack> a, wide<Pack> b)
+    static GNOMON_INLINE wide<Pack> max GNOMON_NO_MACRO(wide<Pack> a, wide<Pack> b)
     {
         return {gnomon_max(a.low, b.low), gnomon_max(a.high, b.high)};
     }

@@ -25,15 +25,15 @@ template <class T, class A> struct pack_operations<xsimd::batch<T, A>> {
 #endif
 
     // minps and maxps return their second operand if one is NaN, as the dialect requires.
-    static GNOMON_INLINE pack min(pack a, pack b)
+    static GNOMON_INLINE pack min GNOMON_NO_MACRO(pack a, pack b)
     {
-        if constexpr (is_x86) return xsimd::min(a, b);
-        else return xsimd::select(a < b, a, b);
+        if constexpr (is_x86) return (xsimd::min)(a, b);
+        else return (xsimd::select)(a < b, a, b);
     }
-    static GNOMON_INLINE pack max(pack a, pack b)
+    static GNOMON_INLINE pack max GNOMON_NO_MACRO(pack a, pack b)
     {
-        if constexpr (is_x86) return xsimd::max(a, b);
-        else return xsimd::select(b < a, a, b);
+        if constexpr (is_x86) return (xsimd::max)(a, b);
+        else return (xsimd::select)(b < a, a, b);
     }
 
     // xsimd's own fma is a multiplication and an addition for SSE, for AVX2 without fma3 and, before 11.0, for AVX-512.

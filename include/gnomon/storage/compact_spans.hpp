@@ -33,7 +33,7 @@ inline constexpr std::uint32_t compact_mixed = 0xfffffe;   // id of a range of s
 inline std::uint64_t compact_depth_code(double z)
 {
     const double steps = std::floor((z + 1) * (0.5 * compact_depths)), last = compact_depths - 1.0;
-    return static_cast<std::uint64_t>(steps < last ? std::max(steps, 0.0) : last);
+    return static_cast<std::uint64_t>(steps < last ? (std::max)(steps, 0.0) : last);
 }
 
 /// Depth of a code in the low 20 bits, exact in float.

@@ -130,7 +130,7 @@ template <class Channels> constexpr bool are_known(const Channels& c)
     const auto numbers = gnomon_bit_cast<std::array<float, sizeof(Channels) / sizeof(float)>>(c);
     bool known = true;
     for (std::size_t k = 0; k < numbers.size(); k += 2)
-        known &= !std::isunordered(numbers[k], numbers[std::min(k + 1, numbers.size() - 1)]);
+        known &= !(std::isunordered)(numbers[k], numbers[(std::min)(k + 1, numbers.size() - 1)]);
     return known;
 }
 

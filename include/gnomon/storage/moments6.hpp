@@ -18,7 +18,7 @@ struct unorm10_words {
 
     static constexpr texel encode(const channels6<float>& c)
     {
-        return {word(c.c1, c.c2, c.c3), word(c.c4, c.c5, c.c6)};
+        return {word_of(c.c1, c.c2, c.c3), word_of(c.c4, c.c5, c.c6)};
     }
     static constexpr channels6<float> decode(const texel& t)
     {
@@ -26,7 +26,7 @@ struct unorm10_words {
     }
 
   private:
-    static constexpr std::uint32_t word(float a, float b, float c)
+    static constexpr std::uint32_t word_of(float a, float b, float c)
     {
         return std::uint32_t{unorm_encode<10>(a)} | std::uint32_t{unorm_encode<10>(b)} << 10 |
                std::uint32_t{unorm_encode<10>(c)} << 20;

@@ -86,14 +86,14 @@ struct compact_stretch {
     bool some() const { return begin < end; }
 };
 
-/// Writes one list, span by span, to emit(begin, z0, z1, id): at most 2 n + 1 spans of n ranges.
+/// Writes one list, span by span, to receive(begin, z0, z1, id): at most 2 n + 1 spans of n ranges.
 template <class Emit> class compact_writer {
   public:
     using range = depth_time_range<float>;
 
-    compact_writer(std::span<const range> list, const Emit& emit) : list_(list), emit_(emit) {}
+    compact_writer(std::span<const range> list, const Emit& receive) : list_(list), receive_(receive) {}
 
-    void write()
+    void write_spans()
     {
         for (std::size_t i = 0; i < list_.size(); ++i) {
             const double t0 = double(list_[i].t0) * compact_times, t1 = double(list_[i].t1) * compact_times;
@@ -105,7 +105,7 @@ template <class Emit> class compact_writer {
         }
         join(step_);
         finish(joined_);
-        if (0 < reached_ && reached_ < compact_times) emit_(reached_, 1.0, 1.0, compact_nothing);
+        if (0 < reached_ && reached_ < compact_times) receive_(reached_, 1.0, 1.0, compact_nothing);
     }
 
   private:
@@ -139,15 +139,16 @@ template <class Emit> class compact_writer {
     void finish(const compact_stretch& s)
     {
         if (!s.some()) return;
-        if (reached_ < s.begin) emit_(reached_, 1.0, 1.0, compact_nothing);
+        if (reached_ < s.begin) receive_(reached_, 1.0, 1.0, compact_nothing);
         const range& own = list_[s.owner];
         double ahead = 0;
-        for_each_end(list_, s, [&](const range& r, double t) { ahead = std::max(ahead, depth(own, t) - depth(r, t)); });
+        for_each_end(list_, s,
+                     [&](const range& r, double t) { ahead = (std::max)(ahead, depth(own, t) - depth(r, t)); });
         double z0 = depth(own, s.begin / compact_times) - ahead, z1 = depth(own, s.end / compact_times) - ahead;
         const bool brief = double(own.t1) - double(own.t0) < 4.0 / compact_times;
-        if (brief || std::min(z0, z1) < -1) z0 = z1 = nearest(list_, s);
+        if (brief || (std::min)(z0, z1) < -1) z0 = z1 = nearest(list_, s);
         const bool mixed = own.id == float(range_mixed);
-        emit_(s.begin, z0, z1, mixed ? compact_mixed : static_cast<std::uint32_t>(own.id));
+        receive_(s.begin, z0, z1, mixed ? compact_mixed : static_cast<std::uint32_t>(own.id));
         reached_ = s.end;
     }
 
@@ -165,27 +166,27 @@ template <class Emit> class compact_writer {
         const double open = s.begin / compact_times, close = s.end / compact_times;
         for (const range& r : list) {
             if (!(r.t0 < r.t1) || double(r.t1) <= open || close <= double(r.t0)) continue;
-            visit(r, std::max(double(r.t0), open));
-            visit(r, std::min(double(r.t1), close));
+            visit(r, (std::max)(double(r.t0), open));
+            visit(r, (std::min)(double(r.t1), close));
         }
     }
 
     static double nearest(std::span<const range> list, const compact_stretch& s)
     {
         double z = 1;
-        for_each_end(list, s, [&](const range& r, double t) { z = std::min(z, depth(r, t)); });
+        for_each_end(list, s, [&](const range& r, double t) { z = (std::min)(z, depth(r, t)); });
         return z;
     }
 
     std::span<const range> list_;
-    const Emit& emit_;
+    const Emit& receive_;
     compact_stretch step_, joined_; // the last stretch, which may still change, and those before it of one owner
     double reached_ = 0;
 };
 
-template <class Emit> void write_compact(std::span<const depth_time_range<float>> list, const Emit& emit)
+template <class Emit> void write_compact(std::span<const depth_time_range<float>> list, const Emit& receive)
 {
-    compact_writer<Emit>(list, emit).write();
+    compact_writer<Emit>(list, receive).write_spans();
 }
 
 /// Check that a list is resolved, without second layers: times in [0, 1], in order and disjoint, finite depths, ids
@@ -205,7 +206,7 @@ inline void check_compact_list(std::span<const depth_time_range<float>> list, st
         const depth_time_range<float>& r = list[k];
         if (!(r.t0 < r.t1)) continue;
         GNOMON_EXPECTS(reached <= r.t0 && r.t1 <= 1, wrong(k, "its times are not in [0, 1], in order and disjoint"));
-        GNOMON_EXPECTS(std::isfinite(r.z0) && std::isfinite(r.z1), wrong(k, "its depths are not finite"));
+        GNOMON_EXPECTS((std::isfinite)(r.z0) && (std::isfinite)(r.z1), wrong(k, "its depths are not finite"));
         const bool whole = r.id >= 0 && r.id < float(compact_mixed) && r.id == std::floor(r.id);
         GNOMON_EXPECTS(whole || r.id == float(range_mixed),
                        wrong(k, "its id is " + std::to_string(r.id) + ", whole numbers below 16777214 are possible"));
@@ -242,7 +243,7 @@ inline compact_spans compact_ranges(const range_map<float>& map, const compact_m
     expect_room("memory.groups.size()", memory.groups.size(), "texels / 64", groups);
     expect_room("memory.lists.size()", memory.lists.size(), "texels", texels);
     for (std::size_t begin = 0; begin < texels; begin += compact_spans::group) {
-        const std::size_t end = std::min(begin + compact_spans::group, texels);
+        const std::size_t end = (std::min)(begin + compact_spans::group, texels);
         for (std::size_t i = begin; i < end; ++i) detail::check_compact_list(map[i], i);
         const std::size_t ranges = map.first[end - 1] - map.first[begin]; // of all lists but the last of the group
         if (2 * ranges + compact_spans::group <= 0xffff) continue;

@@ -21,7 +21,7 @@ namespace detail {
 template <class T> class joining_cone {
   public:
     joining_cone(const depth_time_range<T>& first, T tolerance)
-        : joined_(first), tolerance_(std::min(tolerance, T(2))), depth_(first.z0 + T(0.5) * tolerance_)
+        : joined_(first), tolerance_((std::min)(tolerance, T(2))), depth_(first.z0 + T(0.5) * tolerance_)
     {
         narrow(first.t1, first.z1);
     }
@@ -55,12 +55,12 @@ template <class T> class joining_cone {
     {
         const T passed = t - joined_.t0;
         if (!(passed > 0)) return;
-        least_ = std::max(least_, (z - depth_) / passed);
-        most_ = std::min(most_, (z + tolerance_ - depth_) / passed);
+        least_ = (std::max)(least_, (z - depth_) / passed);
+        most_ = (std::min)(most_, (z + tolerance_ - depth_) / passed);
     }
 
     depth_time_range<T> joined_;
-    T tolerance_, depth_, least_ = std::numeric_limits<T>::lowest(), most_ = std::numeric_limits<T>::max();
+    T tolerance_, depth_, least_ = std::numeric_limits<T>::lowest(), most_ = (std::numeric_limits<T>::max)();
     bool several_ = false;
 };
 

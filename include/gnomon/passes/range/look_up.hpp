@@ -81,9 +81,17 @@ T moving_intensity(const Map& map, const receiver_path<T>& path, T begin, T end,
                         next_passed = shutter_box(sweep.t_end, state.begin, state.end);
                 const T u0 = saturate_or_zero(at.x - sweep.column), u1 = saturate_or_zero(next.x - sweep.column);
                 const T v0 = saturate_or_zero(at.y - sweep.row), v1 = saturate_or_zero(next.y - sweep.row);
-                const detail::receiver_cell<T> cell{
-                    sweep.column, sweep.row,           sweep.t_begin,       sweep.t_end,         u0, v0, u1,
-                    v1,           std::min(z, next_z), std::max(z, next_z), next_passed - passed};
+                const detail::receiver_cell<T> cell{sweep.column,
+                                                    sweep.row,
+                                                    sweep.t_begin,
+                                                    sweep.t_end,
+                                                    u0,
+                                                    v0,
+                                                    u1,
+                                                    v1,
+                                                    (std::min)(z, next_z),
+                                                    (std::max)(z, next_z),
+                                                    next_passed - passed};
                 if (cell.share > 0) taps.add(cell); // the shutter is open
                 at = next, z = next_z, passed = next_passed;
             }
@@ -114,7 +122,7 @@ T intensity_at(const Map& map, const receiver_path<T>& path, T t, T bias, int lo
     detail::for_each_static_texel(map, at.x, at.y, look_ups, [&](T weight, std::size_t texel) {
         T hidden = 0;
         for (const depth_time_range<T>& r : map[texel])
-            hidden = std::max(hidden, range_intensity(r, t, z, path.depth.id, bias));
+            hidden = (std::max)(hidden, range_intensity(r, t, z, path.depth.id, bias));
         shadow += weight * hidden;
     });
     return saturate_or_zero(shadow);

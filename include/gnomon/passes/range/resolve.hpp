@@ -77,8 +77,8 @@ template <class T> class front_resolver {
     void insert(std::uint32_t number)
     {
         const depth_time_range<T>& r = ranges_[number];
-        const T t0 = std::max(r.t0, from_), t1 = std::min(r.t1, to_);
-        if (!(r.t0 < r.t1 && t0 < t1) || !std::isfinite(r.z0) || !std::isfinite(r.z1)) return;
+        const T t0 = (std::max)(r.t0, from_), t1 = (std::min)(r.t1, to_);
+        if (!(r.t0 < r.t1 && t0 < t1) || !(std::isfinite)(r.z0) || !(std::isfinite)(r.z1)) return;
         std::size_t first = 0;
         while (first < count_ && spans_[first].t1 <= t0) ++first;
         if (is_behind(r, t0, t1, first)) return;
@@ -88,10 +88,10 @@ template <class T> class front_resolver {
         std::size_t next = first;
         for (; next < count_ && spans_[next].t0 < t1; ++next) {
             const visible_span<T> old = spans_[next];
-            const T begin = std::max(old.t0, t0), end = std::min(old.t1, t1);
+            const T begin = (std::max)(old.t0, t0), end = (std::min)(old.t1, t1);
             const front_order order = order_of(number, old.range);
             unchanged = unchanged && !(reached < begin) && order.before == old.range && order.after == old.range;
-            const T change = std::clamp(order.change, begin, end);
+            const T change = (std::clamp)(order.change, begin, end);
             change_to({old.t0, begin, old.range});
             change_to({reached, begin, number});
             change_to({begin, change, order.before});
@@ -123,7 +123,7 @@ template <class T> class front_resolver {
         T reached = t0;
         for (; first < count_ && reached < t1 && spans_[first].t0 <= reached; ++first) {
             const depth_time_range<T>& front = ranges_[spans_[first].range];
-            if (!(std::max(front.z0, front.z1) < std::min(r.z0, r.z1))) return false;
+            if (!((std::max)(front.z0, front.z1) < (std::min)(r.z0, r.z1))) return false;
             reached = spans_[first].t1;
         }
         return !(reached < t1);
@@ -133,16 +133,16 @@ template <class T> class front_resolver {
     /// where both ends tie, the range that is nearer on average.
     front_order order_of(std::uint32_t i, std::uint32_t j) const
     {
-        if (j < i) std::swap(i, j);
+        if (j < i) (std::swap)(i, j);
         const depth_time_range<T>& a = ranges_[i];
         const depth_time_range<T>& b = ranges_[j];
-        if (std::max(a.z0, a.z1) < std::min(b.z0, b.z1)) return {i, i, T(0)};
-        if (std::max(b.z0, b.z1) < std::min(a.z0, a.z1)) return {j, j, T(0)};
-        const T begin = std::max(a.t0, b.t0), end = std::min(a.t1, b.t1);
+        if ((std::max)(a.z0, a.z1) < (std::min)(b.z0, b.z1)) return {i, i, T(0)};
+        if ((std::max)(b.z0, b.z1) < (std::min)(a.z0, a.z1)) return {j, j, T(0)};
+        const T begin = (std::max)(a.t0, b.t0), end = (std::min)(a.t1, b.t1);
         const T slope_a = (a.z1 - a.z0) / (a.t1 - a.t0), slope_b = (b.z1 - b.z0) / (b.t1 - b.t0);
         const auto distance = [&](T t) { return (a.z0 + (t - a.t0) * slope_a) - (b.z0 + (t - b.t0) * slope_b); };
         const T early = distance(begin), late = distance(end);
-        const bool early_tie = std::abs(early) <= resolve_tie<T>, late_tie = std::abs(late) <= resolve_tie<T>;
+        const bool early_tie = (std::abs)(early) <= resolve_tie<T>, late_tie = (std::abs)(late) <= resolve_tie<T>;
         if (early_tie && late_tie) {
             const bool b_first = early + late == 0 ? b.id < a.id : early + late > 0;
             return b_first ? front_order{j, j, T(0)} : front_order{i, i, T(0)};
@@ -168,7 +168,7 @@ template <class T> class front_resolver {
     std::span<const depth_time_range<T>> ranges_;
     std::span<visible_span<T>> spans_, changed_;
     std::size_t count_ = 0, changes_ = 0;
-    T from_ = std::numeric_limits<T>::lowest(), to_ = std::numeric_limits<T>::max();
+    T from_ = std::numeric_limits<T>::lowest(), to_ = (std::numeric_limits<T>::max)();
 };
 
 } // namespace detail

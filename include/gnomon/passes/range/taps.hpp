@@ -254,8 +254,8 @@ template <class T, class Map> class moving_taps {
     void find_list(std::size_t k)
     {
         tap& t = taps_[k];
-        const std::size_t near = t.single ? std::min<std::size_t>(k, 5) : 0; // K = 1: the taps of the cell before
-        for (std::size_t back = 1; back <= near; ++back)
+        const std::size_t reach = t.single ? std::min<std::size_t>(k, 5) : 0; // K = 1: the taps of the cell before
+        for (std::size_t back = 1; back <= reach; ++back)
             if (const tap& before = taps_[k - back]; before.texel == t.texel) {
                 t.list = before.list, t.same = &before;
                 return;
@@ -263,7 +263,7 @@ template <class T, class Map> class moving_taps {
         t.list = map_[t.texel];
         if (t.list.empty()) return;
         const T place = T(t.list.size()) * saturate_or_zero(t.cell->t0);
-        t.at = t.single ? std::min(std::size_t(place), t.list.size() - 1) : 0;
+        t.at = t.single ? (std::min)(std::size_t(place), t.list.size() - 1) : 0;
         map_.prefetch_range(t.list, t.at);
     }
 
@@ -290,12 +290,12 @@ template <class T, class Map> class moving_taps {
                         if (from < to) occlude(c, from, to);
                         from = r.t0;
                     }
-                    to = std::min(r.t1, c.t1);
+                    to = (std::min)(r.t1, c.t1);
                 }
             }
             if (t.single && c.t1 <= r.t1) break; // the next range begins later
         }
-        t.at = std::min(n, t.list.size() - 1);
+        t.at = (std::min)(n, t.list.size() - 1);
         if (from < to) occlude(c, from, to);
     }
 
