@@ -5,6 +5,8 @@ WIDTH = 120
 TEMPLATE = re.compile(r"(template <(?:[^<>]|<[^<>]*>)*>) (.*)")
 FUNCTION = re.compile(r"(\w.*\)) \{ (.*;) \}")
 PLACE = re.compile(r"(?<!<Real), |(?<= [+\-*/=]) |(?<= &&) ")
+COMMENT = re.compile(r" *//+<? ")
+ENDS = re.compile(r" |$|- |\w+: ") # of a paragraph of comment: what its next line begins with
 ONE_STATEMENT = re.compile(r"^(\w.*\))\n\{\n    (return [^;]*;)\n\}\n", re.MULTILINE)
 
 
@@ -48,7 +50,7 @@ def wrapped(line):
 def laid_out(text):
     """The text with each statement, each head of a function and each function of one statement on one line, where it fits."""
     lines, statement = [], []
-    for line in text.splitlines() + [""]:
+    for line in [*reflowed(text.splitlines()), ""]:
         code = line.partition("//")[0].rstrip()
         if code == "{" and statement: # what came before was the head of a function
             lines += joined(statement)
@@ -58,19 +60,27 @@ def laid_out(text):
         if statement and (not code or code.endswith((";", "{", "}")) and not depth("".join(statement))):
             lines += joined(statement)
             statement = []
-        elif not code:
-            lines += broken(line)
-        elif code.startswith("#"):
+        elif not code or code.startswith("#"):
             lines.append(line)
     return ONE_STATEMENT.sub(shortened, "\n".join(lines))
 
 
-def broken(comment):
-    """A comment's line, the words that reach beyond WIDTH on lines of their own."""
-    if len(comment) <= WIDTH:
-        return [comment]
-    end = comment.rindex(" ", 0, WIDTH + 1)
-    return [comment[:end], *broken(re.match(" *//+<? *", comment)[0] + comment[end + 1:])]
+def reflowed(lines):
+    """The lines, words of comments that reach beyond WIDTH moved to the next line, or to one of their own where the text ends."""
+    rest, mark = "", ""
+    for line in lines:
+        goes_on = rest and line.startswith(mark) and not ENDS.match(line, len(mark))
+        if goes_on:
+            line = f"{mark}{rest} {line[len(mark):]}"
+        elif rest:
+            yield mark + rest
+        rest = ""
+        if len(line) > WIDTH and (found := COMMENT.match(line)):
+            end, mark = line.rindex(" ", 0, WIDTH + 1), found[0]
+            line, rest = line[:end], line[end + 1:]
+        yield line
+    if rest:
+        yield mark + rest
 
 
 def joined(statement):

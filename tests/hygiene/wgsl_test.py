@@ -37,6 +37,11 @@ TRANSLATIONS = [
      "    return b1 * a1;\n}\n",
      "const a1_: f32 = 0.5; // a1_ of a1.h, b1\nstruct s4_ { b1_: f32, c: f32 }\nfn f2_(x1: s4_) -> f32\n{\n    let b1 = x1.b1_;\n"
      "    return b1 * a1_;\n}\n"),
+    # Words beyond 120 columns begin the next line of a comment, unless a field or a list is there.
+    (f"/// {'x' * 112} two three\n/// four\nconst float a = 0.5;\n", f"/// {'x' * 112} two\n/// three four\nconst a: f32 = 0.5;\n"),
+    (f"/// {'x' * 112} two three\n/// NaN: lit\nconst float a = 0.5;\n",
+     f"/// {'x' * 112} two\n/// three\n/// NaN: lit\nconst a: f32 = 0.5;\n"),
+    (f"// {'x' * 115} two\nconst float a = 0.5;\n", f"// {'x' * 115}\n// two\nconst a: f32 = 0.5;\n"),
     # A parameter whose elements are read by a variable.
     ("float f(s x)\n{\n    float y = x.c[0];\n    for (int i = 0; i < 4; ++i) y = y + x.c[i].a0;\n    return y;\n}\n",
      "fn f(given_x: s) -> f32\n{\n    var x = given_x;\n    var y = x.c[0];\n"
