@@ -58,7 +58,8 @@ CONSTRUCTS = [(rule, re.compile(pattern, re.MULTILINE)) for rule, pattern in CON
 RULES = [rule for rule, _ in CONSTRUCTS] + [
     "reserved word", "fused multiply-add", "not ASCII", "include of a library", "include of a .hpp",
     "include goes up", "no include guard", "too long", "test too long", "no comment", "unclear beginning", "field", "source", "mask",
-    "unused helper", "source of another folder", "macro of others"]
+    "unused helper", "source of another folder", "macro of others",
+    "mutable global"]
 
 
 def reserved_words():
@@ -79,6 +80,7 @@ def foreign_macros():
 
 
 FOREIGN = foreign_macros()
+MUTABLE = re.compile(r"^ *(?:(?:inline|static|extern|thread_local) )+(?!const)[^=({;]*(?:=|\{|;)", re.MULTILINE)
 
 
 def blank(text, pattern, flags=0):
@@ -181,6 +183,8 @@ def lint_header(path, text, words):
     if not re.match(r"\s*#ifndef (GNOMON_\w+)\n#define \1\n.*#endif\s*$", code, re.DOTALL):
         yield 0, "no include guard", "#ifndef GNOMON_..., #define, #endif expected"
     yield from lint_includes(path, code)
+    for match in MUTABLE.finditer("" if is_kernel(path) else code):
+        yield match.start(), "mutable global", match[0].strip(" ={;")
     if path.parts[0] != "portable" or path.name == "cpp.h": # shader languages have min and max of their own
         for match in FOREIGN.finditer(blank(code, r'^[ \t]*# *(?:include|error)\b.*$|"[^"\n]*"', re.MULTILINE)):
             if not is_kernel(path) or match[0].strip() not in words:
