@@ -39,7 +39,7 @@ def mistakes(include, packages):
 
     yield "C", C, ".c", EVERYTHING, LANGUAGE
     yield "C++17", [*CPP, "-std=c++17"], ".cpp", EVERYTHING, "gnomon: C++20 needed"
-    yield "C++ -ffast-math", [*CPP, "-std=c++20", "-ffast-math"], ".cpp", EVERYTHING, "gnomon: -ffast-math voids"
+    yield "C++ -ffast-math", [*CPP, "-std=c++20", "-ffast-math"], ".cpp", EVERYTHING, "gnomon: fast mathematics voids"
     yield "OpenCL C 1.1", [*OPENCL, "-cl-std=CL1.1"], ".cl", EVERYTHING, "gnomon: -cl-std=CL1.2 or later"
     yield "OpenCL, relaxed", [*OPENCL, "-cl-fast-relaxed-math"], ".cl", EVERYTHING, "gnomon: -cl-fast-relaxed-math voids"
     yield "OpenCL, embedded", [*OPENCL, "-D__EMBEDDED_PROFILE__"], ".cl", EVERYTHING, "gnomon: the full profile needed"

@@ -32,10 +32,11 @@ GNOMON_DETAIL_KERNEL Real dekker_product_error(Real a, Real b, Real p)
 GNOMON_KERNEL GNOMON_T(double_word) two_product(Real a, Real b)
 {
     GNOMON_T(double_word) r;
-    r.high = gnomon_product(a, b);
     if (GNOMON_FUSED) {
+        r.high = gnomon_fma(a, b, Real(-0.0)); // kept, as gnomon_product is: two fused products read it
         r.low = gnomon_fma(a, b, -r.high);
     } else {
+        r.high = gnomon_product(a, b);
         r.low = dekker_product_error(a, b, r.high);
     }
     return r;

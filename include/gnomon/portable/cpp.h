@@ -6,6 +6,8 @@
 #error "gnomon: C++20 needed (-std=c++20)"
 #endif
 
+#include "strict.h"
+
 #include <bit>
 #include <cmath>
 #include <concepts>
@@ -13,10 +15,6 @@
 #include <limits>
 #include <type_traits>
 #include <utility>
-
-#if defined(__FAST_MATH__) && !defined(GNOMON_ALLOW_FAST_MATH)
-#error "gnomon: -ffast-math voids the treatment of NaN and the exact products; compile this without it"
-#endif
 
 // With plain inline, compilers leave calls in pack kernels.
 #if defined(__CUDACC__)
@@ -101,11 +99,7 @@ inline constexpr double pivot_floor = std::numeric_limits<T>::min_exponent < -10
 template <class T> constexpr bool fma_is_fused()
 {
     if constexpr (requires { pack_operations<T>::fused; }) return pack_operations<T>::fused;
-#if defined(__FMA__) || defined(__CUDA_ARCH__) || defined(__aarch64__)
-    else return std::is_same_v<T, float> || std::is_same_v<T, double>;
-#else
-    else return false;
-#endif
+    else return GNOMON_SCALAR_FMA && (std::is_same_v<T, float> || std::is_same_v<T, double>);
 }
 template <class T> inline constexpr bool is_fused = fma_is_fused<T>();
 
@@ -178,6 +172,7 @@ template <class T> GNOMON_INLINE constexpr T gnomon_sqrt(T a)
 
 template <class T> GNOMON_INLINE constexpr T gnomon_fma(T a, T b, T c)
 {
+    GNOMON_UNFUSED
     if constexpr (std::is_floating_point_v<T>) return std::fma(a, b, c);
     else if constexpr (requires { pack_operations<T>::fma(a, b, c); }) return pack_operations<T>::fma(a, b, c);
     else return a * b + c;
@@ -209,12 +204,31 @@ template <class T> GNOMON_INLINE constexpr T gnomon_power_of_two(T n)
     }
 }
 
-// Contraction, GCC's default, would fold a plain product into a later sum, and the error of the product, which
-// two_product returns, would be subtracted twice. A fused product cannot be folded, and adding -0 to the product
-// changes no value.
+/// x, of which the optimizer knows nothing.
+template <class T> GNOMON_INLINE constexpr T opaque(T x)
+{
+#if defined(__GNUC__) && !defined(__CUDA_ARCH__)
+    if (!__builtin_is_constant_evaluated()) {
+        auto bits = __builtin_bit_cast(std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>, x);
+        __asm__("" : "+r"(bits));
+        return __builtin_bit_cast(T, bits);
+    }
+#endif
+    return x;
+}
+
+// Contraction would fold a plain product into a later sum, and the error of the product, which two_product returns, would
+// be subtracted twice. A fused product cannot be folded, and adding -0 to the product changes no value; clang must not
+// know that. Where no fma is known for T, what a compiler folds is the product by 1, which rounds nothing.
 template <class T> GNOMON_INLINE constexpr T gnomon_product(T a, T b)
 {
+    GNOMON_UNFUSED
+#if defined(__clang__)
+    if constexpr (is_fused<T>) return gnomon_fma(a, b, T(opaque(lane_t<T>(-0.0))));
+#else
     if constexpr (is_fused<T>) return gnomon_fma(a, b, T(lane_t<T>(-0.0)));
+#endif
+    else if constexpr (GNOMON_HAS_FMA) return (a * b) * T(opaque(lane_t<T>(1)));
     else return a * b;
 }
 

@@ -7,7 +7,7 @@
 #error "gnomon: -cl-std=CL1.2 or later needed"
 #elif defined(__EMBEDDED_PROFILE__)
 #error "gnomon: the full profile needed: the embedded one rounds as it likes"
-#elif defined(__FAST_RELAXED_MATH__) && !defined(GNOMON_ALLOW_FAST_MATH)
+#elif defined(__FAST_RELAXED_MATH__)
 #error "gnomon: -cl-fast-relaxed-math voids the treatment of NaN and the exact products; build without it"
 #endif
 

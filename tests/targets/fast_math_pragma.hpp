@@ -1,0 +1,2 @@
+// What some projects have above everything else.
+#pragma GCC optimize("fast-math")
