@@ -8,13 +8,16 @@
 
 #include "strict.h"
 
-#include <bit>
+#if defined(__CUDACC_RTC__)
+#include "nvrtc.h"
+#else
 #include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
 #include <utility>
+#endif
 
 // With plain inline, compilers leave calls in pack kernels.
 #if defined(__CUDACC__)
@@ -67,19 +70,23 @@ template <class T>
 using arithmetic_result =
     decltype((-std::declval<T>() + std::declval<T>()) * std::declval<T>() / (std::declval<T>() - std::declval<T>()));
 
+/// True for the types whose digits and exponents the kernels are made for. Others round elsewhere, as long double,
+/// _Float16 and numbers of many digits do.
+template <class T> inline constexpr bool is_lane = std::is_same_v<T, float> || std::is_same_v<T, double>;
+
 /// A type that can be Real: closed under its own arithmetic, so that one type holds every intermediate value, with
-/// lanes that are not integers. Expression templates are excluded: evaluate them into a value first.
+/// lanes of float or double. Expression templates are excluded: evaluate them into a value first.
 template <class T>
-concept real_number = std::same_as<arithmetic_result<T>, T> && !std::is_integral_v<lane_t<T>> &&
-                      std::constructible_from<T, lane_t<T>> && requires
+concept real_number =
+    std::same_as<arithmetic_result<T>, T> && is_lane<lane_t<T>> && std::constructible_from<T, lane_t<T>> && requires
 {
     typename mask_t<T>;
 };
 
 template <class T> struct require_real_of {
     static_assert(real_number<T>,
-                  "gnomon: Real must be a floating-point value or a pack of them, closed under + - * / "
-                  "(no integer, no expression template: evaluate it first)");
+                  "gnomon: Real must be float, double or a pack of them, closed under + - * / "
+                  "(no other precision, no integer, no expression template: evaluate it first)");
     using type = T;
 };
 template <class T> using require_real = typename require_real_of<T>::type;
@@ -96,10 +103,10 @@ template <class T>
 inline constexpr double pivot_floor = std::numeric_limits<T>::min_exponent < -1000 ? 0x1p-66 : 0x1p-30;
 
 // Without an instruction for it, a scalar fma is a library call, which is correct but slower than splitting.
-template <class T> constexpr bool fma_is_fused()
+template <class T> GNOMON_INLINE constexpr bool fma_is_fused()
 {
     if constexpr (requires { pack_operations<T>::fused; }) return pack_operations<T>::fused;
-    else return GNOMON_SCALAR_FMA && (std::is_same_v<T, float> || std::is_same_v<T, double>);
+    else return GNOMON_SCALAR_FMA && is_lane<T>;
 }
 template <class T> inline constexpr bool is_fused = fma_is_fused<T>();
 
@@ -158,7 +165,12 @@ template <class T> GNOMON_INLINE constexpr T gnomon_abs(T a)
 
 template <class T> GNOMON_INLINE constexpr T gnomon_sqrt(T a)
 {
-#if defined(__GNUC__)
+#if defined(__CUDA_ARCH__)
+    // Correctly rounded under nvcc --use_fast_math, too.
+    if constexpr (std::is_same_v<T, float>) return __fsqrt_rn(a);
+    else if constexpr (std::is_same_v<T, double>) return __dsqrt_rn(a);
+    else
+#elif defined(__GNUC__)
     // std::sqrt compiles to a call as well, which sets errno.
     if constexpr (std::is_same_v<T, float>) return __builtin_sqrtf(a);
     else if constexpr (std::is_same_v<T, double>) return __builtin_sqrt(a);
@@ -223,7 +235,10 @@ template <class T> GNOMON_INLINE constexpr T opaque(T x)
 template <class T> GNOMON_INLINE constexpr T gnomon_product(T a, T b)
 {
     GNOMON_UNFUSED
-#if defined(__clang__)
+#if defined(__CUDA_ARCH__)
+    if constexpr (std::is_same_v<T, float>) return __fmul_rn(a, b);
+    else if constexpr (std::is_same_v<T, double>) return __dmul_rn(a, b);
+#elif defined(__clang__)
     if constexpr (is_fused<T>) return gnomon_fma(a, b, T(opaque(lane_t<T>(-0.0))));
 #else
     if constexpr (is_fused<T>) return gnomon_fma(a, b, T(lane_t<T>(-0.0)));
