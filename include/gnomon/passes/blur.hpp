@@ -57,7 +57,7 @@ void blur_lines(lines<const format_texel<Format>> source, lines<format_texel<For
     std::array<decoded, maximum_blur_taps> ring{};
     const std::size_t taps = weights.size();
     const std::size_t radius = taps / 2;
-    const auto border = gnomon_bit_cast<channel_array<Format>>(Format::border());
+    const auto border = gnomon_bit_cast<channel_array<Format>>(stored_border<Format>());
 
     for (std::size_t begin = 0; begin < count; begin += batch) {
         const std::size_t lanes = (std::min)(batch, count - begin);

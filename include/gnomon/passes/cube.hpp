@@ -136,7 +136,7 @@ void blur_cube(const cube_view<const format_texel<Format>>& source, const cube_v
 template <storage_format Format>
 format_channels<Format> cube_bilinear(const cube_view<const format_texel<Format>>& cube, float x, float y, float z)
 {
-    if ((std::isunordered)(x, y) || (std::isnan)(z)) return Format::border();
+    if ((std::isunordered)(x, y) || (std::isnan)(z)) return stored_border<Format>();
     const cube_position p = cube_position_from_direction(x, y, z);
     const auto face = std::size_t(p.face);
     const float u = p.u * float(cube.size()) - 0.5f, v = p.v * float(cube.size()) - 0.5f;

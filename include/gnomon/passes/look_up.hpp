@@ -45,7 +45,8 @@ channel_array<Format> bilinear_channels(map_view<const format_texel<Format>> map
     const neighbours ny = neighbours_of<mode>(y - 0.5f, map.height);
     const auto at = [&](std::size_t i, std::size_t j) {
         const bool beyond = mode == border_mode::lit && !(i < map.width && j < map.height);
-        return beyond ? gnomon_bit_cast<channel_array<Format>>(Format::border()) : load_channels<Format>(map(i, j));
+        return beyond ? gnomon_bit_cast<channel_array<Format>>(stored_border<Format>())
+                      : load_channels<Format>(map(i, j));
     };
     return mix(mix(at(nx.lower, ny.lower), at(nx.upper, ny.lower), nx.fraction),
                mix(at(nx.lower, ny.upper), at(nx.upper, ny.upper), nx.fraction), ny.fraction);
@@ -67,7 +68,7 @@ template <storage_format Format>
 format_channels<Format> bilinear(map_view<const format_texel<Format>> map, float x, float y,
                                  border_mode mode = border_mode::clamp)
 {
-    if ((std::isunordered)(x, y) || map.width == 0 || map.height == 0) return Format::border();
+    if ((std::isunordered)(x, y) || map.width == 0 || map.height == 0) return stored_border<Format>();
     return gnomon_bit_cast<format_channels<Format>>(detail::bilinear_channels<Format>(map, x, y, mode));
 }
 
@@ -79,7 +80,8 @@ template <storage_format Format>
 format_channels<Format> trilinear(mip_view<const format_texel<Format>> mips, float x, float y, float level,
                                   border_mode mode = border_mode::clamp)
 {
-    if ((std::isunordered)(x, y) || (std::isnan)(level) || mips.width == 0 || mips.height == 0) return Format::border();
+    if ((std::isunordered)(x, y) || (std::isnan)(level) || mips.width == 0 || mips.height == 0)
+        return stored_border<Format>();
     const detail::neighbours nl = detail::neighbours_of<border_mode::clamp>(level, mips.levels());
     const auto at = [&](std::size_t k) {
         const map_view<const format_texel<Format>> map = mips.level(k);

@@ -53,6 +53,12 @@ template <storage_format Format> format_texel<Format> store_channels(const chann
     return Format::encode(gnomon_bit_cast<format_channels<Format>>(c));
 }
 
+/// The channels of the border, as a map stores them.
+template <storage_format Format> constexpr format_channels<Format> stored_border()
+{
+    return Format::decode(Format::clear());
+}
+
 /// Check that the map has texels, that its rows do not overlap, and that all of them lie in the span.
 template <class T> void expect_map(std::string_view pass, std::string_view name, map_view<T> map)
 {
