@@ -28,7 +28,7 @@ GNOMON_STRUCT(convolution_settings) { Real terms, damping, offset, span; };
 GNOMON_STRUCT(convolution_phase) { Real cosine, sine, step_cosine, step_sine; };
 
 /// The phase of the first term at z.
-/// Domain: z in [-2, 2].
+/// Domain: z in [-2, 2], span in [0, 1]. For a span of 0 the series is 1/2.
 /// NaN: NaN.
 GNOMON_KERNEL GNOMON_T(convolution_phase) convolution_phase_at(Real z, GNOMON_SETTING span)
 {
@@ -62,6 +62,8 @@ GNOMON_KERNEL GNOMON_T(convolution_phase) convolution_next(GNOMON_T(convolution_
 }
 
 /// The weight w_k with its damping, k = 1, 2, ...: constant over texels and receivers, so best computed once.
+/// Domain: terms at least 1, damping at least 0. An infinite damping leaves no term, and the series is 1/2.
+/// NaN: NaN, which makes everything lit.
 GNOMON_KERNEL Real convolution_weight(Real k, GNOMON_T(convolution_settings) settings)
 {
     Real ratio = k / settings.terms;
@@ -78,7 +80,7 @@ GNOMON_STRUCT(convolution_sum)
 
 /// The state before the first term.
 /// Domain: any z_f, limited to [-1, 1].
-/// NaN: lit.
+/// NaN: lit, also for an offset or span of NaN.
 GNOMON_KERNEL GNOMON_T(convolution_sum) convolution_begin(Real z_f, GNOMON_T(convolution_settings) settings)
 {
     GNOMON_T(convolution_sum) r;

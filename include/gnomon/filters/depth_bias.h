@@ -25,8 +25,8 @@ GNOMON_DETAIL_KERNEL Real depth_bias_limit(Real bias) { return gnomon_min(Real(2
 /// degrees rises within the half width of the filter: half width in texels times depth per texel. steepest is the largest
 /// slope: beyond it a bias would remove the shadows of whole casters for the sake of surfaces that are hardly lit. The
 /// slope of 80 degrees is 5.67.
-/// Domain: any; rise and steepest at least 0.
-/// NaN: 0.
+/// Domain: any; rise and steepest at least 0, else 0. A plane along the light has the slope steepest.
+/// NaN: 0; a steepest of NaN counts as none.
 /// Error: relative, 2 2^-p.
 GNOMON_KERNEL Real depth_bias_slope_scaled(Real across, Real along, Real rise, GNOMON_SETTING steepest)
 {
@@ -46,7 +46,8 @@ GNOMON_DETAIL_KERNEL Real depth_gradient_minor(Real a, Real b, Real c, Real d)
 
 /// The gradient of depth across the receiver's plane, from the derivatives of the position in the map, x and y in texels,
 /// and of depth along two directions, 1 and 2, such as those of the screen.
-/// Domain: as for two_product; the directions are not parallel in the map, else infinite or NaN.
+/// Domain: as for two_product; the directions are not parallel in the map, else infinite or NaN, for which
+/// depth_bias_receiver_plane gives the limit or 0.
 /// NaN: NaN.
 /// Error: relative, 10 2^-p.
 GNOMON_KERNEL GNOMON_T(depth_gradient) depth_gradient_from_derivatives(Real x1, Real y1, Real depth1, Real x2, Real y2,
@@ -61,8 +62,8 @@ GNOMON_KERNEL GNOMON_T(depth_gradient) depth_gradient_from_derivatives(Real x1, 
 
 /// The receiver-plane depth bias in [0, 2]: the most that a plane with this gradient rises within the half widths of the
 /// filter, in texels, but at most limit.
-/// Domain: any; limit at least 0.
-/// NaN: 0.
+/// Domain: any; limit at least 0, else 0.
+/// NaN: 0; a limit of NaN counts as none.
 /// Error: relative, 2 2^-p.
 GNOMON_KERNEL Real depth_bias_receiver_plane(GNOMON_T(depth_gradient) gradient, Real half_width_x, Real half_width_y,
                                              GNOMON_SETTING limit)

@@ -25,7 +25,8 @@ GNOMON_KERNEL GNOMON_T(exponential_moment) exponential_encode(Real z, GNOMON_T(e
 }
 
 /// Shadow intensity in [0, 1] at depth z_f, never above percentage-closer filtering but for rounding.
-/// Domain: any z_f; beyond the far plane as on it.
+/// Domain: any z_f; beyond the far plane as on it; an exponent of at least 0. For 0 everything is lit. From 44 on in float
+/// shadows leak where both depths are on one side of 0. A negative exponent turns the order of depths around.
 /// NaN: 0, lit.
 /// Error: (c + 5) 2^-p (1 - intensity) + 2^-p, p the bits of the significand.
 /// Source: Salvi 2008; Annen 2008; Peters 2017, Sec. 2.2

@@ -55,8 +55,9 @@ GNOMON_KERNEL Real exponential_variance_side(GNOMON_T(variance_moments) moments,
 }
 
 /// Shadow intensity in [0, 1] at depth z_f, never above percentage-closer filtering but for rounding.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: a NaN receiver gives 0, lit; a NaN moment takes the bound of its own warp away, which leaves the other's.
+/// Domain: any z_f, limited to [-1, 1]; exponents of at least 0, minimum_variance as of cantelli_lower. An exponent of 0, or
+/// one so large that squares overflow, takes the bound of its own warp away. A negative one turns the order of depths around.
+/// NaN: a NaN receiver gives 0, lit; a NaN moment or exponent takes the bound of its own warp away, which leaves the other's.
 /// Error: that of cantelli_lower for the warped depths, with r = (2 c + 8) 2^-p, the larger of both.
 /// Source: Lauritzen & McCool 2008; Peters 2017, Sec. 2.2
 GNOMON_KERNEL Real exponential_variance_intensity(GNOMON_T(exponential_variance_moments) filtered, Real z_f,

@@ -15,7 +15,8 @@ GNOMON_NAMESPACE_BEGIN
 GNOMON_STRUCT(layered_variance_settings) { Real centre, scale, minimum_variance; };
 
 /// The layer's own depth of a depth z, in [-1, 1].
-/// Domain: any z.
+/// Domain: any z; scale at least 0. For 0 the layer tells no depths apart; an infinite scale is a shadow test at the centre. A
+/// negative scale turns the order of depths around.
 /// NaN: NaN.
 GNOMON_KERNEL Real layered_variance_depth(Real z, GNOMON_T(layered_variance_settings) settings)
 {
@@ -50,7 +51,7 @@ GNOMON_KERNEL GNOMON_T(layered_variance) layered_variance_begin(Real z_f)
 }
 
 /// The state after one more layer with its filtered moments.
-/// NaN: a layer with a NaN moment bounds nothing.
+/// NaN: a layer with a NaN moment, centre or scale bounds nothing.
 GNOMON_KERNEL GNOMON_T(layered_variance) layered_variance_add(GNOMON_T(layered_variance) state,
                                                               GNOMON_T(variance_moments) filtered,
                                                               GNOMON_T(layered_variance_settings) settings)

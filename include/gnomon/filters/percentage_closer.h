@@ -26,7 +26,7 @@ GNOMON_KERNEL GNOMON_T(percentage_closer) percentage_closer_begin(Real z_f)
 
 /// The state after one more texel of depth z with its filter weight.
 /// Domain: any z.
-/// NaN: a texel of depth NaN casts no shadow.
+/// NaN: a texel of depth NaN casts no shadow; a weight of NaN before the receiver makes everything lit.
 GNOMON_KERNEL GNOMON_T(percentage_closer) percentage_closer_add(GNOMON_T(percentage_closer) state, Real z,
                                                                 GNOMON_SETTING weight)
 {

@@ -25,7 +25,8 @@ GNOMON_KERNEL GNOMON_T(variance_moments) variance_encode(Real z)
 
 /// Cantelli's lower bound in [0, 1] on the probability of values below the receiver; 0 for a receiver at or before the
 /// mean.
-/// NaN: 0, in every argument but minimum_variance.
+/// Domain: minimum_variance at least 0. A negative one counts for nothing; an infinite one leaves no shadow.
+/// NaN: 0; a minimum_variance of NaN counts for nothing.
 /// Error: with the rounding of the moments, r (1 + 4 q + sqrt q), q = (square + receiver^2) / (variance + d^2),
 /// r = 4 2^-p, p the bits of the significand.
 GNOMON_KERNEL Real cantelli_lower(GNOMON_T(variance_moments) moments, Real receiver, GNOMON_SETTING minimum_variance)
@@ -36,8 +37,8 @@ GNOMON_KERNEL Real cantelli_lower(GNOMON_T(variance_moments) moments, Real recei
 }
 
 /// Shadow intensity in [0, 1] at depth z_f, never above percentage-closer filtering but for rounding.
-/// Domain: any z_f; beyond the far plane as on it.
-/// NaN: 0, lit.
+/// Domain: any z_f; beyond the far plane as on it; minimum_variance as of cantelli_lower.
+/// NaN: 0, lit; a minimum_variance of NaN counts for nothing.
 /// Error: as cantelli_lower.
 /// Source: Donnelly & Lauritzen 2006; Peters 2017, Sec. 2.2
 GNOMON_KERNEL Real variance_intensity(GNOMON_T(variance_moments) filtered, Real z_f,

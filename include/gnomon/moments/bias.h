@@ -47,7 +47,9 @@ GNOMON_CONSTANT(bias6_paper_b4, 0.489);
 GNOMON_CONSTANT(bias6_paper_b6, 0.47869382);
 
 /// The biased moments (1 - alpha) b + alpha b*, where b* = (0, bias2, 0, bias4).
-/// Domain: alpha in [0, 1].
+/// Domain: alpha in [0, 1]. 0 is no bias; 1 leaves b* alone. Elsewhere the results are no moments, and intensities from them
+/// are in [0, 1].
+/// NaN: NaN, lit.
 /// Source: Peters 2017, Sec. 2.5
 GNOMON_KERNEL GNOMON_T(moments4) moments4_add_bias(GNOMON_T(moments4) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4,
                                                    GNOMON_SETTING alpha)
@@ -61,7 +63,9 @@ GNOMON_KERNEL GNOMON_T(moments4) moments4_add_bias(GNOMON_T(moments4) b, GNOMON_
 }
 
 /// The biased moments (1 - alpha) b + alpha b*, where b* = (0, bias2, 0, bias4, 0, bias6).
-/// Domain: alpha in [0, 1].
+/// Domain: alpha in [0, 1]. 0 is no bias; 1 leaves b* alone. Elsewhere the results are no moments, and intensities from them
+/// are in [0, 1].
+/// NaN: NaN, lit.
 /// Source: Peters 2017, Sec. 2.5; Peters 2017, Sec. 5.4.3
 GNOMON_KERNEL GNOMON_T(moments6) moments6_add_bias(GNOMON_T(moments6) b, GNOMON_SETTING bias2, GNOMON_SETTING bias4,
                                                    GNOMON_SETTING bias6, GNOMON_SETTING alpha)

@@ -20,7 +20,8 @@ GNOMON_KERNEL Real bounds_intensity(GNOMON_T(hamburger_bounds) bounds, GNOMON_SE
 
 /// Over-darkened intensity min(1, intensity / strength), which removes light leaking of up to 1 - strength. The paper
 /// uses a strength of 0.98.
-/// Domain: strength in (0, 1]; elsewhere the result is still in [0, 1].
+/// Domain: strength in (0, 1]. For 0 the result is 1 where intensity is above 0; for a negative one 0; beyond 1 shadows are
+/// lighter.
 /// NaN: 0, lit.
 /// Source: Annen 2007; Peters 2017, Sec. 2.6
 GNOMON_KERNEL Real over_darken(Real intensity, GNOMON_SETTING strength)

@@ -32,7 +32,8 @@ GNOMON_KERNEL Real depth_from_unit(Real z) { return z * Real(2) - Real(1); }
 GNOMON_KERNEL Real depth_from_reversed(Real z) { return Real(1) - z * Real(2); }
 
 /// Signed depth of a view distance: -1 at near_distance, +1 at far_distance, in any unit.
-/// Domain: near_distance < far_distance.
+/// Domain: near_distance < far_distance. Equal planes give infinities before and behind them, NaN on them, which encoders
+/// store as the near and the far plane.
 /// NaN: NaN.
 /// Error: 5 2^-p for distances between the planes.
 GNOMON_KERNEL Real depth_from_distance(Real distance_, GNOMON_SETTING near_distance, GNOMON_SETTING far_distance)
@@ -44,7 +45,8 @@ GNOMON_KERNEL Real depth_from_distance(Real distance_, GNOMON_SETTING near_dista
 GNOMON_DETAIL_KERNEL Real depth_between(Real n, Real f) { return (n - f) / (n + f); }
 
 /// Signed depth from the buffer of a perspective projection: z is 0 at near_distance and 1 at far_distance.
-/// Domain: any z, limited to [0, 1]; 0 < near_distance < far_distance < infinity.
+/// Domain: any z, limited to [0, 1]; 0 < near_distance < far_distance < infinity. Elsewhere a finite number, infinity or NaN,
+/// which encoders limit.
 /// NaN: NaN.
 /// Error: 4 2^-p, where the buffer itself is exact.
 GNOMON_KERNEL Real depth_from_perspective(Real z, GNOMON_SETTING near_distance, GNOMON_SETTING far_distance)
@@ -54,7 +56,8 @@ GNOMON_KERNEL Real depth_from_perspective(Real z, GNOMON_SETTING near_distance, 
 }
 
 /// Signed depth from the reversed buffer of a perspective projection: z is 1 at near_distance and 0 at far_distance.
-/// Domain: any z, limited to [0, 1]; 0 < near_distance < far_distance < infinity.
+/// Domain: any z, limited to [0, 1]; 0 < near_distance < far_distance < infinity. Elsewhere a finite number, infinity or NaN,
+/// which encoders limit.
 /// NaN: NaN.
 /// Error: 4 2^-p, where the buffer itself is exact.
 GNOMON_KERNEL Real depth_from_reversed_perspective(Real z, GNOMON_SETTING near_distance, GNOMON_SETTING far_distance)
@@ -65,7 +68,8 @@ GNOMON_KERNEL Real depth_from_reversed_perspective(Real z, GNOMON_SETTING near_d
 
 /// Signed depth from the reversed buffer of a perspective projection without far plane: z = near_distance / distance. Of
 /// signed depth far_distance is the far plane. Farther points are on it.
-/// Domain: any z, limited to [0, 1]; 0 < near_distance, 2 near_distance <= far_distance < infinity.
+/// Domain: any z, limited to [0, 1]; 0 < near_distance, 2 near_distance <= far_distance < infinity. Elsewhere a
+/// number in [-1, 1] or NaN.
 /// NaN: NaN.
 /// Error: 8 2^-p, where the buffer itself is exact.
 GNOMON_KERNEL Real depth_from_reversed_infinite(Real z, GNOMON_SETTING near_distance, GNOMON_SETTING far_distance)
@@ -78,7 +82,8 @@ GNOMON_KERNEL Real depth_from_reversed_infinite(Real z, GNOMON_SETTING near_dist
 
 /// Signed depth from the buffer of a perspective projection without far plane: z = 1 - near_distance / distance. Of signed
 /// depth far_distance is the far plane. Farther points are on it.
-/// Domain: any z, limited to [0, 1]; 0 < near_distance, 2 near_distance <= far_distance < infinity.
+/// Domain: any z, limited to [0, 1]; 0 < near_distance, 2 near_distance <= far_distance < infinity. Elsewhere a
+/// number in [-1, 1] or NaN.
 /// NaN: NaN.
 /// Error: 8 2^-p, where 1 - z is exact.
 GNOMON_KERNEL Real depth_from_infinite(Real z, GNOMON_SETTING near_distance, GNOMON_SETTING far_distance)

@@ -94,7 +94,8 @@ GNOMON_KERNEL GNOMON_T(moments4) theta4_inverse(GNOMON_T(channels4) c)
 
 /// The biased moments (1 - alpha) b + alpha (0, bias, 0, bias), where b are the moments of channels c: theta4_inverse
 /// and moments4_add_bias in one, with four products less.
-/// Domain: alpha in [0, 1].
+/// Domain: alpha in [0, 1], as of moments4_add_bias.
+/// NaN: NaN, lit.
 /// Source: Peters 2017, Eq. 3; Peters 2017, Sec. 2.5
 GNOMON_KERNEL GNOMON_T(moments4) theta4_inverse_add_bias(GNOMON_T(channels4) c, GNOMON_SETTING bias,
                                                          GNOMON_SETTING alpha)

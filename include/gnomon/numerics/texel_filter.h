@@ -20,8 +20,8 @@ GNOMON_KERNEL Real texel_below(Real x)
 
 /// The weight of texel i, 0 to K, in the mean of K = look_ups adjacent bilinear look-ups along one axis. u is the
 /// distance of the first look-up from the centre of texel 0. In [0, 1].
-/// Domain: u in [0, 1], clamped.
-/// NaN: u counts as 0.
+/// Domain: u in [0, 1], clamped; look_ups at least 1. Elsewhere a number in [0, 1].
+/// NaN: u counts as 0; 0 for look_ups.
 /// Error: the K + 1 weights sum to 1 within K + 2 roundings.
 GNOMON_KERNEL Real texel_weight(Real u, GNOMON_SETTING i, GNOMON_SETTING look_ups)
 {

@@ -57,13 +57,14 @@ GNOMON_DETAIL_KERNEL GNOMON_T(certificate4) certificate4_within(GNOMON_T(moments
     return p;
 }
 
-/// The greater of two certified means as an intensity in [0, 1]: 1 where every depth is before z_f, 0 where none is.
+/// The greater of two certified means as an intensity in [0, 1]: 1 where every depth is before z_f, 0 where none is, and
+/// where the ends are not in order.
 /// NaN: 0, lit.
 GNOMON_DETAIL_KERNEL Real certified4_from_means(Real mean, Real within, Real least, Real greatest, Real z_f)
 {
     Real intensity = saturate_or_zero(gnomon_max(within, mean));
-    intensity = gnomon_select(least < z_f, intensity, Real(0));
-    return gnomon_select(greatest < z_f, Real(1), intensity);
+    intensity = gnomon_select(greatest < z_f, Real(1), intensity);
+    return gnomon_select(least < z_f && least <= greatest, intensity, Real(0));
 }
 
 /// Shadow intensity at z_f from the channels c of a 4 x 16 UNORM texel, each off by at most noise.
@@ -90,7 +91,7 @@ GNOMON_DETAIL_KERNEL Real certified4_raw_within(GNOMON_T(moments4) b, GNOMON_T(m
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel and the least and greatest depth of
 /// the region, rounded down and up where they are stored.
-/// Domain: any z_f, limited to [-1, 1].
+/// Domain: any z_f, limited to [-1, 1]; least <= greatest, else lit.
 /// NaN: 0, lit.
 GNOMON_KERNEL Real moments4_unorm16_intensity_within(GNOMON_T(channels4) c, Real least, Real greatest, Real z_f)
 {
@@ -100,7 +101,7 @@ GNOMON_KERNEL Real moments4_unorm16_intensity_within(GNOMON_T(channels4) c, Real
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel, after a filter of two passes;
 /// least and greatest are those of all texels that the filter reads.
-/// Domain: any z_f, limited to [-1, 1].
+/// Domain: any z_f, limited to [-1, 1]; least <= greatest, else lit.
 /// NaN: 0, lit.
 GNOMON_KERNEL Real moments4_unorm16_filtered_intensity_within(GNOMON_T(channels4) c, Real least, Real greatest,
                                                               Real z_f)
@@ -111,7 +112,7 @@ GNOMON_KERNEL Real moments4_unorm16_filtered_intensity_within(GNOMON_T(channels4
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel and the least and greatest depth of the
 /// region, rounded down and up where they are stored.
-/// Domain: any z_f, limited to [-1, 1].
+/// Domain: any z_f, limited to [-1, 1]; least <= greatest, else lit.
 /// NaN: 0, lit.
 GNOMON_KERNEL Real moments4_half_intensity_within(GNOMON_T(channels4) c, Real least, Real greatest, Real z_f)
 {
@@ -123,7 +124,7 @@ GNOMON_KERNEL Real moments4_half_intensity_within(GNOMON_T(channels4) c, Real le
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel, after a filter of two passes; least
 /// and greatest are those of all texels that the filter reads.
-/// Domain: any z_f, limited to [-1, 1].
+/// Domain: any z_f, limited to [-1, 1]; least <= greatest, else lit.
 /// NaN: 0, lit.
 GNOMON_KERNEL Real moments4_half_filtered_intensity_within(GNOMON_T(channels4) c, Real least, Real greatest, Real z_f)
 {
