@@ -14,7 +14,7 @@
 
 #include <cstring>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 template <template <class, class> class Struct, class T, class Check>
 requires std::is_floating_point_v<T>
@@ -39,5 +39,5 @@ template <class Struct, class Derived> Struct from_eigen(const Eigen::MatrixBase
     return s;
 }
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

@@ -14,7 +14,7 @@
 
 #include <cstring>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 template <template <class, class> class Struct, class T, class Check>
 requires(std::is_floating_point_v<T> && sizeof(Struct<T, Check>) / sizeof(T) >= 2 &&
@@ -35,5 +35,5 @@ template <class Struct, glm::length_t n, class T, glm::qualifier q> Struct from_
     return s;
 }
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

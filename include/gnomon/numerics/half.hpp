@@ -11,7 +11,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// The half nearest to x; infinity for |x| >= 65520.
 /// NaN: the quiet NaN of the same sign.
@@ -52,5 +52,5 @@ constexpr float half_decode(std::uint16_t code)
     return gnomon_bit_cast<float>(gnomon_bit_cast<std::uint32_t>(a) | sign);
 }
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <type_traits>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// The largest code of that many bits.
 template <int bits> inline constexpr std::uint32_t unorm_maximum = (std::uint32_t{1} << bits) - 1;
@@ -32,5 +32,5 @@ template <int bits, std::floating_point T = float> constexpr T unorm_decode(std:
     return T(code) / T(unorm_maximum<bits>);
 }
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

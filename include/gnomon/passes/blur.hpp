@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// Gaussian weights at whole distances from the middle tap, normalised to sum to 1 up to rounding. sigma is in texels, of
 /// either sign: 0 is the middle tap alone, infinity gives all taps the same weight.
@@ -151,5 +151,5 @@ void blur(map_view<const format_texel<Format>> source, map_view<format_texel<For
     blur_along_y<Format>(scratch, target, weights, all, mode);
 }
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

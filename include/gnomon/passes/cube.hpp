@@ -18,7 +18,7 @@
 #include <cstddef>
 #include <span>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// Six faces of size x size texels each, in the order of filters/cube.h.
 template <class T> struct cube_view {
@@ -150,5 +150,5 @@ format_channels<Format> cube_bilinear(const cube_view<const format_texel<Format>
                     detail::mix(at(0, next_v), at(next_u, next_v), u - left), v - top));
 }
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

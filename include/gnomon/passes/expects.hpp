@@ -30,7 +30,7 @@
 #endif
 #endif
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// Message for two arguments that do not fit: "gnomon: blur: target.width is 4, but source.width is 5".
 inline std::string mismatch(std::string_view pass, std::string_view first, std::size_t first_value,
@@ -41,5 +41,5 @@ inline std::string mismatch(std::string_view pass, std::string_view first, std::
     return text.append(", but ").append(second).append(" is ").append(std::to_string(second_value));
 }
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

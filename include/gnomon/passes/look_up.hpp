@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 namespace detail {
 
@@ -94,5 +94,5 @@ format_channels<Format> trilinear(mip_view<const format_texel<Format>> mips, flo
     return gnomon_bit_cast<format_channels<Format>>(c);
 }
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

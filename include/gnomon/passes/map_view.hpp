@@ -14,7 +14,7 @@
 #include <string_view>
 #include <type_traits>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// A map of width x height texels. Rows are stride texels apart; the first row begins at the begin of the span.
 template <class T> struct map_view {
@@ -94,5 +94,5 @@ template <class T> void expect_rows(std::string_view pass, map_view<T> map, row_
     GNOMON_EXPECTS(rows.last <= map.height, mismatch(pass, "rows.last", rows.last, "target.height", map.height));
 }
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

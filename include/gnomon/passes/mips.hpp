@@ -11,7 +11,7 @@
 #include <bit>
 #include <limits>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 constexpr std::size_t mip_extent(std::size_t extent, std::size_t level)
 {
@@ -21,7 +21,8 @@ constexpr std::size_t mip_extent(std::size_t extent, std::size_t level)
 /// Number of levels down to 1 x 1, including the map itself.
 constexpr std::size_t mip_levels(std::size_t width, std::size_t height)
 {
-    return std::size_t(std::bit_width((std::max)(width, height)));
+    const int bits = std::numeric_limits<std::size_t>::digits - std::countl_zero((std::max)(width, height));
+    return std::size_t(bits);
 }
 
 /// Number of texels of all levels.
@@ -117,5 +118,5 @@ template <storage_format Format> void build_mips(mip_view<format_texel<Format>> 
     }
 }
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

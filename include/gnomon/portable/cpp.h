@@ -31,8 +31,27 @@
 // Between a name and its bracket: a macro of that name, of whatever header, is not meant.
 #define GNOMON_NO_MACRO
 
-#define GNOMON_NAMESPACE_BEGIN namespace gnomon {
-#define GNOMON_NAMESPACE_END }
+// Warnings of compilers that a user may have turned on, and that the dialect cannot avoid: comparisons of a Real with 0 or
+// with itself, types of variables that are deduced, and for GCC the length of an array that is a template's argument.
+#if defined(__clang__) && !defined(__CUDACC__)
+#define GNOMON_WARNINGS_OFF                                                                \
+    _Pragma("clang diagnostic push") _Pragma("clang diagnostic ignored \"-Wfloat-equal\"") \
+        _Pragma("clang diagnostic ignored \"-Wctad-maybe-unsupported\"")
+#define GNOMON_WARNINGS_ON _Pragma("clang diagnostic pop")
+#elif defined(__GNUC__) && !defined(__CUDACC__)
+#define GNOMON_WARNINGS_OFF                                                            \
+    _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wfloat-equal\"") \
+        _Pragma("GCC diagnostic ignored \"-Wsign-conversion\"")
+#define GNOMON_WARNINGS_ON _Pragma("GCC diagnostic pop")
+#else
+#define GNOMON_WARNINGS_OFF
+#define GNOMON_WARNINGS_ON
+#endif
+
+// clang-format off
+#define GNOMON_NAMESPACE_BEGIN GNOMON_WARNINGS_OFF namespace gnomon {
+#define GNOMON_NAMESPACE_END GNOMON_WARNINGS_ON }
+// clang-format on
 #define GNOMON_KERNEL template <class Real, class = gnomon::require_real<Real>> GNOMON_INLINE constexpr
 #define GNOMON_STRUCT(name) template <class Real, class = gnomon::require_real<Real>> struct name
 #define GNOMON_T(name) name<Real>

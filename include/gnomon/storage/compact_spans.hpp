@@ -21,7 +21,7 @@
 #include <iterator>
 #include <span>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 inline constexpr int compact_times = 1 << 16;              // steps of the shutter interval
 inline constexpr int compact_depths = 1 << 20;             // steps from the near to the far plane
@@ -82,7 +82,11 @@ class compact_list {
         iterator() = default;
         iterator(const compact_list& list, std::size_t n) : list_(&list), n_(n) {}
         value_type operator*() const { return (*list_)[n_]; }
-        iterator& operator++() { return ++n_, *this; }
+        iterator& operator++()
+        {
+            ++n_;
+            return *this;
+        }
         iterator operator++(int) { return {*list_, n_++}; }
         bool operator==(const iterator& other) const { return n_ == other.n_; }
 
@@ -124,5 +128,5 @@ struct compact_spans {
     }
 };
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

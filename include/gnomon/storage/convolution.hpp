@@ -5,7 +5,7 @@
 #include "convolution.h"
 #include "format.hpp"
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// 256 bits: 32 UNORM8 channels.
 struct convolution_unorm8 : stored_texel<convolution_unorm8, unorm_texel<channels32, 8>> {
@@ -25,5 +25,5 @@ struct convolution_unorm8 : stored_texel<convolution_unorm8, unorm_texel<channel
 };
 static_assert(storage_format<convolution_unorm8>);
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

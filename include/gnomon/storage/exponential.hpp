@@ -5,7 +5,7 @@
 #include "exponential.h"
 #include "format.hpp"
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// 32 bits: one float.
 struct exponential_float : stored_texel<exponential_float, float_texel<channels1>> {
@@ -25,5 +25,5 @@ struct exponential_float : stored_texel<exponential_float, float_texel<channels1
 };
 static_assert(storage_format<exponential_float>);
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

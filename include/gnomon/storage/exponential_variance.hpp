@@ -5,7 +5,7 @@
 #include "exponential_variance.h"
 #include "format.hpp"
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// 64 bits: four half floats.
 struct exponential_variance_half : stored_texel<exponential_variance_half, half_texel<channels4>> {
@@ -49,5 +49,5 @@ struct exponential_variance_float : stored_texel<exponential_variance_float, flo
 };
 static_assert(storage_format<exponential_variance_float>);
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

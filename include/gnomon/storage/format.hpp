@@ -26,7 +26,7 @@
 #include <string_view>
 #include <type_traits>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 template <class Format> using format_texel = typename Format::texel;
 
@@ -148,5 +148,5 @@ template <class Format, class Texel> struct stored_texel : Texel {
     }
 };
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

@@ -12,12 +12,12 @@
 
 #include <tuple>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 using storage_formats =
     std::tuple<variance_unorm16, layered_variance_unorm16, exponential_float, exponential_variance_half,
                exponential_variance_float, convolution_unorm8, moments4_unorm16, moments4_half, moments4_float,
                moments6_unorm10, moments6_unorm16, moments6_float>;
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

@@ -5,7 +5,7 @@
 #include "format.hpp"
 #include "layered_variance.h"
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// 128 bits: four layers, each of two UNORM16 channels.
 struct layered_variance_unorm16 : stored_texel<layered_variance_unorm16, unorm_texel<channels8, 16>> {
@@ -28,5 +28,5 @@ struct layered_variance_unorm16 : stored_texel<layered_variance_unorm16, unorm_t
 };
 static_assert(storage_format<layered_variance_unorm16>);
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

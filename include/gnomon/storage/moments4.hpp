@@ -9,7 +9,7 @@
 #include "format.hpp"
 #include "moments4.h"
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// 64 bits: four UNORM16 channels after theta4.
 struct moments4_unorm16 : stored_texel<moments4_unorm16, unorm_texel<channels4, 16>> {
@@ -111,5 +111,5 @@ struct moments4_float : stored_texel<moments4_float, float_texel<channels4>> {
 };
 static_assert(storage_format<moments4_float>);
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

@@ -8,7 +8,7 @@
 #include "format.hpp"
 #include "moments6.h"
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// Six UNORM10 channels, three to a 10-10-10-2 word, the first channel of a word lowest.
 struct unorm10_words {
@@ -132,5 +132,5 @@ struct moments6_float : stored_texel<moments6_float, float_texel<channels6>> {
 };
 static_assert(storage_format<moments6_float>);
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

@@ -5,7 +5,7 @@
 #include "format.hpp"
 #include "variance.h"
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// 32 bits: two UNORM16 channels.
 struct variance_unorm16 : stored_texel<variance_unorm16, unorm_texel<channels2, 16>> {
@@ -25,5 +25,5 @@ struct variance_unorm16 : stored_texel<variance_unorm16, unorm_texel<channels2, 
 };
 static_assert(storage_format<variance_unorm16>);
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

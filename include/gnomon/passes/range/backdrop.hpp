@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <span>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// A filter that withholds the farthest of those ranges that last from 0 to 1: only after the last range is it known
 /// whether that one is a backdrop. If occluded ranges are dropped at the same time, every range must pass this filter
@@ -78,5 +78,5 @@ template <class T> std::span<depth_time_range<T>> without_backdrop(std::span<dep
     return list.first(list.size() - 1);
 }
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

@@ -23,7 +23,7 @@
 #include <string>
 #include <string_view>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// A map of width x height texels with compact lists, one for each texel, in the order of range_map::texel.
 struct compact_range_map {
@@ -269,5 +269,5 @@ inline compact_spans compact_ranges(const range_map<float>& map, const compact_m
             memory.lists.first(texels)};
 }
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

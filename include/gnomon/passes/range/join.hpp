@@ -12,7 +12,7 @@
 #include <limits>
 #include <span>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 namespace detail {
 
@@ -89,5 +89,5 @@ std::span<depth_time_range<T>> join_ranges(std::span<depth_time_range<T>> list, 
     return list.first(count);
 }
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

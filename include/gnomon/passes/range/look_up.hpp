@@ -18,7 +18,7 @@
 #include <span>
 #include <type_traits>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// Shadow intensity of a static receiver at texel position (x, y), for a shutter as of shutters.hpp.
 /// Error: static_receiver_end.
@@ -141,5 +141,5 @@ T sampled_intensity(const Map& map, const receiver_path<T>& path, T bias, T most
     return sampled_receiver_end(state);
 }
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

@@ -13,7 +13,7 @@
 #include <span>
 #include <string_view>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 namespace detail {
 
@@ -154,5 +154,5 @@ void sort_into_lists(std::span<const std::uint32_t> texels, std::span<const dept
     first[0] = 0;
 }
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

@@ -9,7 +9,7 @@
 
 #include <span>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// The longest time for which neighbours overlap, and the largest distance between them in that time.
 template <class T> inline constexpr T neighbours_overlap = T(0x1p-14);
@@ -30,5 +30,5 @@ template <class T> void part_neighbours(std::span<depth_time_range<T>> list)
         }
 }
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

@@ -24,7 +24,7 @@
 #include <limits>
 #include <span>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// A span of time, from t0 to t1, and the number of the range that is in front.
 template <class T> struct visible_span {
@@ -40,7 +40,11 @@ namespace detail {
 
 /// Upper bound of the number of spans of n ranges. Their lower envelope is a Davenport-Schinzel sequence of order 3,
 /// with at most n (1 + 2 H(n - 1)) elements, H the harmonic numbers (Sharir & Agarwal 1995, 1.2).
-constexpr std::size_t envelope_capacity(std::size_t n) { return n * (3 + 2 * std::size_t(std::bit_width(n))) + 2; }
+constexpr std::size_t envelope_capacity(std::size_t n)
+{
+    const int bits = std::numeric_limits<std::size_t>::digits - std::countl_zero(n);
+    return n * (3 + 2 * std::size_t(bits)) + 2;
+}
 
 } // namespace detail
 
@@ -211,5 +215,5 @@ template <class T> depth_time_range<T> range_of(std::span<const depth_time_range
     return s.t0 <= r.t0 && r.t1 <= s.t1 ? r : range_clip(r, s.t0, s.t1);
 }
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

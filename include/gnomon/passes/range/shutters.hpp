@@ -12,7 +12,7 @@
 #include <array>
 #include <cstddef>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// Opens and closes at once.
 struct box_shutter {
@@ -94,5 +94,5 @@ GNOMON_INLINE constexpr moving_receiver<T> add_filtered_range(const moving_recei
     return moving_receiver_add(state, shutter.filtered_light(state, moving_receiver_occluding_part(state, r)));
 }
 
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif

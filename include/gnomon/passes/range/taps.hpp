@@ -18,7 +18,7 @@
 #include <string_view>
 #include <utility>
 
-namespace gnomon {
+GNOMON_NAMESPACE_BEGIN
 
 /// A static receiver and its texel position.
 template <class T> struct placed_receiver {
@@ -326,5 +326,5 @@ template <class T, class Map> class moving_taps {
 };
 
 } // namespace detail
-} // namespace gnomon
+GNOMON_NAMESPACE_END
 #endif
