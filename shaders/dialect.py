@@ -196,4 +196,4 @@ class Prelude:
     @property
     def suffix(self):
         """What the prelude writes behind its own numbers."""
-        return "f" if re.search(r"\d\.\d+f;", "".join(self.blocks)) else ""
+        return "f" if re.search(r"\d\.\d+(?:e-\d+)?f;", "".join(self.blocks)) else ""

@@ -2,18 +2,21 @@
 // The same bits as on the CPU come wherever / and sqrt are rounded correctly and no product is fused with a sum,
 // neither of which WGSL can ask for (docs/shaders.md). Exact products stay whole in any case.
 
-const gnomon_splitter: f32 = 4097.0;
 const gnomon_pivot_floor: f32 = 0x1p-30;
 
 fn gnomon_select(mask: bool, a: f32, b: f32) -> f32 { return select(b, a, mask); }
 fn gnomon_any(mask: bool) -> bool { return mask; }
-fn gnomon_min(a: f32, b: f32) -> f32 { return select(b, a, a < b); }
-fn gnomon_max(a: f32, b: f32) -> f32 { return select(b, a, a > b); }
 fn gnomon_abs(a: f32) -> f32 { return abs(a); }
 fn gnomon_sqrt(a: f32) -> f32 { return sqrt(a); }
-// x, but nothing is fused or cancelled across a minimum of integers. Only bits of NaN are above this bound, which is one.
+// x, but nothing is fused, cancelled or reordered across a minimum of integers. Only bits of NaN are above this bound, which
+// is one.
 fn gnomon_kept(x: f32) -> f32 { return bitcast<f32>(min(bitcast<i32>(x), 0x7fc00000)); }
+fn gnomon_min(a: f32, b: f32) -> f32 { return select(gnomon_kept(b), a, a < b); }
+fn gnomon_max(a: f32, b: f32) -> f32 { return select(gnomon_kept(b), a, a > b); }
 fn gnomon_product(a: f32, b: f32) -> f32 { return gnomon_kept(a * b); }
+fn gnomon_sum(a: f32, b: f32) -> f32 { return gnomon_kept(a + b); }
 fn gnomon_difference(a: f32, b: f32) -> f32 { return gnomon_kept(a - b); }
+// a without the low half of its significand.
+fn gnomon_high_part(a: f32) -> f32 { return bitcast<f32>(bitcast<u32>(a) & 0xfffff000u); }
 // The sum has n in its low bits, and the shift moves n into the exponent.
 fn gnomon_power_of_two(n: f32) -> f32 { return bitcast<f32>((bitcast<u32>(n + 12582912.0) << 23u) + 0x3f800000u); }

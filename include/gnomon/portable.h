@@ -23,12 +23,14 @@
 //   gnomon_min, gnomon_max           a < b ? a : b and a > b ? a : b in this order: the second operand if one is NaN
 //   gnomon_abs, gnomon_sqrt          exact and correctly rounded
 //   gnomon_product                   the rounded product, never contracted into a later sum
-//   gnomon_difference                the rounded difference, never cancelled against a later sum, as (a - b) - a = -b
+//   gnomon_sum, gnomon_difference    the rounded sum and difference, never fused, cancelled against a later sum, as
+//                                    (a - b) - a = -b, or summed in another order
 //   GNOMON_FUSED                     true if gnomon_fma is one instruction that rounds once; used only by two_product
 //   gnomon_fma                       a b + c; used only by two_product
 //   gnomon_power_of_two              2^n for a whole number n in the range of normal exponents; any value for NaN
 //   GNOMON_DIGITS                    the number p of bits of the significand, 24 or 53; used only in numerics/
-//   GNOMON_SPLITTER                  2^ceil(p / 2) + 1 (Dekker 1971)
+//   gnomon_high_part                 a rounded to so few bits that products of two such parts, and of what they leave of
+//                                    a, are exact; in which direction is not said
 //   GNOMON_PIVOT_FLOOR               the least pivot of a factored matrix: 2^-30, or 2^-66 in double; far above the
 //                                    square of the rounding error of P_k at a node, and so large that its 7th power
 //                                    times 2^112 is a normal number

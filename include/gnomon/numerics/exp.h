@@ -59,7 +59,7 @@ GNOMON_KERNEL Real polynomial_exp(Real x)
     }
     x = clamp_or_nan(x, low, high);
     Real n = nearest_integer(x * GNOMON_LITERAL(exp_log2_e));
-    Real r = (x - n * Real(0.693359375)) - n * GNOMON_LITERAL(exp_ln2_low);
+    Real r = gnomon_difference(x, n * Real(0.693359375)) - n * GNOMON_LITERAL(exp_ln2_low);
     Real p =
         GNOMON_LITERAL(exp_float_0) +
         r * (GNOMON_LITERAL(exp_float_1) +

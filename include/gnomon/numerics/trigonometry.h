@@ -67,8 +67,8 @@ GNOMON_KERNEL GNOMON_T(cosine_sine) polynomial_cosine_sine(Real x)
 {
     x = clamp_or_nan(x, Real(-8192), Real(8192));
     Real n = nearest_integer(x * GNOMON_LITERAL(trigonometry_two_over_pi));
-    Real y =
-        ((x - n * Real(1.5703125)) - n * Real(0.0004837512969970703125)) - n * GNOMON_LITERAL(trigonometry_half_pi_low);
+    Real y = gnomon_difference(x, n * Real(1.5703125));
+    y = gnomon_difference(y, n * Real(0.0004837512969970703125)) - n * GNOMON_LITERAL(trigonometry_half_pi_low);
     Real z = y * y;
     Real s = GNOMON_LITERAL(sin_float_0) + z * (GNOMON_LITERAL(sin_float_1) + z * GNOMON_LITERAL(sin_float_2));
     Real c = GNOMON_LITERAL(cos_float_0) + z * (GNOMON_LITERAL(cos_float_1) + z * GNOMON_LITERAL(cos_float_2));

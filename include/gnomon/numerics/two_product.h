@@ -10,18 +10,17 @@ GNOMON_NAMESPACE_BEGIN
 GNOMON_STRUCT(double_word) { Real high, low; };
 
 /// The error a b - p of the rounded product p, without a fused multiply-add: both factors are split into halves whose
-/// products are exact. In this order of summation an error of zero is +0, as by a fused multiply-add.
+/// products are exact. In this order of summation all sums are exact, and an error of zero is +0, as by a fused
+/// multiply-add.
 /// Domain: as for two_product.
 /// Source: Dekker 1971
 GNOMON_DETAIL_KERNEL Real dekker_product_error(Real a, Real b, Real p)
 {
-    Real sa = gnomon_product(GNOMON_SPLITTER, a); // contraction would leave no halves
-    Real sb = gnomon_product(GNOMON_SPLITTER, b);
-    Real ah = sa - gnomon_difference(sa, a);
-    Real bh = sb - gnomon_difference(sb, b);
-    Real al = a - ah;
-    Real bl = b - bh;
-    return (((ah * bh - p) + al * bh) + ah * bl) + al * bl;
+    Real ah = gnomon_high_part(a);
+    Real bh = gnomon_high_part(b);
+    Real al = gnomon_difference(a, ah);
+    Real bl = gnomon_difference(b, bh);
+    return gnomon_sum(gnomon_sum(gnomon_difference(ah * bh, p), al * bh), ah * bl) + al * bl;
 }
 
 /// a b exactly, as the rounded product and its error. Fused multiply-add and splitting give the same bits.
@@ -49,7 +48,8 @@ GNOMON_KERNEL GNOMON_T(double_word) two_difference(Real a, Real b)
     GNOMON_T(double_word) r;
     r.high = gnomon_difference(a, b);
     Real bv = gnomon_difference(r.high, a);
-    r.low = (a - (r.high - bv)) - (b + bv);
+    Real av = gnomon_difference(r.high, bv);
+    r.low = gnomon_difference(a, av) - gnomon_sum(b, bv);
     return r;
 }
 
@@ -60,7 +60,7 @@ GNOMON_KERNEL GNOMON_T(double_word) two_difference_ordered(Real a, Real b)
 {
     GNOMON_T(double_word) r;
     r.high = gnomon_difference(a, b);
-    r.low = (a - r.high) - b;
+    r.low = gnomon_difference(a, r.high) - b;
     return r;
 }
 
@@ -92,7 +92,7 @@ GNOMON_KERNEL GNOMON_T(double_word) subtract_product_ordered(Real c, Real a, Rea
 GNOMON_KERNEL Real subtract_product_rounded(Real c, Real a, Real b)
 {
     double_word p = two_product(a, b);
-    return (c - p.high) - p.low;
+    return gnomon_difference(c, p.high) - p.low;
 }
 
 /// a b - c d for double words, as a double word.
@@ -118,7 +118,7 @@ GNOMON_DETAIL_KERNEL Real double_word_determinant(GNOMON_T(double_word) a, GNOMO
     double_word p = two_product(a.high, c.high);
     double_word q = two_product(b.high, b.high);
     Real cross = (a.high * c.low + a.low * (c.high + c.low)) - b.low * ((b.high + b.high) + b.low);
-    return (p.high - q.high) + ((p.low - q.low) + cross);
+    return gnomon_difference(p.high, q.high) + ((p.low - q.low) + cross);
 }
 
 GNOMON_NAMESPACE_END

@@ -66,7 +66,6 @@
 #define GNOMON_LITERAL(name) gnomon::literal<Real>(name)
 #define GNOMON_FUSED gnomon::is_fused<Real>
 #define GNOMON_DIGITS std::numeric_limits<gnomon::lane_t<Real>>::digits
-#define GNOMON_SPLITTER gnomon::literal<Real>(gnomon::splitter<gnomon::lane_t<Real>>)
 #define GNOMON_PIVOT_FLOOR gnomon::literal<Real>(gnomon::pivot_floor<gnomon::lane_t<Real>>)
 
 namespace gnomon {
@@ -209,6 +208,7 @@ template <class T> GNOMON_INLINE constexpr T gnomon_fma(T a, T b, T c)
     else return a * b + c;
 }
 
+template <class T> GNOMON_INLINE constexpr T gnomon_sum(T a, T b) { return a + b; }
 template <class T> GNOMON_INLINE constexpr T gnomon_difference(T a, T b) { return a - b; }
 
 template <class T> GNOMON_INLINE constexpr T gnomon_power_of_two(T n)
@@ -264,6 +264,19 @@ template <class T> GNOMON_INLINE constexpr T gnomon_product(T a, T b)
 #endif
     else if constexpr (GNOMON_HAS_FMA) return (a * b) * T(opaque(lane_t<T>(1)));
     else return a * b;
+}
+
+// A float loses its low bits. Half of 53 bits is no whole number: a double, and whatever has no bits at hand, is rounded to 26
+// bits (Dekker 1971).
+template <class T> GNOMON_INLINE constexpr T gnomon_high_part(T a)
+{
+    if constexpr (requires { pack_operations<T>::high_part(a); }) return pack_operations<T>::high_part(a);
+    else if constexpr (std::is_same_v<T, float>) {
+        return __builtin_bit_cast(float, __builtin_bit_cast(std::uint32_t, a) & std::uint32_t{0xFFFFF000});
+    } else {
+        const T scaled = gnomon_product(literal<T>(splitter<lane_t<T>>), a); // contraction would leave no halves
+        return scaled - gnomon_difference(scaled, a);
+    }
 }
 
 } // namespace gnomon

@@ -18,17 +18,12 @@ precision highp int;
 #define GNOMON_CONSTANT(name, value) const Real name = Real(value)
 #include "glsl_like.h"
 
-#if defined(GL_ES) && __VERSION__ < 320 || __VERSION__ < 400 && !defined(GL_ES)
-// These versions have no precise. No compiler rewrites floating-point operations across a minimum of integers, though,
-// and this one changes no value: only bits of NaN are above the bound, which is one.
+// x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
+// bits of NaN are above the bound, which is one.
 Real gnomon_kept(Real x) { return intBitsToFloat(min(floatBitsToInt(x), 0x7FC00000)); }
-Real gnomon_min(Real a, Real b) { return gnomon_select(a < b, a, gnomon_kept(b)); }
-Real gnomon_max(Real a, Real b) { return gnomon_select(b < a, a, gnomon_kept(b)); }
-Real gnomon_product(Real a, Real b) { return gnomon_kept(a * b); }
-Real gnomon_difference(Real a, Real b) { return gnomon_kept(a - b); }
-#else
-#include "precise.h"
-#endif
+#include "kept.h"
+// a without the low half of its significand.
+Real gnomon_high_part(Real a) { return uintBitsToFloat(floatBitsToUint(a) & 0xFFFFF000u); }
 // The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
 Real gnomon_power_of_two(Real n) { return uintBitsToFloat((floatBitsToUint(n + Real(12582912)) << 23u) + 0x3F800000u); }
 

@@ -11,7 +11,6 @@
 #define GNOMON_STRUCT(name) struct name
 #define GNOMON_FUSED false
 
-GNOMON_CONSTANT(gnomon_splitter, 4097);
 GNOMON_CONSTANT(gnomon_pivot_floor, 9.31322574615478515625e-10); // 2^-30
 
 Real gnomon_select(bool mask, Real a, Real b) { return mask ? a : b; }

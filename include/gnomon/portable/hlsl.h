@@ -5,8 +5,14 @@
 
 #define GNOMON_CONSTANT(name, value) static const Real name = Real(value)
 #include "glsl_like.h"
-#include "precise.h"
 
-Real gnomon_power_of_two(Real n) { return asfloat((int(n) + 127) << 23); }
+// x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
+// bits of NaN are above the bound, which is one.
+Real gnomon_kept(Real x) { return asfloat(min(asint(x), 0x7FC00000)); }
+#include "kept.h"
+// a without the low half of its significand.
+Real gnomon_high_part(Real a) { return asfloat(asuint(a) & 0xFFFFF000u); }
+// The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
+Real gnomon_power_of_two(Real n) { return asfloat((asuint(n + Real(12582912)) << 23u) + 0x3F800000u); }
 
 #endif

@@ -17,19 +17,21 @@
 
 namespace gnomon {
 
-constant constexpr float gnomon_splitter = 4097.0f;
 constant constexpr float gnomon_pivot_floor = 9.31322574615478515625e-10f; // 2^-30
 
 inline Real gnomon_select(bool mask, Real a, Real b) { return mask ? a : b; }
 inline bool gnomon_any(bool mask) { return mask; }
-inline Real gnomon_min(Real a, Real b) { return a < b ? a : b; }
-inline Real gnomon_max(Real a, Real b) { return b < a ? a : b; }
 inline Real gnomon_abs(Real a) { return metal::fabs(a); }
 inline Real gnomon_sqrt(Real a) { return metal::precise::sqrt(a); }
 inline Real gnomon_fma(Real a, Real b, Real c) { return metal::fma(a, b, c); }
-inline Real gnomon_product(Real a, Real b) { return metal::fma(a, b, -0.0f); }
-inline Real gnomon_difference(Real a, Real b) { return a - b; }
-inline Real gnomon_power_of_two(Real n) { return as_type<Real>((int(n) + 127) << 23); }
+// x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
+// bits of NaN are above the bound, which is one.
+inline Real gnomon_kept(Real x) { return as_type<Real>(metal::min(as_type<int>(x), 0x7FC00000)); }
+#include "kept.h"
+// a without the low half of its significand.
+inline Real gnomon_high_part(Real a) { return as_type<Real>(as_type<uint>(a) & 0xFFFFF000u); }
+// The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
+inline Real gnomon_power_of_two(Real n) { return as_type<Real>((as_type<uint>(n + 12582912.0f) << 23) + 0x3F800000u); }
 
 } // namespace gnomon
 #endif

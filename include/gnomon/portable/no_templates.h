@@ -11,7 +11,6 @@
 #define GNOMON_SETTING Real
 #define GNOMON_LITERAL(name) name
 #define GNOMON_DIGITS 24
-#define GNOMON_SPLITTER gnomon_splitter
 #define GNOMON_PIVOT_FLOOR gnomon_pivot_floor
 
 #endif

@@ -26,18 +26,20 @@ typedef float Real;
 #define GNOMON_CONSTANT(name, value) __constant float name = (float)(value)
 #define GNOMON_FUSED true
 
-__constant float gnomon_splitter = 4097.0f;
 __constant float gnomon_pivot_floor = 9.31322574615478515625e-10f; // 2^-30
 
 static inline Real gnomon_select(bool mask, Real a, Real b) { return mask ? a : b; }
 static inline bool gnomon_any(bool mask) { return mask; }
-static inline Real gnomon_min(Real a, Real b) { return a < b ? a : b; }
-static inline Real gnomon_max(Real a, Real b) { return b < a ? a : b; }
 static inline Real gnomon_abs(Real a) { return fabs(a); }
 static inline Real gnomon_sqrt(Real a) { return sqrt(a); }
 static inline Real gnomon_fma(Real a, Real b, Real c) { return fma(a, b, c); }
-static inline Real gnomon_product(Real a, Real b) { return fma(a, b, -0.0f); }
-static inline Real gnomon_difference(Real a, Real b) { return a - b; }
-static inline Real gnomon_power_of_two(Real n) { return as_float((convert_int_rtz(n) + 127) << 23); }
+// x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
+// bits of NaN are above the bound, which is one.
+static inline Real gnomon_kept(Real x) { return as_float(min(as_int(x), 0x7FC00000)); }
+#include "kept.h"
+// a without the low half of its significand.
+static inline Real gnomon_high_part(Real a) { return as_float(as_uint(a) & 0xFFFFF000u); }
+// The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
+static inline Real gnomon_power_of_two(Real n) { return as_float((as_uint(n + 12582912.0f) << 23) + 0x3F800000u); }
 
 #endif

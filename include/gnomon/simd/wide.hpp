@@ -90,6 +90,10 @@ template <class Pack> struct pack_operations<wide<Pack>> {
     {
         return {gnomon_fma(a.low, b.low, c.low), gnomon_fma(a.high, b.high, c.high)};
     }
+    static GNOMON_INLINE wide<Pack> high_part(wide<Pack> a)
+    {
+        return {gnomon_high_part(a.low), gnomon_high_part(a.high)};
+    }
     static GNOMON_INLINE wide<Pack> power_of_two(wide<Pack> n)
     {
         return {gnomon_power_of_two(n.low), gnomon_power_of_two(n.high)};
