@@ -272,7 +272,7 @@ template <class T> GNOMON_INLINE constexpr T gnomon_high_part(T a)
 {
     if constexpr (requires { pack_operations<T>::high_part(a); }) return pack_operations<T>::high_part(a);
     else if constexpr (std::is_same_v<T, float>) {
-        return __builtin_bit_cast(float, __builtin_bit_cast(std::uint32_t, a) & std::uint32_t{0xFFFFF000});
+        return gnomon_bit_cast<float>(gnomon_bit_cast<std::uint32_t>(a) & std::uint32_t{0xFFFFF000});
     } else {
         const T scaled = gnomon_product(literal<T>(splitter<lane_t<T>>), a); // contraction would leave no halves
         return scaled - gnomon_difference(scaled, a);

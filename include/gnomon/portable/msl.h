@@ -23,11 +23,11 @@ inline Real gnomon_select(bool mask, Real a, Real b) { return mask ? a : b; }
 inline bool gnomon_any(bool mask) { return mask; }
 inline Real gnomon_abs(Real a) { return metal::fabs(a); }
 inline Real gnomon_sqrt(Real a) { return metal::precise::sqrt(a); }
-inline Real gnomon_fma(Real a, Real b, Real c) { return metal::fma(a, b, c); }
 // x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
 // bits of NaN are above the bound, which is one.
 inline Real gnomon_kept(Real x) { return as_type<Real>(metal::min(as_type<int>(x), 0x7FC00000)); }
 #include "kept.h"
+inline Real gnomon_fma(Real a, Real b, Real c) { return gnomon_kept(metal::fma(a, b, c)); }
 // a without the low half of its significand.
 inline Real gnomon_high_part(Real a) { return as_type<Real>(as_type<uint>(a) & 0xFFFFF000u); }
 // The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.

@@ -32,11 +32,11 @@ static inline Real gnomon_select(bool mask, Real a, Real b) { return mask ? a : 
 static inline bool gnomon_any(bool mask) { return mask; }
 static inline Real gnomon_abs(Real a) { return fabs(a); }
 static inline Real gnomon_sqrt(Real a) { return sqrt(a); }
-static inline Real gnomon_fma(Real a, Real b, Real c) { return fma(a, b, c); }
 // x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
 // bits of NaN are above the bound, which is one.
 static inline Real gnomon_kept(Real x) { return as_float(min(as_int(x), 0x7FC00000)); }
 #include "kept.h"
+static inline Real gnomon_fma(Real a, Real b, Real c) { return gnomon_kept(fma(a, b, c)); }
 // a without the low half of its significand.
 static inline Real gnomon_high_part(Real a) { return as_float(as_uint(a) & 0xFFFFF000u); }
 // The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.

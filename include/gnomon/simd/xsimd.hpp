@@ -56,7 +56,7 @@ template <class T, class A> struct pack_operations<xsimd::batch<T, A>> {
     // Without the low half of a significand of 24 bits; a double is split by arithmetic, as a scalar.
     static GNOMON_INLINE pack high_part(pack a) requires std::is_same_v<T, float>
     {
-        return a & pack(__builtin_bit_cast(float, std::uint32_t{0xFFFFF000}));
+        return a & pack(gnomon_bit_cast<float>(std::uint32_t{0xFFFFF000}));
     }
 
     // As for a scalar: the sum leaves n in the low bits, and the shift moves n into the exponent.
