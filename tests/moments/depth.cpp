@@ -95,6 +95,7 @@ TEST_CASE_TEMPLATE("planes of perspective buffers are exact, points beyond are o
     check([](T z, T a, T b) { return depth_from_reversed_infinite(z, a, b); }, T(1), T(0));
     // A point behind the chosen far plane of an infinite projection, at twice its distance.
     CHECK(depth_from_reversed_infinite(n / (2 * f), n, f) == T(1));
+    CHECK(depth_from_reversed_infinite(-T(0), n, f) == T(1));
 }
 
 TEST_CASE_TEMPLATE("depths from buffers agree with depths from distances", T, float, double)

@@ -74,7 +74,7 @@ GNOMON_KERNEL Real depth_from_reversed_perspective(Real z, GNOMON_SETTING near_d
 /// Error: 8 2^-p, where the buffer itself is exact.
 GNOMON_KERNEL Real depth_from_reversed_infinite(Real z, GNOMON_SETTING near_distance, GNOMON_SETTING far_distance)
 {
-    Real x = clamp_or_nan(z, Real(0), Real(1));
+    Real x = gnomon_abs(clamp_or_nan(z, Real(0), Real(1))); // -0 is the far plane, too
     Real depth =
         (near_distance * (Real(1) - x) - (far_distance * x - near_distance)) / (x * (far_distance - near_distance));
     return clamp_or_nan(depth, Real(-1), Real(1));
