@@ -11,7 +11,7 @@ namespace gnomon::bench {
 
 namespace {
 
-using pack = xsimd::batch<float>;
+using pack = gnomon::pack<xsimd::batch<float>>;
 constexpr std::size_t packs = 256; // more than branch predictors remember
 
 /// Lists of `length` ranges.

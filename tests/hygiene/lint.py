@@ -41,6 +41,7 @@ BUILTIN_TYPES = re.compile(
 # What some language refuses, as it shows in formatted text without comments and include lines.
 CONSTRUCTS = [
     ("conditional operator", r"\?"),
+    ("inequality", r"!=(?=[^\n]*[;{)])"), # of NaN, xsimd 8.1 says false
     ("token pasting", r"##"),
     ("double underscore", r"\w*__\w*"),
     ("reference", r"(?<=\w)&(?= )|(?<= )&(?=\w)|(?<=[\w>])&&(?= \w+[,)])"),

@@ -28,3 +28,7 @@ bool operator<(lazy, lazy);
 
 REAL call(REAL x);
 REAL call(REAL x) { return gnomon::saturate_or_zero<REAL>(x); }
+#if defined(SECOND)
+SECOND call(SECOND x);
+SECOND call(SECOND x) { return gnomon::saturate_or_zero<SECOND>(x); }
+#endif

@@ -63,8 +63,8 @@ template <class T, class Run> std::string first_mistake(const kernel_shape& k, R
                         real_name<Pack>() + ": " + row_text(k, in, lanes, i) + ", not as" + row_text(k, in, scalar, i);
         };
 #if !defined(__SANITIZE_ADDRESS__) // as in reals.hpp
-        compare.template operator()<xsimd::make_sized_batch_t<T, 16 / sizeof(T)>>();
-        compare.template operator()<wide<xsimd::batch<T>>>();
+        compare.template operator()<gnomon::pack<xsimd::make_sized_batch_t<T, 16 / sizeof(T)>>>();
+        compare.template operator()<wide<gnomon::pack<xsimd::batch<T>>>>();
 #else
         static_cast<void>(compare);
 #endif

@@ -145,7 +145,7 @@ TEST_CASE_TEMPLATE("resolve_rows: at any time the depth in front", Pack, xsimd::
 
 TEST_CASE("resolve_rows: for n ranges within a tie a climber finds the front at most n - 1 ties behind")
 {
-    using pack = xsimd::batch<float>;
+    using pack = gnomon::pack<xsimd::batch<float>>;
     for (const std::size_t n : {2u, 3u, 6u}) {
         const test::summit top = test::climb_ties<float>(
             n, n, [](const list& all) { return resolved_together<pack>(std::vector<list>(pack::size, all))[0]; });
@@ -156,7 +156,7 @@ TEST_CASE("resolve_rows: for n ranges within a tie a climber finds the front at 
 
 TEST_CASE("backdrop_filter: every lane has the result of a single list")
 {
-    using pack = xsimd::batch<float>;
+    using pack = gnomon::pack<xsimd::batch<float>>;
     bit_source bits(93);
     std::int64_t backdrops = 0;
     for (std::int64_t n = 0; n < test::effort(2'000); ++n) {

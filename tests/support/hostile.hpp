@@ -2,8 +2,9 @@
 // small or large errors.
 #pragma once
 
+#include <gnomon/portable.h>
+
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +25,7 @@ class bit_source {
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
         return z ^ (z >> 31);
     }
-    std::size_t below(std::size_t n) { return std::size_t((*this)() >> 32) * n >> 32; }
+    std::size_t below(std::size_t n) { return std::size_t(((*this)() >> 32) * n >> 32); }
     double uniform(double a, double b) { return a + (b - a) * double((*this)() >> 11) * 0x1p-53; }
     bool chance(double p) { return uniform(0, 1) < p; }
 
@@ -56,7 +57,7 @@ template <class T> class hostile_source {
     T pattern()
     {
         using word = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
-        return std::bit_cast<T>(word(bits_() >> (64 - 8 * sizeof(T))));
+        return gnomon_bit_cast<T>(word(bits_() >> (64 - 8 * sizeof(T))));
     }
 
     T special()

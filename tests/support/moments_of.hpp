@@ -7,7 +7,6 @@
 #include <gnomon/storage/format.hpp>
 
 #include <array>
-#include <bit>
 
 namespace gnomon::test {
 
@@ -72,10 +71,10 @@ format_channels<Format> weighted_sum(const std::array<format_texel<Format>, 9>& 
 {
     channel_array<Format> sum{};
     for (std::size_t i = 0; i < 9; ++i) {
-        const auto c = std::bit_cast<channel_array<Format>>(Format::decode(texels[i]));
+        const auto c = gnomon_bit_cast<channel_array<Format>>(Format::decode(texels[i]));
         for (std::size_t k = 0; k < sum.size(); ++k) sum[k] = sum[k] + c[k] * taps[i];
     }
-    return std::bit_cast<format_channels<Format>>(sum);
+    return gnomon_bit_cast<format_channels<Format>>(sum);
 }
 
 /// The channels at the centre of a scene, rounded to the format when rendered and after each of two filter passes,

@@ -8,7 +8,9 @@
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #endif
 
+#if __has_include(<xsimd/xsimd.hpp>)
 #include <gnomon/simd/xsimd.hpp>
+#endif
 
 #include <cmath>
 #include <cstddef>
@@ -39,6 +41,11 @@ template <class T> struct plain {
     friend plain sqrt(plain a) { return plain(std::sqrt(a.value)); }
 };
 
+#if defined(GNOMON_SIMD_XSIMD_HPP)
+/// True if the target's default batch holds numbers of type T, which that of 32-bit NEON does not for double.
+template <class T> inline constexpr bool has_batch = sizeof(typename xsimd::batch<T>::register_type) > sizeof(T);
+#endif
+
 template <class Real> inline constexpr bool is_plain = std::is_same_v<Real, plain<lane_t<Real>>>;
 
 template <class Real> constexpr std::size_t lanes()
@@ -49,13 +56,13 @@ template <class Real> constexpr std::size_t lanes()
 
 template <class Real> Real load(const lane_t<Real>* p)
 {
-    if constexpr (lanes<Real>() > 1) return Real::load_unaligned(p);
+    if constexpr (requires { Real::load_unaligned(p); }) return Real::load_unaligned(p);
     else return Real(*p);
 }
 
 template <class Real> void store(const Real& x, lane_t<Real>* p)
 {
-    if constexpr (lanes<Real>() > 1) x.store_unaligned(p);
+    if constexpr (requires { x.store_unaligned(p); }) x.store_unaligned(p);
     else if constexpr (is_plain<Real>) *p = x.value;
     else *p = x;
 }
@@ -72,7 +79,7 @@ template <class T, class F> void for_each_real(F f)
 {
     [[maybe_unused]] const auto pack = [&]<std::size_t size> {
         using batch = xsimd::make_sized_batch_t<T, size>;
-        if constexpr (!std::is_void_v<batch>) f.template operator()<batch>();
+        if constexpr (!std::is_void_v<batch>) f.template operator()<gnomon::pack<batch>>();
     };
     f.template operator()<T>();
 #if !defined(__SANITIZE_ADDRESS__) // a sanitizer needs minutes to compile packs and finds the same in every Real

@@ -31,7 +31,7 @@ inline const registered<map_kind> filtered_map_kind{
 
 template <storage_format Format> class filterable_map final : public shadow_map {
   public:
-    using pack = xsimd::batch<float>;
+    using pack = gnomon::pack<xsimd::batch<float>>;
     template <class Real> using channels = format_channels<Format, Real>;
 
     filterable_map(const depth_map& depths, std::span<const float> taps) : map_(depths, taps) {}

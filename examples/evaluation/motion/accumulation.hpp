@@ -16,7 +16,7 @@
 
 namespace gnomon::evaluation {
 
-using accumulation_pack = xsimd::batch<float>;
+using accumulation_pack = gnomon::pack<xsimd::batch<float>>;
 
 struct accumulated_maps {
     int resolution = 0;

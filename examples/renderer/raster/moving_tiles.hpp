@@ -26,7 +26,7 @@
 
 namespace gnomon::renderer {
 
-using texel_pack = xsimd::batch<float>;
+using texel_pack = gnomon::pack<xsimd::batch<float>>;
 using texel_lanes = std::array<float, texel_pack::size>;
 
 // A bit for each lane of a mask, as the function mask() of later versions of xsimd.

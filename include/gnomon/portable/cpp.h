@@ -92,25 +92,39 @@ using arithmetic_result =
 /// _Float16 and numbers of many digits do.
 template <class T> inline constexpr bool is_lane = std::is_same_v<T, float> || std::is_same_v<T, double>;
 
+/// Operations of a pack that are faster than the generic code below: a specialization provides them (simd/xsimd.hpp).
+template <class T> struct pack_operations {};
+
+/// False for a pack of another library that is no Real by itself, since its operators lack something or round otherwise:
+/// gnomon::pack of it is (simd/pack.hpp). The library's adapter knows, so without it no pack of xsimd or of the standard
+/// library is one.
+template <class T> constexpr bool is_native_real()
+{
+    if constexpr (requires { pack_operations<T>::native; }) return pack_operations<T>::native;
+    else if constexpr (requires { typename T::arch_type; }) return false;
+    else if constexpr (requires { typename T::abi_type; }) return false;
+    else return true;
+}
+template <class T> inline constexpr bool is_native = is_native_real<T>();
+
 /// A type that can be Real: closed under its own arithmetic, so that one type holds every intermediate value, with
 /// lanes of float or double. Expression templates are excluded: evaluate them into a value first.
 template <class T>
-concept real_number =
-    std::same_as<arithmetic_result<T>, T> && is_lane<lane_t<T>> && std::constructible_from<T, lane_t<T>> && requires
+concept real_number = std::same_as<arithmetic_result<T>, T> && is_lane<lane_t<T>> && is_native<T> &&
+    std::constructible_from<T, lane_t<T>> && requires
 {
     typename mask_t<T>;
 };
 
 template <class T> struct require_real_of {
-    static_assert(real_number<T>,
-                  "gnomon: Real must be float, double or a pack of them, closed under + - * / "
-                  "(no other precision, no integer, no expression template: evaluate it first)");
+    static_assert(
+        real_number<T>,
+        "gnomon: Real must be float, double or a pack of them, closed under + - * / "
+        "(no other precision, no integer; no expression template: evaluate it first; no foreign pack without its "
+        "adapter: include gnomon/simd/xsimd.hpp or std_simd.hpp, and let Real be gnomon::pack of it)");
     using type = T;
 };
 template <class T> using require_real = typename require_real_of<T>::type;
-
-/// Operations of a pack that are faster than the generic code below: a specialization provides them (simd/xsimd.hpp).
-template <class T> struct pack_operations {};
 
 /// The value as a Real, rounded once from double to the type of a lane.
 template <class T> GNOMON_INLINE constexpr T literal(double value) { return T(static_cast<lane_t<T>>(value)); }
@@ -156,6 +170,7 @@ template <class M, class T> GNOMON_INLINE constexpr T gnomon_select(M mask, T a,
 template <class M> GNOMON_INLINE constexpr bool gnomon_any(M mask)
 {
     if constexpr (std::is_same_v<M, bool>) return mask;
+    else if constexpr (requires { any_of(mask); }) return any_of(mask);
     else return any GNOMON_NO_MACRO(mask);
 }
 

@@ -2,7 +2,7 @@
 // A kernel is one long chain of dependent operations, longer than a processor looks ahead; with twice the lanes it
 // takes less time for each lane.
 //
-//     using real = gnomon::wide<xsimd::batch<float>>;
+//     using real = gnomon::wide<gnomon::pack<xsimd::batch<float>>>;
 //
 // The lanes of low come first. Results have the bits of the pack; loads and stores are those of xsimd.
 #ifndef GNOMON_SIMD_WIDE_HPP
@@ -65,7 +65,7 @@ template <class Pack> struct wide {
     friend GNOMON_INLINE mask operator<=(wide a, wide b) { return {a.low <= b.low, a.high <= b.high}; }
     friend GNOMON_INLINE mask operator>=(wide a, wide b) { return {a.low >= b.low, a.high >= b.high}; }
     friend GNOMON_INLINE mask operator==(wide a, wide b) { return {a.low == b.low, a.high == b.high}; }
-    friend GNOMON_INLINE mask operator!=(wide a, wide b) { return {a.low != b.low, a.high != b.high}; }
+    friend GNOMON_INLINE mask operator!=(wide a, wide b) { return !(a == b); }
 
     friend GNOMON_INLINE wide select GNOMON_NO_MACRO(mask m, wide a, wide b)
     {
@@ -76,7 +76,7 @@ template <class Pack> struct wide {
 };
 
 template <class Pack> struct pack_operations<wide<Pack>> {
-    static constexpr bool fused = is_fused<Pack>;
+    static constexpr bool native = is_native<Pack>, fused = is_fused<Pack>;
 
     static GNOMON_INLINE wide<Pack> min GNOMON_NO_MACRO(wide<Pack> a, wide<Pack> b)
     {

@@ -20,7 +20,7 @@ namespace gnomon::evaluation {
 
 namespace {
 
-using pack = xsimd::batch<float>;
+using pack = gnomon::pack<xsimd::batch<float>>;
 using lanes = std::array<float, pack::size>;
 
 depth_time_range<float> range_in_lane(const depth_time_range<pack>& r, std::size_t i)

@@ -17,7 +17,7 @@
 
 namespace gnomon::evaluation {
 
-using prism_pack = xsimd::batch<float>;
+using prism_pack = gnomon::pack<xsimd::batch<float>>;
 
 class prism_rasterizer {
   public:
