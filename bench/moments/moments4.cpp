@@ -38,12 +38,12 @@ struct certified : moments {
     }
 };
 
-struct certified_half : moments {
+struct certified_half : channels {
     static constexpr auto name = "default: certified, 4 x half";
     static constexpr bool has_error = true;
-    template <class Real> static GNOMON_INLINE constexpr Real run(Real b1, Real b2, Real b3, Real b4, Real z_f)
+    template <class Real> static GNOMON_INLINE constexpr Real run(Real c1, Real c2, Real c3, Real c4, Real z_f)
     {
-        return moments4_half_intensity(channels4<Real>{b1, b2, b3, b4}, z_f);
+        return moments4_half_intensity(channels4_shifted(channels4<Real>{c1, c2, c3, c4}, literal<Real>(-0.5)), z_f);
     }
 };
 

@@ -140,9 +140,9 @@ std::vector<storage_format> formats(const std::vector<bias_vector_set>& vectors)
         return storage_format{name, rounding, bias.printed.maximum_norm, bias.farthest.maximum_norm, paper_weight};
     };
     return {format("4 x float", float32, raw4, 3e-7),
-            format("4 x half", float16, raw4, 0),
+            format("4 x half of b1..b4", float16, raw4, 0),
             format("4 x half of Theta4*", float16, theta4, 0),
-            format("4 x half of 2 Theta4* - 1", float16 / 2, theta4, 0),
+            format("4 x half", float16 / 2, theta4, 0), // of Theta4* - 1/2
             format("4 x UNORM16", unorm16, theta4, 6e-5),
             format("4 x UNORM16, three roundings", 3 * unorm16, theta4, 6e-5),
             format("6 x float", float32, raw6, 5e-6),

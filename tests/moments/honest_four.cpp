@@ -14,6 +14,7 @@
 
 #include <cstdio>
 #include <string>
+#include <type_traits>
 
 using namespace gnomon;
 using namespace gnomon::test;
@@ -44,6 +45,18 @@ double darkest_once(std::int64_t count, Intensity intensity, double enough = HUG
         .score;
 }
 
+/// The largest intensity - Z(z < z_f) of a mixture of texels that are stored once, as a texture unit returns it: in float.
+template <class Format, class Intensity> double darkest_mixed(std::int64_t count, Intensity intensity)
+{
+    return climb(sight_dimensions, count, 4,
+                 [&](const std::vector<double>& place) {
+                     const sight s = sight_at(place);
+                     return double(intensity(mixed_channels<Format>(s.seen), float(s.receiver))) -
+                            s.seen.below(s.receiver);
+                 })
+        .score;
+}
+
 /// The largest intensity - Z(z < z_f) after two filter passes.
 template <class Format, class Intensity> double darkest_filtered(std::int64_t count, Intensity intensity)
 {
@@ -68,6 +81,11 @@ TEST_CASE_TEMPLATE("a lit surface is never darkened", Format, moments4_unorm16, 
     const auto once = [](channels c, float z_f) { return Format::intensity(c, z_f); };
     const auto passes = [](channels c, float z_f) { return Format::filtered_intensity(c, z_f); };
     report<Format>("certified, one rounding", darkest_once<Format>(evaluations, once), Format::darkening);
+    // A mixture of floats rounds once more, for which one rounding does not allow.
+    constexpr bool rounds_again = std::is_same_v<Format, moments4_float>;
+    report<Format>("certified, texture unit",
+                   rounds_again ? darkest_mixed<Format>(evaluations, passes) : darkest_mixed<Format>(evaluations, once),
+                   rounds_again ? Format::filtered_darkening : Format::darkening);
     report<Format>("certified, two filter passes", darkest_filtered<Format>(evaluations, passes),
                    Format::filtered_darkening);
     const auto constant = [](channels c, float z_f) { return hamburger4_lower(Format::factor(c), z_f); };
@@ -200,6 +218,6 @@ template <class Format> void check_finding(const finding& f)
 TEST_CASE("no route of the library darkens the contacts that raised pivots darken")
 {
     check_finding<moments4_unorm16>({-0.731, 0.125, -0.711, 0.889});
-    check_finding<moments4_half>({-0.821, 0.25, -0.741, 0.648});
+    check_finding<moments4_half>({-0.76, 0.125, -0.687, 0.865});
     check_finding<moments4_float>({0.9467, 0.25, 0.9477, 0.619});
 }

@@ -129,8 +129,7 @@ TEST_CASE("dither on store and filtering in float leak less, by the stated amoun
     bit_source bits(11);
     double plain = 0, dithered = 0, darkest = -1;
     const auto shown = [](const channels& c, double noise, float z_f) {
-        return double(certified4_theta_lower(hankel4_stored_as_unorm16(c, float(certified4_unorm16_weight)), c,
-                                             float(noise), z_f));
+        return double(moments4_theta_intensity(c, float(noise), float(certified4_unorm16_weight), z_f));
     };
     for (int i = 0; i < count; ++i) {
         std::vector<double> place(contact_dimensions);

@@ -37,7 +37,7 @@ constexpr storage storage_of(const moments4_unorm16&)
 }
 constexpr storage storage_of(const moments4_half&)
 {
-    return {"4 x half", 0x1p-12, bias4_raw_b2, 0.10147, bias4_raw_paper_b2, 3.6e-3};
+    return {"4 x half", 0x1p-13, bias4_theta_b2, 0.21652, bias4_theta_paper_b2, 9e-4};
 }
 constexpr storage storage_of(const moments4_float&)
 {
@@ -45,19 +45,21 @@ constexpr storage storage_of(const moments4_float&)
 }
 
 /// The largest change of E[p] by errors of half a code.
-double norm_of(const moments4_unorm16& f, const quartic& p)
+double theta_norm(double delta, const quartic& p)
 {
     const double odd = p[1] + 0.75 * p[3];
-    return storage_of(f).delta * (std::abs(p[1] / 3 + 0.75 * p[3]) + std::sqrt(3.0) * std::abs(odd) +
-                                  std::abs(p[2] - p[4]) / 8 + std::abs(p[2] + p[4]));
+    return delta * (std::abs(p[1] / 3 + 0.75 * p[3]) + std::sqrt(3.0) * std::abs(odd) + std::abs(p[2] - p[4]) / 8 +
+                    std::abs(p[2] + p[4]));
 }
-template <class Format> double norm_of(const Format& f, const quartic& p)
+double norm_of(const moments4_float& f, const quartic& p)
 {
     return storage_of(f).delta * (std::abs(p[1]) + std::abs(p[2]) + std::abs(p[3]) + std::abs(p[4]));
 }
+template <class Format> double norm_of(const Format& f, const quartic& p) { return theta_norm(storage_of(f).delta, p); }
 
 moments raw(const moments4_unorm16&, const channels& c) { return theta4_inverse(c); }
-template <class Format> moments raw(const Format&, const channels& c) { return moments4_from_channels(c); }
+moments raw(const moments4_half&, const channels& c) { return theta4_inverse(channels4_shifted(c, 0.5f)); }
+moments raw(const moments4_float&, const channels& c) { return moments4_from_channels(c); }
 
 enum route { limit, certified, constant, paper, raised_pivots };
 constexpr std::size_t routes = 5;

@@ -62,6 +62,8 @@ inline constexpr input_family<T> input_families[] = {
     {"moments4", 4, [](auto put, const situation& s, bit_source&) { put(moments4_in<T>(s)); }},
     {"moments6", 6, [](auto put, const situation& s, bit_source&) { put(moments6_in<T>(s)); }},
     {"channels4", 4, [](auto put, const situation& s, bit_source&) { put(theta4(moments4_in<T>(s))); }},
+    {"half4", 4,
+     [](auto put, const situation& s, bit_source&) { put(channels4_shifted(theta4(moments4_in<T>(s)), T(-0.5))); }},
     {"channels6", 6, [](auto put, const situation& s, bit_source&) { put(theta6(moments6_in<T>(s))); }},
     {"channels1", 1,
      [](auto put, const situation& s, bit_source& bits) {

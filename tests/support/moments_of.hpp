@@ -64,6 +64,20 @@ template <class Format> format_channels<Format> stored_channels(const distributi
     else return Format::decode(Format::encode(Format::from_moments(moments6_in<float>(moments))));
 }
 
+/// The mean of the texels of a distribution's depths, each rounded once to the format; the mean is rounded to float.
+template <class Format> format_channels<Format> mixed_channels(const distribution& d)
+{
+    std::array<double, channel_count<Format>> sum{};
+    for (std::size_t i = 0; i < d.depths.size(); ++i) {
+        const auto texel = Format::encode(Format::from_depth(float(d.depths[i])));
+        const auto c = std::bit_cast<channel_array<Format>>(Format::decode(texel));
+        for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += d.weights[i] * double(c[k]);
+    }
+    channel_array<Format> mean{};
+    for (std::size_t k = 0; k < sum.size(); ++k) mean[k] = float(sum[k]);
+    return std::bit_cast<format_channels<Format>>(mean);
+}
+
 /// The weighted sum of nine texels' channels, in float.
 template <class Format>
 format_channels<Format> weighted_sum(const std::array<format_texel<Format>, 9>& texels,

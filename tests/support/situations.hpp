@@ -76,7 +76,7 @@ template <class T> hankel4<T> any_hankel4(const situation& s, bit_source& bits)
         case 0:
             return hankel4_from_moments(b);
         case 1:
-            return hankel4_from_half(channels4_from_moments(b));
+            return hankel4_from_half(channels4_shifted(theta4(b), T(-0.5)));
         case 2:
             return hankel4_constant_bias(b, T(bias4_raw_b2), T(bias4_raw_b4), T(stored4_float_weight));
         default:

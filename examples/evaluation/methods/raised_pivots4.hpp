@@ -8,7 +8,7 @@
 
 namespace gnomon::bench {
 
-inline constexpr double raised4_unorm16_noise = 9 * 0x1p-20, raised4_half_noise = 13 * 0x1p-15,
+inline constexpr double raised4_unorm16_noise = 9 * 0x1p-20, raised4_half_noise = 9 * 0x1p-16,
                         raised4_float_noise = 3 * 0x1p-26; // of each stored moment
 
 /// Raises D_2, from V, already raised, L and M. On the boundary of valid moments L^2 = V M, so D_1 |P_2(i)|^2, at
@@ -45,7 +45,7 @@ GNOMON_INLINE constexpr hankel4<Real> hankel4_raised_from(const moments4_unorm16
 }
 template <class Real> GNOMON_INLINE constexpr hankel4<Real> hankel4_raised_from(const moments4_half&, channels4<Real> c)
 {
-    return hankel4_raised_fast(moments4_from_channels(c), raised4_half_noise);
+    return hankel4_raised_fast(theta4_inverse(channels4_shifted(c, literal<Real>(0.5))), raised4_half_noise);
 }
 template <class Real>
 GNOMON_INLINE constexpr hankel4<Real> hankel4_raised_from(const moments4_float&, channels4<Real> c)

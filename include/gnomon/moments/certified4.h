@@ -82,15 +82,6 @@ GNOMON_DETAIL_KERNEL GNOMON_T(certificate4) certificate4_make(GNOMON_T(hankel4) 
     return p;
 }
 
-/// The least possible value of E[p], given moments b that are each off by at most the entry in noise.
-GNOMON_DETAIL_KERNEL Real certificate4_mean(GNOMON_T(certificate4) p, GNOMON_T(moments4) b, GNOMON_T(moments4) noise)
-{
-    Real mean = (p.s0 + p.s1 * b.b1) + ((p.s2 * b.b2 + p.s3 * b.b3) + p.s4 * b.b4);
-    Real doubt = (noise.b1 * gnomon_abs(p.s1) + noise.b2 * gnomon_abs(p.s2)) +
-                 (noise.b3 * gnomon_abs(p.s3) + noise.b4 * gnomon_abs(p.s4));
-    return p.top - (mean + doubt);
-}
-
 /// The least possible value of E[p], given channels c of theta4 that are each off by at most noise. The coefficients of
 /// p at the channels are the transpose of theta4_inverse times those at the moments.
 GNOMON_DETAIL_KERNEL Real certificate4_theta_mean(GNOMON_T(certificate4) p, GNOMON_T(channels4) c, GNOMON_SETTING noise)
@@ -103,16 +94,6 @@ GNOMON_DETAIL_KERNEL Real certificate4_theta_mean(GNOMON_T(certificate4) p, GNOM
     Real mean = (p.s0 + (p2 * c.c2 + p4 * c.c4)) + (p1 * (c.c1 - Real(0.5)) + p3 * (c.c3 - Real(0.5)));
     Real doubt = noise * ((gnomon_abs(p1) + gnomon_abs(p2)) + (gnomon_abs(p3) + gnomon_abs(p4)));
     return p.top - (mean + doubt);
-}
-
-/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments b that are each off by at most the
-/// entry in noise. h is the matrix of b with a bias. The arithmetic suits moments from 16-bit storage.
-/// Domain: z_f in [-1, 1], clamped.
-/// NaN: 0, lit.
-GNOMON_KERNEL Real certified4_lower(GNOMON_T(hankel4) h, GNOMON_T(moments4) b, GNOMON_T(moments4) noise, Real z_f)
-{
-    certificate4 p = certificate4_make(h, clamp_or_nan(z_f, Real(-1), Real(1)));
-    return saturate_or_zero(certificate4_mean(p, b, noise));
 }
 
 /// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels c of theta4 that are each off by at
@@ -175,28 +156,26 @@ GNOMON_KERNEL Real certified4_constant_bias_lower(GNOMON_T(hankel4) h, GNOMON_T(
     return gnomon_select(known, saturate_or_zero(mean - (added + doubt)), Real(0));
 }
 
-/// The largest error of each moment of b after one rounding in storage: 2 delta |b_j|, but at most delta, and at least
-/// `least`, the error of denormal numbers.
-GNOMON_KERNEL GNOMON_T(moments4) moments4_rounding(GNOMON_T(moments4) b, GNOMON_SETTING delta, GNOMON_SETTING least)
+/// The largest error of each moment of b after one rounding to float: 2 delta |b_j|, but at most delta.
+GNOMON_KERNEL GNOMON_T(moments4) moments4_rounding(GNOMON_T(moments4) b, GNOMON_SETTING delta)
 {
     GNOMON_T(moments4) e;
-    e.b1 = gnomon_max(least, gnomon_min(delta, (delta + delta) * gnomon_abs(b.b1)));
-    e.b2 = gnomon_max(least, gnomon_min(delta, (delta + delta) * gnomon_abs(b.b2)));
-    e.b3 = gnomon_max(least, gnomon_min(delta, (delta + delta) * gnomon_abs(b.b3)));
-    e.b4 = gnomon_max(least, gnomon_min(delta, (delta + delta) * gnomon_abs(b.b4)));
+    e.b1 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b1));
+    e.b2 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b2));
+    e.b3 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b3));
+    e.b4 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b4));
     return e;
 }
 
 /// The largest error of each filtered moment of b after roundings before the filter, which the moments of |z| bound.
 /// For the third, E |z|^3 <= (b2 + b4) / 2.
-GNOMON_KERNEL GNOMON_T(moments4) moments4_rounding_filtered(GNOMON_T(moments4) b, GNOMON_SETTING delta,
-                                                            GNOMON_SETTING least)
+GNOMON_KERNEL GNOMON_T(moments4) moments4_rounding_filtered(GNOMON_T(moments4) b, GNOMON_SETTING delta)
 {
     GNOMON_T(moments4) e;
     e.b1 = delta;
-    e.b2 = gnomon_max(least, gnomon_min(delta, (delta + delta) * gnomon_abs(b.b2)));
-    e.b3 = gnomon_max(least, gnomon_min(delta, delta * gnomon_abs(b.b2 + b.b4)));
-    e.b4 = gnomon_max(least, gnomon_min(delta, (delta + delta) * gnomon_abs(b.b4)));
+    e.b2 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b2));
+    e.b3 = gnomon_min(delta, delta * gnomon_abs(b.b2 + b.b4));
+    e.b4 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b4));
     return e;
 }
 

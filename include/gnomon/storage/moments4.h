@@ -3,13 +3,13 @@
 //
 //   format          bytes   transform   write                     read                         matrix for both bounds
 //   4 x 16 UNORM      8     theta4      moments4_unorm16_encode   moments4_unorm16_intensity   hankel4_from_unorm16
-//   4 x half          8     none        moments4_half_encode      moments4_half_intensity      hankel4_from_half
+//   4 x half          8     theta4 - .5 moments4_half_encode      moments4_half_intensity      hankel4_from_half
 //   4 x float        16     none        moments4_float_encode     moments4_float_intensity     hankel4_from_float
 //
-// Filters are linear: average channels as they are. X_intensity and hankel4_from_X allow for one rounding: channels are
-// stored once and filtered without further rounding, as by a texture unit. X_filtered_intensity and
-// hankel4_from_X_filtered allow for a pass along rows and one along columns, of nine taps at most, that store their
-// results in the format again. Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at most
+// Filters are linear: average channels as they are. X_intensity and hankel4_from_X allow for one rounding: of channels
+// that are stored once and filtered without further rounding, as 16-bit texels by a texture unit that returns floats.
+// Texels of floats round again there and need X_filtered. X_filtered_intensity and hankel4_from_X_filtered allow for a
+// pass along rows and one along columns, of nine taps at most, that store their results in the format again. Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at most
 //   X_intensity         stored4_arithmetic_weight, the error of float arithmetic
 //   hankel4_from_X      the weight of the constant bias, roundings * delta / r (bias.h), and that of arithmetic
 // Tests search for the largest excess by hill climbing (tests/moments/honest_four.cpp). Certificates (certified4.h) leak
@@ -17,8 +17,8 @@
 // little leaking. Difference of an intensity in float from the intensity in double:
 //     error, float, moments4_float_intensity: p99 3e-5, p99.9 1e-4, max 5e-4
 //     error, float, moments4_float_filtered_intensity: p99 1e-5, p99.9 5e-5, max 2e-4
-//     error, float, moments4_half_intensity: p99 2e-5, p99.9 1e-4, max 1e-2
-//     error, float, moments4_half_filtered_intensity: p99 1e-5, p99.9 6e-5, max 5e-4
+//     error, float, moments4_half_intensity: p99 5e-5, p99.9 4e-4, max 2e-2
+//     error, float, moments4_half_filtered_intensity: p99 3e-5, p99.9 2e-4, max 2e-3
 //     error, float, moments4_unorm16_intensity: p99 6e-4, p99.9 7e-3, max 3e-1
 //     error, float, moments4_unorm16_filtered_intensity: p99 3e-4, p99.9 3e-3, max 3e-2
 #ifndef GNOMON_STORAGE_MOMENTS4_H
@@ -38,12 +38,23 @@ GNOMON_KERNEL GNOMON_T(channels4) moments4_unorm16_encode(Real z)
     return theta4(moments4_from_depth(clamp_or_high(z, Real(-1), Real(1))));
 }
 
-/// The four channels of a 4 x half texel of a depth z.
+/// The channels c, each with shift added.
+GNOMON_DETAIL_KERNEL GNOMON_T(channels4) channels4_shifted(GNOMON_T(channels4) c, GNOMON_SETTING shift)
+{
+    c.c1 = c.c1 + shift;
+    c.c2 = c.c2 + shift;
+    c.c3 = c.c3 + shift;
+    c.c4 = c.c4 + shift;
+    return c;
+}
+
+/// The four channels of a 4 x half texel of a depth z, each in [-1/2, 1/2], where half floats are off by 2^-13 at most.
 /// Domain: any z, limited to [-1, 1].
 /// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Eq. 3
 GNOMON_KERNEL GNOMON_T(channels4) moments4_half_encode(Real z)
 {
-    return channels4_from_moments(moments4_from_depth(clamp_or_high(z, Real(-1), Real(1))));
+    return channels4_shifted(moments4_unorm16_encode(z), Real(-0.5));
 }
 
 /// The four channels of a 4 x float texel of a depth z.
@@ -56,23 +67,16 @@ GNOMON_KERNEL GNOMON_T(channels4) moments4_float_encode(Real z)
 
 GNOMON_CONSTANT(stored4_unorm16_weight, 3.6e-5);
 GNOMON_CONSTANT(stored4_unorm16_filtered_weight, 1.1e-4);
-GNOMON_CONSTANT(stored4_half_weight, 2.5e-3);
-GNOMON_CONSTANT(stored4_half_filtered_weight, 7.3e-3);
+GNOMON_CONSTANT(stored4_half_weight, 5.7e-4);
+GNOMON_CONSTANT(stored4_half_filtered_weight, 1.71e-3);
 GNOMON_CONSTANT(stored4_float_weight, 3e-7);
 GNOMON_CONSTANT(stored4_float_filtered_weight, 2e-6);
 GNOMON_CONSTANT(stored4_arithmetic_weight, 1e-6);
 
-/// The factored matrix of the channels of a 4 x 16 UNORM texel, with a constant bias of weight alpha.
-GNOMON_DETAIL_KERNEL GNOMON_T(hankel4) hankel4_stored_as_unorm16(GNOMON_T(channels4) c, GNOMON_SETTING alpha)
+/// The factored matrix of the channels of theta4, with a constant bias of weight alpha.
+GNOMON_DETAIL_KERNEL GNOMON_T(hankel4) hankel4_from_theta(GNOMON_T(channels4) c, GNOMON_SETTING alpha)
 {
     return hankel4_from_moments(theta4_inverse_add_bias(c, GNOMON_LITERAL(bias4_theta_b2), alpha));
-}
-
-/// The factored matrix of the channels of a 4 x half texel, with a constant bias of weight alpha.
-GNOMON_DETAIL_KERNEL GNOMON_T(hankel4) hankel4_stored_as_half(GNOMON_T(channels4) c, GNOMON_SETTING alpha)
-{
-    return hankel4_from_moments(moments4_add_bias(moments4_from_channels(c), GNOMON_LITERAL(bias4_raw_b2),
-                                                  GNOMON_LITERAL(bias4_raw_b4), alpha));
 }
 
 /// The factored matrix of the channels of a 4 x float texel, with a constant bias of weight alpha.
@@ -86,25 +90,25 @@ GNOMON_DETAIL_KERNEL GNOMON_T(hankel4) hankel4_stored_as_float(GNOMON_T(channels
 /// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for one rounding.
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_unorm16(GNOMON_T(channels4) c)
 {
-    return hankel4_stored_as_unorm16(c, GNOMON_LITERAL(stored4_unorm16_weight));
+    return hankel4_from_theta(c, GNOMON_LITERAL(stored4_unorm16_weight));
 }
 
 /// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for a filter of two passes.
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_unorm16_filtered(GNOMON_T(channels4) c)
 {
-    return hankel4_stored_as_unorm16(c, GNOMON_LITERAL(stored4_unorm16_filtered_weight));
+    return hankel4_from_theta(c, GNOMON_LITERAL(stored4_unorm16_filtered_weight));
 }
 
 /// The factored matrix of the channels of a 4 x half texel, biased for one rounding.
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_half(GNOMON_T(channels4) c)
 {
-    return hankel4_stored_as_half(c, GNOMON_LITERAL(stored4_half_weight));
+    return hankel4_from_theta(channels4_shifted(c, Real(0.5)), GNOMON_LITERAL(stored4_half_weight));
 }
 
 /// The factored matrix of the channels of a 4 x half texel, biased for a filter of two passes.
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_half_filtered(GNOMON_T(channels4) c)
 {
-    return hankel4_stored_as_half(c, GNOMON_LITERAL(stored4_half_filtered_weight));
+    return hankel4_from_theta(channels4_shifted(c, Real(0.5)), GNOMON_LITERAL(stored4_half_filtered_weight));
 }
 
 /// The factored matrix of the channels of a 4 x float texel, biased for one rounding.
@@ -125,23 +129,29 @@ GNOMON_CONSTANT(certified4_unorm16_noise, 8e-6); // half a code, and the error o
 GNOMON_CONSTANT(certified4_unorm16_filtered_noise, 2.4e-5);
 GNOMON_CONSTANT(certified4_unorm16_weight, 3.6e-5);
 GNOMON_CONSTANT(certified4_unorm16_filtered_weight, 9e-5);
-GNOMON_CONSTANT(certified4_half_noise, 0.000244140625); // 2^-12
-GNOMON_CONSTANT(certified4_half_filtered_noise, 0.000732421875);
-GNOMON_CONSTANT(certified4_half_least_noise, 8.9406967163085938e-8); // 3 2^-25, of denormals
-GNOMON_CONSTANT(certified4_half_weight, 2e-3);
-GNOMON_CONSTANT(certified4_half_filtered_weight, 4.5e-3);
+GNOMON_CONSTANT(certified4_half_noise, 1.225e-4); // 2^-13, and the error of theta4 in float
+GNOMON_CONSTANT(certified4_half_filtered_noise, 3.675e-4);
+GNOMON_CONSTANT(certified4_half_weight, 6e-4);
+GNOMON_CONSTANT(certified4_half_filtered_weight, 1.4e-3);
 GNOMON_CONSTANT(certified4_float_noise, 3.3e-8);                        // 1.1 times 2^-25
 GNOMON_CONSTANT(certified4_float_filtered_noise, 2.384185791015625e-7); // 8 times: sums of nine taps round, too
 GNOMON_CONSTANT(certified4_float_weight, 3e-7);
 GNOMON_CONSTANT(certified4_float_filtered_weight, 1.5e-6);
+
+/// Shadow intensity at z_f from channels c of theta4, each off by at most noise, by nodes with a bias of weight alpha.
+GNOMON_DETAIL_KERNEL Real moments4_theta_intensity(GNOMON_T(channels4) c, GNOMON_SETTING noise, GNOMON_SETTING alpha,
+                                                   Real z_f)
+{
+    return certified4_theta_lower(hankel4_from_theta(c, alpha), c, noise, z_f);
+}
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
 GNOMON_KERNEL Real moments4_unorm16_intensity(GNOMON_T(channels4) c, Real z_f)
 {
-    return certified4_theta_lower(hankel4_stored_as_unorm16(c, GNOMON_LITERAL(certified4_unorm16_weight)), c,
-                                  GNOMON_LITERAL(certified4_unorm16_noise), z_f);
+    return moments4_theta_intensity(c, GNOMON_LITERAL(certified4_unorm16_noise),
+                                    GNOMON_LITERAL(certified4_unorm16_weight), z_f);
 }
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel, after a filter of two passes.
@@ -149,8 +159,8 @@ GNOMON_KERNEL Real moments4_unorm16_intensity(GNOMON_T(channels4) c, Real z_f)
 /// NaN: 0, lit.
 GNOMON_KERNEL Real moments4_unorm16_filtered_intensity(GNOMON_T(channels4) c, Real z_f)
 {
-    return certified4_theta_lower(hankel4_stored_as_unorm16(c, GNOMON_LITERAL(certified4_unorm16_filtered_weight)), c,
-                                  GNOMON_LITERAL(certified4_unorm16_filtered_noise), z_f);
+    return moments4_theta_intensity(c, GNOMON_LITERAL(certified4_unorm16_filtered_noise),
+                                    GNOMON_LITERAL(certified4_unorm16_filtered_weight), z_f);
 }
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
@@ -158,10 +168,8 @@ GNOMON_KERNEL Real moments4_unorm16_filtered_intensity(GNOMON_T(channels4) c, Re
 /// NaN: 0, lit.
 GNOMON_KERNEL Real moments4_half_intensity(GNOMON_T(channels4) c, Real z_f)
 {
-    moments4 b = moments4_from_channels(c);
-    return certified4_lower(
-        hankel4_stored_as_half(c, GNOMON_LITERAL(certified4_half_weight)), b,
-        moments4_rounding(b, GNOMON_LITERAL(certified4_half_noise), GNOMON_LITERAL(certified4_half_least_noise)), z_f);
+    return moments4_theta_intensity(channels4_shifted(c, Real(0.5)), GNOMON_LITERAL(certified4_half_noise),
+                                    GNOMON_LITERAL(certified4_half_weight), z_f);
 }
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel, after a filter of two passes.
@@ -169,11 +177,8 @@ GNOMON_KERNEL Real moments4_half_intensity(GNOMON_T(channels4) c, Real z_f)
 /// NaN: 0, lit.
 GNOMON_KERNEL Real moments4_half_filtered_intensity(GNOMON_T(channels4) c, Real z_f)
 {
-    moments4 b = moments4_from_channels(c);
-    return certified4_lower(hankel4_stored_as_half(c, GNOMON_LITERAL(certified4_half_filtered_weight)), b,
-                            moments4_rounding_filtered(b, GNOMON_LITERAL(certified4_half_filtered_noise),
-                                                       GNOMON_LITERAL(certified4_half_least_noise)),
-                            z_f);
+    return moments4_theta_intensity(channels4_shifted(c, Real(0.5)), GNOMON_LITERAL(certified4_half_filtered_noise),
+                                    GNOMON_LITERAL(certified4_half_filtered_weight), z_f);
 }
 
 /// Shadow intensity at z_f from the channels of a 4 x float texel, each off by at most its entry in noise, by nodes with
@@ -191,7 +196,7 @@ GNOMON_DETAIL_KERNEL Real moments4_float_intensity_with_noise(GNOMON_T(channels4
 GNOMON_KERNEL Real moments4_float_intensity(GNOMON_T(channels4) c, Real z_f)
 {
     return moments4_float_intensity_with_noise(
-        c, moments4_rounding(moments4_from_channels(c), GNOMON_LITERAL(certified4_float_noise), Real(0)),
+        c, moments4_rounding(moments4_from_channels(c), GNOMON_LITERAL(certified4_float_noise)),
         GNOMON_LITERAL(certified4_float_weight), z_f);
 }
 
@@ -201,8 +206,7 @@ GNOMON_KERNEL Real moments4_float_intensity(GNOMON_T(channels4) c, Real z_f)
 GNOMON_KERNEL Real moments4_float_filtered_intensity(GNOMON_T(channels4) c, Real z_f)
 {
     return moments4_float_intensity_with_noise(
-        c,
-        moments4_rounding_filtered(moments4_from_channels(c), GNOMON_LITERAL(certified4_float_filtered_noise), Real(0)),
+        c, moments4_rounding_filtered(moments4_from_channels(c), GNOMON_LITERAL(certified4_float_filtered_noise)),
         GNOMON_LITERAL(certified4_float_filtered_weight), z_f);
 }
 

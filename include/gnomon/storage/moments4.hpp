@@ -43,7 +43,7 @@ struct moments4_unorm16 : stored_texel<moments4_unorm16, unorm_texel<channels4, 
 };
 static_assert(storage_format<moments4_unorm16>);
 
-/// 64 bits: four half floats.
+/// 64 bits: four half floats of theta4 less 1/2.
 struct moments4_half : stored_texel<moments4_half, half_texel<channels4>> {
     static constexpr std::string_view name = "4x16 half", id = "moments4_half";
     static constexpr double darkening = stored4_arithmetic_weight, filtered_darkening = stored4_arithmetic_weight;
@@ -59,12 +59,12 @@ struct moments4_half : stored_texel<moments4_half, half_texel<channels4>> {
         return moments4_half_filtered_intensity(c, z_f);
     }
 
-    static constexpr std::array<double, 2> bias = {bias4_raw_b2, bias4_raw_b4};
+    static constexpr std::array<double, 2> bias = {bias4_theta_b2, bias4_theta_b4};
     static constexpr double bias_weight = stored4_half_weight, filtered_bias_weight = stored4_half_filtered_weight;
 
     template <class Real> static constexpr channels<Real> from_moments(const moments4<Real>& b)
     {
-        return channels4_from_moments(b);
+        return channels4_shifted(theta4(b), Real(-0.5));
     }
     template <class Real> static constexpr hankel4<Real> factor(const channels<Real>& c)
     {

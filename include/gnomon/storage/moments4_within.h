@@ -67,7 +67,7 @@ GNOMON_DETAIL_KERNEL Real certified4_from_means(Real mean, Real within, Real lea
     return gnomon_select(least < z_f && least <= greatest, intensity, Real(0));
 }
 
-/// Shadow intensity at z_f from the channels c of a 4 x 16 UNORM texel, each off by at most noise.
+/// Shadow intensity at z_f from channels c of theta4, each off by at most noise.
 GNOMON_DETAIL_KERNEL Real certified4_theta_within(GNOMON_T(channels4) c, GNOMON_SETTING noise, GNOMON_SETTING alpha,
                                                   Real least, Real greatest, Real z_f)
 {
@@ -75,17 +75,6 @@ GNOMON_DETAIL_KERNEL Real certified4_theta_within(GNOMON_T(channels4) c, GNOMON_
     moments4 b = theta4_inverse_add_bias(c, GNOMON_LITERAL(bias4_theta_b2), alpha);
     Real mean = certificate4_theta_mean(certificate4_make(hankel4_from_moments(b), z), c, noise);
     Real within = certificate4_theta_mean(certificate4_within(b, least, greatest, z), c, noise);
-    return certified4_from_means(mean, within, least, greatest, z);
-}
-
-/// Shadow intensity at z_f from moments b, each off by at most its entry in noise.
-GNOMON_DETAIL_KERNEL Real certified4_raw_within(GNOMON_T(moments4) b, GNOMON_T(moments4) noise, GNOMON_SETTING alpha,
-                                                Real least, Real greatest, Real z_f)
-{
-    Real z = clamp_or_nan(z_f, Real(-1), Real(1));
-    moments4 c = moments4_add_bias(b, GNOMON_LITERAL(bias4_raw_b2), GNOMON_LITERAL(bias4_raw_b4), alpha);
-    Real mean = certificate4_mean(certificate4_make(hankel4_from_moments(c), z), b, noise);
-    Real within = certificate4_mean(certificate4_within(c, least, greatest, z), b, noise);
     return certified4_from_means(mean, within, least, greatest, z);
 }
 
@@ -116,10 +105,8 @@ GNOMON_KERNEL Real moments4_unorm16_filtered_intensity_within(GNOMON_T(channels4
 /// NaN: 0, lit.
 GNOMON_KERNEL Real moments4_half_intensity_within(GNOMON_T(channels4) c, Real least, Real greatest, Real z_f)
 {
-    moments4 b = moments4_from_channels(c);
-    return certified4_raw_within(
-        b, moments4_rounding(b, GNOMON_LITERAL(certified4_half_noise), GNOMON_LITERAL(certified4_half_least_noise)),
-        GNOMON_LITERAL(certified4_half_weight), least, greatest, z_f);
+    return certified4_theta_within(channels4_shifted(c, Real(0.5)), GNOMON_LITERAL(certified4_half_noise),
+                                   GNOMON_LITERAL(certified4_half_weight), least, greatest, z_f);
 }
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel, after a filter of two passes; least
@@ -128,11 +115,8 @@ GNOMON_KERNEL Real moments4_half_intensity_within(GNOMON_T(channels4) c, Real le
 /// NaN: 0, lit.
 GNOMON_KERNEL Real moments4_half_filtered_intensity_within(GNOMON_T(channels4) c, Real least, Real greatest, Real z_f)
 {
-    moments4 b = moments4_from_channels(c);
-    return certified4_raw_within(b,
-                                 moments4_rounding_filtered(b, GNOMON_LITERAL(certified4_half_filtered_noise),
-                                                            GNOMON_LITERAL(certified4_half_least_noise)),
-                                 GNOMON_LITERAL(certified4_half_filtered_weight), least, greatest, z_f);
+    return certified4_theta_within(channels4_shifted(c, Real(0.5)), GNOMON_LITERAL(certified4_half_filtered_noise),
+                                   GNOMON_LITERAL(certified4_half_filtered_weight), least, greatest, z_f);
 }
 
 GNOMON_NAMESPACE_END
