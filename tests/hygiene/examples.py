@@ -2,7 +2,7 @@
 """Compiles the examples of README.md, docs/lessons.md and docs/shaders.md, so that what a newcomer copies works.
 
 usage: examples.py ROOT PACKAGES               prints what a compiler has against an example; exit code 1 if there is any
-       examples.py ROOT PACKAGES SECTION CHECKER...    those of a section in WGSL, and packages, by a checker that takes a folder
+       examples.py ROOT PACKAGES SECTION CHECKER...    those of a section, by a checker that takes a folder: in WGSL beside packages
 
 ROOT holds README.md, PACKAGES the shader packages. An example is the indented text of a section, up to the next that begins
 with an include or a version. Commands are none.
@@ -33,6 +33,7 @@ EXAMPLES = {
     "docs/shaders.md": {
         "Vulkan": (".frag", GLSLANG),
         "OpenGL and OpenGL ES": (".frag", [*GLSLANG, "--auto-map-bindings", "--auto-map-locations"]),
+        "OpenGL ES and WebGL without 16-bit UNORM": (".frag", ["glslangValidator"]),
         "Direct3D": (".hlsl", [*GLSLANG, "-D", "-S", "frag", "-e", "main"]),
         "Metal": (".metal", [*ROUTES["metal"].compiler, "-Wno-unknown-attributes"]),
         "CUDA": (".cu", [*CUDA, "-c"]),
@@ -81,10 +82,18 @@ def checked_wgsl(root, packages, section, checker):
         return subprocess.run([*checker, folder]).returncode
 
 
+def checked_essl(root, packages, section, checker):
+    with tempfile.TemporaryDirectory() as folder:
+        for i, example in enumerate(examples_in(root, "docs/shaders.md", section)):
+            (Path(folder) / f"example{i}.frag").write_text(pasted(example, packages))
+        return subprocess.run([*checker, folder]).returncode
+
+
 def main():
     root, packages = Path(sys.argv[1]), Path(sys.argv[2])
     if sys.argv[3:]:
-        sys.exit(checked_wgsl(root, packages, sys.argv[3], sys.argv[4:]))
+        checked = checked_essl if "OpenGL" in sys.argv[3] else checked_wgsl
+        sys.exit(checked(root, packages, sys.argv[3], sys.argv[4:]))
     count = failed = 0
     for document, sections in EXAMPLES.items():
         for section, (ending, compiler) in sections.items():

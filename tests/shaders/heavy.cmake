@@ -7,6 +7,9 @@ function(heavy_test name)
     set_tests_properties(parity/${name} PROPERTIES LABELS "shader;heavy")
 endfunction()
 
+# The examples of a section of docs/shaders.md, by a checker.
+set(examples python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/../hygiene/examples.py ${PROJECT_SOURCE_DIR} ${GNOMON_SHADERS})
+
 heavy_test(swiftshader glsl-swiftshader hlsl-swiftshader)
 
 find_path(GNOMON_EGL_INCLUDE EGL/egl.h)
@@ -18,6 +21,12 @@ if(GNOMON_EGL_INCLUDE AND GNOMON_GLES_INCLUDE AND GNOMON_EGL AND GNOMON_GLES)
     target_compile_definitions(parity PRIVATE GNOMON_PARITY_GLES)
     target_link_libraries(parity PRIVATE ${GNOMON_EGL} ${GNOMON_GLES})
     parity_shaders(essl modules gnomon_heavy)
+
+    add_executable(integer_map EXCLUDE_FROM_ALL integer_map.cpp)
+    target_link_libraries(integer_map PRIVATE gnomon_strict ${GNOMON_EGL} ${GNOMON_GLES})
+    add_dependencies(gnomon_heavy integer_map)
+    add_test(NAME gles/integer_map COMMAND ${examples} "OpenGL ES and WebGL without 16-bit UNORM" $<TARGET_FILE:integer_map>)
+    set_tests_properties(gles/integer_map PROPERTIES LABELS "shader;heavy" SKIP_RETURN_CODE 77)
 endif()
 heavy_test(gles essl-gles)
 
@@ -41,7 +50,6 @@ if(GNOMON_NODE AND GNOMON_NPM)
     add_custom_target(gnomon_dawn DEPENDS ${dawn}/node_modules/.package-lock.json)
     add_dependencies(gnomon_heavy gnomon_dawn)
     add_test(NAME wgsl/packages COMMAND ${GNOMON_NODE} ${dawn}/check.mjs ${GNOMON_SHADERS})
-    set(examples python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/../hygiene/examples.py ${PROJECT_SOURCE_DIR} ${GNOMON_SHADERS})
     add_test(NAME wgsl/example COMMAND ${examples} WebGPU ${GNOMON_NODE} ${dawn}/check.mjs)
     add_test(NAME wgsl/bevy COMMAND ${examples} Bevy ${GNOMON_NODE} ${dawn}/bevy.mjs)
     set_tests_properties(wgsl/packages wgsl/example wgsl/bevy PROPERTIES LABELS "shader;heavy" SKIP_RETURN_CODE 77)
