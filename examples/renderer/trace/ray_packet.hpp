@@ -1,9 +1,9 @@
-// Packets of rays, for the tracer alone: no other file sees Embree's types.
+// Packets of rays, for the tracer alone.
 #pragma once
 
+#include "embree.hpp"
 #include "renderer/scene/scene.hpp"
 
-#include <embree3/rtcore.h>
 #include <glm/vec3.hpp>
 
 #include <algorithm>
@@ -55,14 +55,6 @@ inline void set_ray(RTCRay16& rays, int lane, const segment& ray, float time)
     rays.dir_x[lane] = ray.direction.x, rays.dir_y[lane] = ray.direction.y, rays.dir_z[lane] = ray.direction.z;
     rays.tnear[lane] = 0, rays.tfar[lane] = ray.end;
     rays.time[lane] = time, rays.mask[lane] = ~0u, rays.id[lane] = 0, rays.flags[lane] = 0;
-}
-
-inline RTCIntersectContext coherent()
-{
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    return context;
 }
 
 } // namespace gnomon::renderer

@@ -1,9 +1,9 @@
 #include "tracer.hpp"
 
+#include "embree.hpp"
 #include "ray_packet.hpp"
 #include "renderer/shade/shading.hpp"
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -122,17 +122,9 @@ struct tracer::state {
     }
 
     // Ends the rays of a packet that meet something: tfar becomes -infinity.
-    void trace(const mask& valid, RTCRay16& rays) const
-    {
-        RTCIntersectContext context = coherent();
-        rtcOccluded16(valid.data(), scene.get(), &context, &rays);
-    }
+    void trace(const mask& valid, RTCRay16& rays) const { occlude(valid.data(), scene.get(), rays); }
 
-    void look(const mask& valid, RTCRayHit16& rays) const
-    {
-        RTCIntersectContext context = coherent();
-        rtcIntersect16(valid.data(), scene.get(), &context, &rays);
-    }
+    void look(const mask& valid, RTCRayHit16& rays) const { intersect(valid.data(), scene.get(), rays); }
 
     glm::vec3 colour(const hit& seen, float sunlight) const
     {

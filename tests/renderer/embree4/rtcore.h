@@ -1,0 +1,19 @@
+// What Embree 4 declares otherwise than Embree 3, for machines that have only the latter.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+enum RTCRayQueryFlags { RTC_RAY_QUERY_FLAG_INCOHERENT = 0, RTC_RAY_QUERY_FLAG_COHERENT = 1 << 16 };
+
+struct RTCIntersectArguments {
+    RTCRayQueryFlags flags;
+};
+
+struct RTCOccludedArguments {
+    RTCRayQueryFlags flags;
+};
+
+void rtcInitIntersectArguments(RTCIntersectArguments* args);
+void rtcInitOccludedArguments(RTCOccludedArguments* args);
+void rtcIntersect16(const int* valid, RTCScene scene, RTCRayHit16* rayhit, RTCIntersectArguments* args = nullptr);
+void rtcOccluded16(const int* valid, RTCScene scene, RTCRay16* ray, RTCOccludedArguments* args = nullptr);
