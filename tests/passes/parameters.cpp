@@ -84,7 +84,7 @@ TEST_CASE("weights that do not sum to 1 are refused, before anything is written"
     std::vector<format::texel> a(20, format::texel{1.0f}), b(20, format::texel{2.0f});
     const auto before = b;
     const float nan = float(nan_value), inf = float(infinity);
-    for (const auto& [weights, message] :
+    for ([[maybe_unused]] const auto& [weights, message] :
          {std::pair<std::array<float, 3>, const char*>{
               {0, 0, 0}, "gnomon: blur: the sum of weights is 0.000000, but a filter needs 1"},
           {{-1, 0, 1}, "gnomon: blur: the sum of weights is 0.000000, but a filter needs 1"},

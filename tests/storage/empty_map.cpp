@@ -1,11 +1,10 @@
-// Depths outside [-1, 1], for every storage format: a map that was cleared shadows nothing, wherever the receiver is; a
-// border texel darkens no lit surface, mixed with the map's own; casters in front of the near plane shadow, casters and
-// receivers beyond a plane are as on it. The table of docs/conventions.md has the clear values.
+// Maps without casters, for every storage format: a map that was cleared shadows nothing, wherever the receiver is; a border
+// texel darkens no lit surface, mixed with the map's own. The table of docs/conventions.md has the clear values.
+#include "support/depth_situations.hpp"
 #include "support/documented.hpp"
 #include "support/effort.hpp"
-#include "support/hostile.hpp"
+#include "support/formats.hpp"
 
-#include <gnomon/filters/percentage_closer.h>
 #include <gnomon/passes/look_up.hpp>
 #include <gnomon/storage/formats.hpp>
 
@@ -14,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <tuple>
 
@@ -22,23 +20,6 @@ using namespace gnomon;
 using namespace gnomon::test;
 
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity(), nan_value = std::numeric_limits<float>::quiet_NaN();
-
-/// Depths that nobody should store or ask for, and some ordinary ones.
-constexpr std::array hostile_depths{-infinity, -1e30f,     -2.0f, -1.0000001f, -1.0f,    -0.99f,
-                                    -0.5f,     -1e-40f,    0.0f,  1e-40f,      0.3f,     0.99f,
-                                    1.0f,      1.0000001f, 2.0f,  1e30f,       infinity, nan_value};
-
-template <class Format> double lit(format_channels<Format> c, float z_f)
-{
-    return std::max(double(Format::intensity(c, z_f)), double(Format::filtered_intensity(c, z_f)));
-}
-
-template <class Format> double most_darkening()
-{
-    return std::max(double(Format::darkening), double(Format::filtered_darkening));
-}
 
 /// A bilinear mixture of four texels in double.
 template <class Format>
@@ -54,14 +35,6 @@ format_channels<Format, double> mixture(const std::array<format_texel<Format>, 4
     return std::bit_cast<format_channels<Format, double>>(sum);
 }
 
-/// Calls each.template operator()<Format>() for every storage format.
-template <class Each> void for_each_format(Each each)
-{
-    [&]<class... Format>(std::tuple<Format...>*) {
-        (each.template operator()<Format>(), ...);
-    }(static_cast<storage_formats*>(nullptr));
-}
-
 } // namespace
 
 TEST_CASE("a cleared map shadows no receiver")
@@ -70,40 +43,12 @@ TEST_CASE("a cleared map shadows no receiver")
         CAPTURE(Format::id);
         const auto cleared = Format::decode(Format::clear());
         const auto check = [&](float z_f) {
-            REQUIRE(lit<Format>(cleared, z_f) <= most_darkening<Format>());
-            REQUIRE(lit<Format>(Format::border(), z_f) <= most_darkening<Format>());
+            REQUIRE(larger_intensity<Format>(cleared, z_f) <= larger_darkening<Format>());
+            REQUIRE(larger_intensity<Format>(Format::border(), z_f) <= larger_darkening<Format>());
         };
         for (const float z_f : hostile_depths) check(z_f);
         hostile_source<float> source(4);
         for (std::int64_t i = 0; i < effort(20'000); ++i) check(source.pattern());
-        CHECK(lit<Format>(cleared, nan_value) == 0);
-    });
-}
-
-TEST_CASE("casters and receivers anywhere are as on the plane they are beyond")
-{
-    for_each_format([]<storage_format Format>() {
-        CAPTURE(Format::id);
-        for (const float caster : hostile_depths) {
-            const auto c = Format::decode(Format::encode(Format::from_depth(caster)));
-            const auto closer = [&](float z_f) {
-                const float one = 1;
-                return percentage_closer_end(percentage_closer_add(percentage_closer_begin(z_f), caster, one));
-            };
-            for (const float receiver : hostile_depths) {
-                CAPTURE(caster);
-                CAPTURE(receiver);
-                const float z = std::isnan(caster) ? 1 : std::clamp(caster, -1.0f, 1.0f);
-                const float z_f = std::clamp(receiver, -1.0f, 1.0f);
-                const double intensity = double(Format::intensity(c, receiver));
-                CHECK(intensity == double(Format::intensity(c, z_f)));
-                CHECK(double(Format::filtered_intensity(c, receiver)) == double(Format::filtered_intensity(c, z_f)));
-                if (!(z < z_f)) CHECK(lit<Format>(c, receiver) <= most_darkening<Format>());
-                if (z_f - z >= 0.25f) CHECK(intensity >= 0.94);
-                // Filtering by percentage is what all estimate; it alone sees a caster before a receiver on the near plane.
-                if (z_f > -1) CHECK(closer(receiver) == (z < z_f ? 1 : 0));
-            }
-        }
     });
 }
 
