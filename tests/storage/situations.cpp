@@ -109,9 +109,10 @@ TEST_CASE_TEMPLATE("every format in every situation: lit surfaces stay lit, mome
                 if (s.is_single() || std::is_same_v<lane_t<Real>, double>) check_intensity<Format, Real>(s, false);
             };
             check.template operator()<T>();
+#if !defined(__SANITIZE_ADDRESS__) // as of for_each_real
             check.template operator()<plain<T>>();
-            if constexpr (!std::is_void_v<xsimd::make_sized_batch_t<T, 16 / sizeof(T)>>)
-                check.template operator()<xsimd::make_sized_batch_t<T, 16 / sizeof(T)>>();
+            check.template operator()<xsimd::make_sized_batch_t<T, 16 / sizeof(T)>>();
+#endif
         });
     });
 }
