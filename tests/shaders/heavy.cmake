@@ -32,6 +32,7 @@ heavy_test(gles essl-gles)
 
 # Dawn, Tint, naga and naga_oil as node's modules, in the versions of package-lock.json, over the network.
 parity_shaders(wgsl kernels.wgsl gnomon_heavy)
+parity_shaders(wgsl_plain kernels.wgsl gnomon_heavy)
 if(GNOMON_GLSLANG AND GNOMON_SPIRV_AS)
     parity_shaders(naga modules gnomon_heavy)
 endif()
@@ -55,3 +56,4 @@ if(GNOMON_NODE AND GNOMON_NPM)
     set_tests_properties(wgsl/packages wgsl/example wgsl/bevy PROPERTIES LABELS "shader;heavy" SKIP_RETURN_CODE 77)
 endif()
 heavy_test(wgsl wgsl-dawn naga-dawn)
+heavy_test(wgsl_plain wgsl-plain wgsl-plain-gles KERNELS ${plain_kernels})

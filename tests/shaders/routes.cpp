@@ -39,12 +39,13 @@ std::string swiftshader()
 }
 
 /// shaders: kernels.wgsl, or a folder of SPIR-V, which naga turns into WGSL.
-std::unique_ptr<route> dawn_route(const std::filesystem::path& shaders)
+std::unique_ptr<route> dawn_route(const std::filesystem::path& shaders, const std::string& backend = "vulkan")
 {
     const auto program = built("dawn/run.mjs");
     if (!exists(shaders) || !exists(program.parent_path() / "node_modules"))
         throw unavailable("not built: target gnomon_heavy");
-    return command_route("node '" + program.string() + "' '" + shaders.string() + '\'', "Dawn on SwiftShader");
+    return command_route("node '" + program.string() + "' " + backend + " '" + shaders.string() + '\'',
+                         backend == "vulkan" ? "Dawn on SwiftShader" : "Dawn on Mesa's OpenGL ES");
 }
 
 } // namespace
@@ -78,6 +79,8 @@ const std::vector<named_route>& all_routes()
         {"glsl-swiftshader", [] { return vulkan_route(built("glsl"), swiftshader()); }},
         {"hlsl-swiftshader", [] { return vulkan_route(built("hlsl"), swiftshader()); }},
         {"wgsl-dawn", [] { return dawn_route(built("wgsl/kernels.wgsl")); }},
+        {"wgsl-plain", [] { return dawn_route(built("wgsl_plain/kernels.wgsl")); }},
+        {"wgsl-plain-gles", [] { return dawn_route(built("wgsl_plain/kernels.wgsl"), "opengles"); }},
         {"naga-dawn", [] { return dawn_route(built("naga")); }},
         {"essl-gles", [] { return gles_route(built("essl")); }},
         {"opencl-pocl", [] { return opencl_route(built("opencl/kernels.cl"), "Portable Computing Language"); }},

@@ -8,7 +8,7 @@ glsl, hlsl: for each kernel OUTPUT/KERNEL.spv, as the compiler gives it, and OUT
 naga: the same from ESSL 310, every operation kept (kept.py): naga turns KERNEL.spv into WGSL, which has no decorations.
 essl: OUTPUT/KERNEL.comp, one text for each kernel, precise throughout, and then OUTPUT/modules too.
 opencl, metal, wgsl: OUTPUT/kernels.cl, .metal, .wgsl, one text with a function parity_KERNEL for each kernel; in WGSL every
-    operation is kept.
+    operation is kept, unless it is wgsl_plain.
 
 Where a language knows no #include, the kernels come from its package.
 """
@@ -86,6 +86,9 @@ alias float = f32;
         "{{\n    let group = groups.x;", load="bitcast<f32>(x[{}])", store="y[{}] = bitcast<u32>({})", declare="var {1}: {0}",
         package="gnomon.wgsl", spelled=spelled_in_wgsl, changed=kept),
 }
+
+
+LANGUAGES["wgsl_plain"] = LANGUAGES["wgsl"]._replace(changed=str)
 
 
 def type_of(language, name):

@@ -1,5 +1,5 @@
-// A device of Dawn, the WebGPU implementation of Chromium, on Chromium's Vulkan driver for the CPU; and what Tint, Dawn's
-// compiler, has to say about a text in WGSL.
+// A device of Dawn, the WebGPU implementation of Chromium, on Chromium's Vulkan driver for the CPU, or on Mesa's OpenGL ES, for
+// which Tint, Dawn's compiler, writes ESSL; and what Tint has to say about a text in WGSL.
 import { existsSync } from "node:fs";
 import { skip } from "./naga.mjs";
 
@@ -8,11 +8,14 @@ const { create, globals } = await import("webgpu").catch(() => skip("Dawn is not
 Object.assign(globalThis, globals);
 process.env.VK_ICD_FILENAMES = swiftshader;
 process.env.XDG_RUNTIME_DIR ??= "/tmp"; // a library below complains of none
-const gpu = create([]); // must outlive its devices
+process.env.EGL_PLATFORM = "surfaceless";
+let gpu; // must outlive its devices
 
-export async function open_device() {
-    const adapter = existsSync(swiftshader) && (await gpu.requestAdapter());
-    if (!adapter) skip("Dawn wants SwiftShader (chromium) and a Vulkan loader (libvulkan1)");
+/// backend: vulkan or opengles
+export async function open_device(backend = "vulkan") {
+    gpu = create([`backend=${backend}`]);
+    const adapter = (backend === "opengles" || existsSync(swiftshader)) && (await gpu.requestAdapter({ featureLevel: "compatibility" }));
+    if (!adapter) skip("Dawn wants SwiftShader (chromium) and a Vulkan loader (libvulkan1), or OpenGL ES (libegl1, libgl1-mesa-dri)");
     const { maxBufferSize, maxStorageBufferBindingSize } = adapter.limits;
     return adapter.requestDevice({ requiredLimits: { maxBufferSize, maxStorageBufferBindingSize } });
 }

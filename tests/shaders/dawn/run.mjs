@@ -1,6 +1,6 @@
 // Runs one kernel over rows of numbers in files (command_route of route.hpp).
 //
-// usage: run.mjs SHADERS KERNEL INPUTS OUTPUTS IN OUT
+// usage: run.mjs BACKEND SHADERS KERNEL INPUTS OUTPUTS IN OUT
 //
 // SHADERS is a file in WGSL with an entry point parity_KERNEL, or a folder with KERNEL.spv, which naga turns into WGSL.
 import { parseSpirv, validate, writeWgsl } from "naga-wasm";
@@ -8,7 +8,7 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { compile, open_device } from "./gpu.mjs";
 
 const block_rows = 64; // kernel_call.hpp
-const [shaders, kernel, inputs, outputs, from, to] = process.argv.slice(2);
+const [backend, shaders, kernel, inputs, outputs, from, to] = process.argv.slice(2);
 
 // naga writes the largest float in eight digits, which name a number beyond it: Tint refuses that.
 function wgsl_of(spirv) {
@@ -22,7 +22,7 @@ const rows = readFileSync(from);
 const blocks = rows.byteLength / (4 * block_rows * Number(inputs));
 const bytes = blocks * 4 * block_rows * Number(outputs);
 
-const device = await open_device();
+const device = await open_device(backend);
 const { module, complaints } = await compile(device, text);
 if (complaints.length) {
     console.error(`${kernel}: ${complaints.join("\n")}`);
