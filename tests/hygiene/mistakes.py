@@ -38,6 +38,7 @@ def mistakes(include, packages):
             yield f"{name} in {language}", route.compiler, route.ending, f'{route.begin}#include "{name}"\n', CPP_ONLY
 
     yield "C", C, ".c", EVERYTHING, LANGUAGE
+    yield "a macro Real", [*CPP, "-std=c++20"], ".cpp", "#define Real float\n" + EVERYTHING, "gnomon: a macro named Real"
     yield "C++17", [*CPP, "-std=c++17"], ".cpp", EVERYTHING, "gnomon: C++20 needed"
     yield "C++ -ffast-math", [*CPP, "-std=c++20", "-ffast-math"], ".cpp", EVERYTHING, "gnomon: fast mathematics voids"
     yield "OpenCL C 1.1", [*OPENCL, "-cl-std=CL1.1"], ".cl", EVERYTHING, "gnomon: -cl-std=CL1.2 or later"

@@ -4,6 +4,8 @@
 
 #if !defined(__cpp_concepts)
 #error "gnomon: C++20 needed (-std=c++20)"
+#elif defined(Real)
+#error "gnomon: a macro named Real is in the way; include this before it, or undefine it"
 #endif
 
 #include "strict.h"
@@ -27,7 +29,6 @@
 #else
 #define GNOMON_INLINE __attribute__((always_inline)) inline
 #endif
-
 // Between a name and its bracket: a macro of that name, of whatever header, is not meant.
 #define GNOMON_NO_MACRO
 
