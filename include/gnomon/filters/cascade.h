@@ -61,7 +61,7 @@ GNOMON_KERNEL Real cascade_weight_by_projection(Real u, Real v, Real z, GNOMON_S
 {
     Real x = gnomon_abs(u - Real(0.5));
     Real y = gnomon_abs(v - Real(0.5));
-    Real inside = (Real(0.5) - margin) - gnomon_select(x < y, y, x);
+    Real inside = (Real(0.5) - margin) - gnomon_max(y, x);
     GNOMON_MASK known = y <= Real(0.5) && gnomon_abs(z) <= Real(1); // a NaN in u is one in inside
     return gnomon_select(known, cascade_inside(inside, band), Real(0));
 }

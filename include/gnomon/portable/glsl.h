@@ -21,6 +21,7 @@ precision highp int;
 // x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
 // bits of NaN are above the bound, which is one.
 Real gnomon_kept(Real x) { return intBitsToFloat(min(floatBitsToInt(x), 0x7FC00000)); }
+Real gnomon_apart(Real x) { return uintBitsToFloat(min(floatBitsToUint(x), 0xFFC00000u)); }
 #include "kept.h"
 // a without the low half of its significand.
 Real gnomon_high_part(Real a) { return uintBitsToFloat(floatBitsToUint(a) & 0xFFFFF000u); }

@@ -9,6 +9,7 @@
 // x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
 // bits of NaN are above the bound, which is one.
 Real gnomon_kept(Real x) { return asfloat(min(asint(x), 0x7FC00000)); }
+Real gnomon_apart(Real x) { return asfloat(min(asuint(x), 0xFFC00000u)); }
 #include "kept.h"
 // a without the low half of its significand.
 Real gnomon_high_part(Real a) { return asfloat(asuint(a) & 0xFFFFF000u); }

@@ -26,6 +26,7 @@ inline Real gnomon_sqrt(Real a) { return metal::precise::sqrt(a); }
 // x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
 // bits of NaN are above the bound, which is one.
 inline Real gnomon_kept(Real x) { return as_type<Real>(metal::min(as_type<int>(x), 0x7FC00000)); }
+inline Real gnomon_apart(Real x) { return as_type<Real>(metal::min(as_type<uint>(x), 0xFFC00000u)); }
 #include "kept.h"
 inline Real gnomon_fma(Real a, Real b, Real c) { return gnomon_kept(metal::fma(a, b, c)); }
 // a without the low half of its significand.

@@ -35,6 +35,7 @@ static inline Real gnomon_sqrt(Real a) { return sqrt(a); }
 // x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
 // bits of NaN are above the bound, which is one.
 static inline Real gnomon_kept(Real x) { return as_float(min(as_int(x), 0x7FC00000)); }
+static inline Real gnomon_apart(Real x) { return as_float(min(as_uint(x), 0xFFC00000u)); }
 #include "kept.h"
 static inline Real gnomon_fma(Real a, Real b, Real c) { return gnomon_kept(fma(a, b, c)); }
 // a without the low half of its significand.
