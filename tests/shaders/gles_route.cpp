@@ -1,56 +1,14 @@
 // Compute shaders on OpenGL ES, without a window: Mesa's platform without surfaces, and its driver on the CPU.
-#include "route.hpp"
+#include "gl_context.hpp"
 #include "support/kernel_call.hpp"
 
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
 #include <GLES3/gl32.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
 
 namespace gnomon::parity {
 
 namespace {
-
-std::string read_text(const std::filesystem::path& file)
-{
-    std::ifstream in(file);
-    if (!in) throw std::runtime_error("cannot read " + file.string());
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-class context {
-  public:
-    context()
-    {
-        setenv("LIBGL_ALWAYS_SOFTWARE", "true", 1);
-        display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-        if (display_ == EGL_NO_DISPLAY || !eglInitialize(display_, nullptr, nullptr))
-            throw unavailable("no EGL without surfaces (libegl-mesa0, libgl1-mesa-dri)");
-        eglBindAPI(EGL_OPENGL_ES_API);
-        const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 2, EGL_NONE};
-        context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, version);
-        if (context_ == EGL_NO_CONTEXT || !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
-            eglTerminate(display_);
-            throw unavailable("no OpenGL ES 3.2 without surfaces");
-        }
-    }
-    context(const context&) = delete;
-    context& operator=(const context&) = delete;
-    ~context()
-    {
-        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-        eglDestroyContext(display_, context_);
-        eglTerminate(display_);
-    }
-
-  private:
-    EGLDisplay display_;
-    EGLContext context_;
-};
 
 class program {
   public:
@@ -124,7 +82,7 @@ class compute_shaders final : public route {
 
   private:
     std::filesystem::path folder_;
-    context current_;
+    gl_context current_{gl_api::es, 3, 2};
     std::vector<std::string> complaints_;
 };
 

@@ -10,8 +10,9 @@ KERNELS = re.compile(r"^// \w+/", re.MULTILINE)
 
 
 class Parser:
-    def __init__(self, text):
+    def __init__(self, text, comparison):
         self.tokens = TOKEN.findall(text.strip()) + [""]
+        self.comparison = comparison
 
     def take(self):
         return self.tokens.pop(0)
@@ -23,7 +24,8 @@ class Parser:
         while self.tokens[0] in LEVELS[level]:
             operator = self.take()
             left = f"{left} {operator} {self.binary(level + 1)}"
-            left = f"gnomon_kept({left})" if operator in "+-*/" else f"({left})"
+            form = "gnomon_kept({})" if operator in "+-*/" else "({})" if operator in ("&&", "||") else self.comparison
+            left = form.format(left)
         return left
 
     def unary(self):
@@ -49,14 +51,14 @@ class Parser:
         return f"({', '.join(parts)})"
 
 
-def expression(found):
-    parser = Parser(found[2])
+def expression(found, comparison):
+    parser = Parser(found[2], comparison)
     text = parser.binary()
     if parser.tokens != [""]:
         raise ValueError(f"kept.py: cannot read {found[2]}")
     return found[1] + text
 
 
-def kept(text):
+def kept(text, comparison="({})"):
     start = KERNELS.search(text).start()
-    return text[:start] + EXPRESSION.sub(expression, text[start:])
+    return text[:start] + EXPRESSION.sub(lambda found: expression(found, comparison), text[start:])

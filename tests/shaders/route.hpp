@@ -74,6 +74,10 @@ std::unique_ptr<route> fused_against_split_route(const std::filesystem::path& fi
 /// code 77 says that it cannot run here, and its last line why.
 std::unique_ptr<route> command_route(std::string line, std::string device);
 
+/// Of a command that stays. It says "ready DEVICE" or "unavailable WHY" in a line; then it reads lines KERNEL INPUTS OUTPUTS
+/// IN OUT, as above, and says "done" to each.
+std::unique_ptr<route> served_route(const std::string& line);
+
 /// Of modules FOLDER/KERNELending on the Vulkan drivers that icd names (VK_ICD_FILENAMES), all drivers where it is
 /// empty.
 std::unique_ptr<route> vulkan_route(const std::filesystem::path& folder, const std::string& icd,
@@ -81,6 +85,11 @@ std::unique_ptr<route> vulkan_route(const std::filesystem::path& folder, const s
 
 /// Of texts FOLDER/KERNEL.comp in ESSL, on Mesa's OpenGL ES for the CPU.
 std::unique_ptr<route> gles_route(const std::filesystem::path& folder);
+
+/// Of texts FOLDER/KERNEL.frag in ESSL 300, es, or GLSL 330, on Mesa's OpenGL ES 3.0 or OpenGL 3.3 for the CPU. A fragment
+/// with f = 2048 y + x computes results 4 p to 4 p + 3 of row f / n, where n = ceil(outputs / 4) and p = f % n, into one
+/// output of type uvec4. Number i of the blocks is in the only texture, of type usampler2D, at (i % 2048, i / 2048).
+std::unique_ptr<route> fragment_route(const std::filesystem::path& folder, bool es);
 
 /// Of FILE, OpenCL C with a function parity_KERNEL for each kernel, on the first device of the platform.
 std::unique_ptr<route> opencl_route(const std::filesystem::path& file, const std::string& platform);

@@ -26,6 +26,10 @@ std::unique_ptr<route> gles_route(const std::filesystem::path&)
 {
     throw unavailable("built without the headers of EGL and OpenGL ES");
 }
+std::unique_ptr<route> fragment_route(const std::filesystem::path&, bool)
+{
+    throw unavailable("built without the headers of EGL and OpenGL ES");
+}
 #endif
 
 namespace {
@@ -46,6 +50,12 @@ std::unique_ptr<route> dawn_route(const std::filesystem::path& shaders, const st
         throw unavailable("not built: target gnomon_heavy");
     return command_route("node '" + program.string() + "' " + backend + " '" + shaders.string() + '\'',
                          backend == "vulkan" ? "Dawn on SwiftShader" : "Dawn on Mesa's OpenGL ES");
+}
+
+std::unique_ptr<route> webgl_route(const std::filesystem::path& shaders)
+{
+    if (!exists(shaders)) throw unavailable("not built: target gnomon_heavy");
+    return served_route("python3 '" + std::string(GNOMON_WEBGL) + "/serve.py' '" + shaders.string() + '\'');
 }
 
 } // namespace
@@ -83,6 +93,10 @@ const std::vector<named_route>& all_routes()
         {"wgsl-plain-gles", [] { return dawn_route(built("wgsl_plain/kernels.wgsl"), "opengles"); }},
         {"naga-dawn", [] { return dawn_route(built("naga")); }},
         {"essl-gles", [] { return gles_route(built("essl")); }},
+        {"essl300-gles", [] { return fragment_route(built("essl300_kept"), true); }},
+        {"essl300-gles-plain", [] { return fragment_route(built("essl300"), true); }},
+        {"essl300-webgl", [] { return webgl_route(built("essl300_kept")); }},
+        {"essl300-webgl-plain", [] { return webgl_route(built("essl300")); }},
         {"opencl-pocl", [] { return opencl_route(built("opencl/kernels.cl"), "Portable Computing Language"); }},
         {"metal-shim", [] { return module_route(built("metal.so")); }},
         {"cuda", [] { return module_route(built("cuda.so")); }},

@@ -7,6 +7,9 @@ glsl, hlsl: for each kernel OUTPUT/KERNEL.spv, as the compiler gives it, and OUT
     arithmetic (exact_arithmetic.py); then OUTPUT/modules, the kernels' names.
 naga: the same from ESSL 310, every operation kept (kept.py): naga turns KERNEL.spv into WGSL, which has no decorations.
 essl: OUTPUT/KERNEL.comp, one text for each kernel, precise throughout, and then OUTPUT/modules too.
+essl300: the same as OUTPUT/KERNEL.frag, for OpenGL ES 3.0 and WebGL 2, which have no compute shaders: fragment_route in route.hpp
+    says where a fragment finds its numbers. A text holds the headers that its kernel needs.
+essl300_kept: the same, every operation kept.
 opencl, metal, wgsl: OUTPUT/kernels.cl, .metal, .wgsl, one text with a function parity_KERNEL for each kernel; in WGSL every
     operation is kept, unless it is wgsl_plain.
 
@@ -24,7 +27,7 @@ sys.path += [str(ROOT / "tests/support"), str(ROOT / "shaders")]
 import kernels
 import exact_arithmetic
 from kept import kept
-from package import Packager
+from package import Packager, closure
 from precise import precise
 from wgsl import spelled
 
@@ -45,6 +48,7 @@ class Language(NamedTuple):
     name: Callable = str # of a struct, as the package has it
     spelled: Callable = str # the headers' names, as the language has them
     changed: Callable = str # what becomes of the package's text
+    partly: bool = False # only the headers that a kernel needs, of the package
     compiler: list = [] # to SPIR-V, one module per kernel
 
 
@@ -57,6 +61,19 @@ layout(std430, binding = 0) readonly buffer Inputs { uint x[]; };
 layout(std430, binding = 1) buffer Outputs { uint y[]; };
 """
 GLSL_ENTRY = "void main()\n{\n    uint group = gl_WorkGroupID.x, lane = gl_LocalInvocationIndex;"
+
+# A fragment writes four of a row's results.
+FRAGMENT = """precision highp float;
+precision highp int;
+uniform highp usampler2D x;
+layout(location = 0) out uvec4 y;
+float number_at(uint i) { return uintBitsToFloat(texelFetch(x, ivec2(i & 2047u, i >> 11u), 0).x); }
+"""
+FRAGMENT_ENTRY = """void main()
+{
+    uint fragment = uint(gl_FragCoord.y) * 2048u + uint(gl_FragCoord.x), row = fragment / PARTSu, part = fragment % PARTSu;
+    uint group = row / 64u, lane = row % 64u;
+    y = uvec4(0u);"""
 
 LANGUAGES = {
     "glsl": Language(".comp", """#version 450
@@ -76,6 +93,8 @@ LANGUAGES = {
         struct="gnomon::{}", call="gnomon::{}"),
     "essl": Language(".comp", "#version 320 es\n" + GLSL_BUFFERS, GLSL_ENTRY, load="uintBitsToFloat(x[{}])",
         store="y[{}] = floatBitsToUint({})", package="gnomon.glsl", changed=precise),
+    "essl300": Language(".frag", "#version 300 es\n" + FRAGMENT, FRAGMENT_ENTRY, load="number_at({})",
+        store="if (part == {2}u / 4u) y[{2} % 4] = floatBitsToUint({1})", package="gnomon.glsl", partly=True),
     "naga": Language(".comp", "#version 310 es\n" + GLSL_BUFFERS, GLSL_ENTRY, load="uintBitsToFloat(x[{}])",
         store="y[{}] = floatBitsToUint({})", package="gnomon.glsl", changed=kept, compiler=GLSLANG),
     "wgsl": Language(".wgsl", """alias uint = u32;
@@ -88,6 +107,16 @@ alias float = f32;
 }
 
 
+def kept_with_masks(text):
+    """Every operation kept, and every comparison and absolute value: Mesa makes minima of choices and of pairs of comparisons,
+    the opposite of a negated one, and x != 0 of 0 < |x|. All of these lose a NaN."""
+    choice, absolute = "{ return mask ? a : b; }\n", "{ return abs(a); }"
+    assert choice in text and absolute in text
+    text = kept(text, "gnomon_seen({})").replace(absolute, "{ return intBitsToFloat(floatBitsToInt(a) & 0x7fffffff); }")
+    return text.replace(choice, choice + "bool gnomon_seen(bool mask) { return (int(mask) + 1) * 3 > 4; }\n")
+
+
+LANGUAGES["essl300_kept"] = LANGUAGES["essl300"]._replace(changed=kept_with_masks)
 LANGUAGES["wgsl_plain"] = LANGUAGES["wgsl"]._replace(changed=str)
 
 
@@ -98,7 +127,8 @@ def type_of(language, name):
 def function(language, headers, kernel):
     """The function that moves one row through the kernel."""
     outputs = headers.numbers(kernel.result)
-    lines = [language.entry.format(kernel.name) if language.entry.count("{}") else language.entry,
+    entry = language.entry.format(kernel.name) if language.entry.count("{}") else language.entry
+    lines = [entry.replace("PARTS", str((len(outputs) + 3) // 4)),
              f"    {language.declare.format('uint', 'i')} = group * {BLOCK * headers.inputs(kernel)}u + lane;",
              f"    {language.declare.format('uint', 'o')} = group * {BLOCK * len(outputs)}u + lane;"]
     column = 0
@@ -110,7 +140,7 @@ def function(language, headers, kernel):
     arguments = ", ".join(f"a{k}" for k in range(len(kernel.parameters)))
     result = language.declare.format(type_of(language, kernel.result), "r")
     lines.append(f"    {result} = {language.call.format(language.spelled(kernel.name))}({arguments});")
-    lines += [f"    {language.store.format(f'o + {BLOCK * j}u', f'r{language.spelled(number)}')};" for j, number in enumerate(outputs)]
+    lines += [f"    {language.store.format(f'o + {BLOCK * j}u', f'r{language.spelled(number)}', j)};" for j, number in enumerate(outputs)]
     return "\n".join(lines) + "\n}\n"
 
 
@@ -118,6 +148,13 @@ def text_around(language, headers, some, packages):
     includes = "".join(dict.fromkeys(f'#include "{kernel.header}"\n' for kernel in some))
     functions = "\n".join(function(language, headers, kernel) for kernel in some)
     return language.head + language.changed(packages.get(language.package, includes)) + functions
+
+
+def part_of(package, names):
+    """The package without the sections about headers of other names."""
+    sections = re.split(r"^(?=// \S+\.h(?:,.*)? -+$)", package, flags=re.MULTILINE)
+    kept = [text for text in sections[1:] if re.match(r"// (\S+\.h)", text)[1] in names]
+    return "".join([sections[0], *kept[:-1], kept[-1].removesuffix("#endif\n").rstrip() + "\n\n#endif\n"])
 
 
 def compile_module(language, source, include):
@@ -143,7 +180,11 @@ def main():
     sources = []
     for kernel in headers.kernels:
         sources.append(output / (kernel.name + language.ending))
-        sources[-1].write_text(text_around(language, headers, [kernel], packages))
+        some = packages
+        if language.partly:
+            needed = closure(packager.headers, [kernel.header.removeprefix("gnomon/")])
+            some = {language.package: part_of(packages[language.package], [header.name for header in needed])}
+        sources[-1].write_text(text_around(language, headers, [kernel], some))
     with ThreadPoolExecutor() as pool:
         list(language.compiler and pool.map(lambda source: compile_module(language, source, include), sources))
     (output / "modules").write_text("".join(f"{source.stem}\n" for source in sources))
