@@ -32,7 +32,7 @@ EXAMPLES = {
     },
     "docs/shaders.md": {
         "Vulkan": (".frag", GLSLANG),
-        "OpenGL and OpenGL ES": (".frag", [*GLSLANG, "--auto-map-bindings", "--auto-map-locations"]),
+        "OpenGL and OpenGL ES": (".frag", ["glslangValidator", "-l"]),
         "OpenGL ES and WebGL without 16-bit UNORM": (".frag", ["glslangValidator", "-l"]),
         "Direct3D": (".hlsl", [*GLSLANG, "-D", "-S", "frag", "-e", "main"]),
         "Metal": (".metal", [*ROUTES["metal"].compiler, "-Wno-unknown-attributes"]),
