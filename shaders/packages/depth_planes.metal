@@ -1,0 +1,1134 @@
+// Gnomon 0.1.0, depth_planes.metal: shadow filtering in Metal, this file alone.
+// Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
+// Written by shaders/package.py from the kernels in include/gnomon: change them there.
+#ifndef GNOMON_DEPTH_PLANES_METAL
+#define GNOMON_DEPTH_PLANES_METAL
+
+// the language --------------------------------------------------------------------------------------------------------
+// Metal: C++14 with address spaces. Kernels are not templates, as in the other shader languages: Real is float.
+// Compile with -fno-fast-math and -ffp-contract=off for the same bits as on the CPU.
+#if !defined(__METAL_VERSION__)
+#error "gnomon: depth_planes.metal is Metal; another language's compiler reads it"
+#elif defined(GNOMON_PORTABLE_H)
+#error "gnomon: depth_planes.metal and the headers of include/gnomon exclude one another"
+#elif defined(GNOMON_PACKAGE) && GNOMON_PACKAGE != 100
+#error "gnomon: depth_planes.metal is not of the same version as a package before it"
+#endif
+#define GNOMON_PACKAGE 100 // major, minor and patch, two digits each
+
+#ifndef GNOMON_PORTABLE_MSL_H
+#define GNOMON_PORTABLE_MSL_H
+
+#include <metal_stdlib>
+
+namespace gnomon {
+
+constant constexpr float gnomon_pivot_floor = 9.31322574615478515625e-10f; // 2^-30
+
+inline float gnomon_select(bool mask, float a, float b) { return mask ? a : b; }
+inline bool gnomon_any(bool mask) { return mask; }
+inline float gnomon_abs(float a) { return metal::fabs(a); }
+inline float gnomon_sqrt(float a) { return metal::precise::sqrt(a); }
+// x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
+// bits of NaN are above the bound, which is one.
+inline float gnomon_kept(float x) { return as_type<float>(metal::min(as_type<int>(x), 0x7FC00000)); }
+inline float gnomon_apart(float x) { return as_type<float>(metal::min(as_type<uint>(x), 0xFFC00000u)); }
+// A compiler that knew both operands would write min() and max(), which lose a NaN. gnomon_kept would not hide an operand
+// that is kept already, since two minima of integers become one; gnomon_apart is another one.
+inline float gnomon_min(float a, float b) { return gnomon_select(a < b, a, gnomon_apart(b)); }
+inline float gnomon_max(float a, float b) { return gnomon_select(b < a, a, gnomon_apart(b)); }
+inline float gnomon_product(float a, float b) { return gnomon_kept(a * b); }
+inline float gnomon_sum(float a, float b) { return gnomon_kept(a + b); }
+inline float gnomon_difference(float a, float b) { return gnomon_kept(a - b); }
+inline float gnomon_fma(float a, float b, float c) { return gnomon_kept(metal::fma(a, b, c)); }
+// a without the low half of its significand.
+inline float gnomon_high_part(float a) { return as_type<float>(as_type<uint>(a) & 0xFFFFF000u); }
+// The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
+inline float gnomon_power_of_two(float n) { return as_type<float>((as_type<uint>(n + 12582912.0f) << 23) + 0x3F800000u); }
+
+} // namespace gnomon
+
+#endif
+
+// numerics/select.h ---------------------------------------------------------------------------------------------------
+// Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
+#ifndef GNOMON_NUMERICS_SELECT_H
+#define GNOMON_NUMERICS_SELECT_H
+
+namespace gnomon {
+
+/// x clamped to [low, high].
+/// NaN: stays NaN, so that the last step of a kernel can answer it.
+inline float clamp_or_nan(float x, float low, float high) { return gnomon_min(high, gnomon_max(low, x)); }
+
+/// x clamped to [low, high].
+/// NaN: high.
+inline float clamp_or_high(float x, float low, float high) { return gnomon_max(low, gnomon_min(x, high)); }
+
+/// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
+/// NaN: 0, lit.
+inline float saturate_or_zero(float x) { return gnomon_min(1.0f, gnomon_max(x, 0.0f)); }
+
+} // namespace gnomon
+
+#endif
+
+// motion/triangle/coverage_intervals.h --------------------------------------------------------------------------------
+// Times at which a triangle covers a sample, for edge functions that are quadratic in time (moving_triangle.h): at most
+// four intervals of the shutter for either facing (Gribel et al. 2010; Palmer 2011, 2.1).
+//
+// An edge function is stored by its Bernstein coefficients, e(t) = e0 (1 - t)^2 + 2 e1 t (1 - t) + e2 t^2. So e0 and e2
+// are its values at shutter open and close, and a root t = u / (1 + u) belongs to a root u >= 0 of
+//     e2 u^2 + 2 e1 u + e0 = 0,   u = q / e2 or e0 / q,   q = -(e1 + sign(e1) sqrt(e1^2 - e0 e2))
+// This gives t = q / (q + e2) or e0 / (e0 + q). Both are sums of like signs, so nothing cancels, neither near 0 nor
+// near 1. The set of times with e >= 0 is a single interval, or, if e is positive at both ends, everything except one
+// gap. Three edges leave one interval less three gaps, hence four intervals. No sign is sampled in between. Of two
+// triangles that share an edge, one has e and the other -e. Both find the same roots bit for bit, so one triangle
+// covers the sample exactly when the other does not.
+#ifndef GNOMON_MOTION_TRIANGLE_COVERAGE_INTERVALS_H
+#define GNOMON_MOTION_TRIANGLE_COVERAGE_INTERVALS_H
+
+namespace gnomon {
+
+/// A quadratic by its Bernstein coefficients: e(t) = e0 (1 - t)^2 + 2 e1 t (1 - t) + e2 t^2.
+struct moving_edge { float e0, e1, e2; };
+
+/// The edge functions opposite to the vertices a, b, c of a triangle.
+struct moving_edges { moving_edge a, b, c; };
+
+/// The times from begin to end, except those from gap_begin to gap_end. Without a gap, both of these are coverage_none.
+/// An empty set has begin 1 and end 0.
+struct edge_intervals { float begin, end, gap_begin, gap_end; };
+
+/// The times from begin to end; none unless begin < end.
+struct linear_interval { float begin, end; };
+
+/// Four numbers in ascending order.
+struct ordered4 { float first, second, third, fourth; };
+
+/// Disjoint intervals in order, `count` of them; the others begin and end at coverage_none.
+struct coverage_intervals { float count, begin0, end0, begin1, end1, begin2, end2, begin3, end3; };
+
+constant constexpr float coverage_none = 2.0f;                       // after the shutter has closed
+// 2^60: squares of coefficients are finite in float
+constant constexpr float moving_edge_limit = 1152921504606846976.0f;
+
+/// Value e(t) at time t in [0, 1], by de Casteljau's algorithm. Odd in e, bit for bit.
+/// Error: 6 2^-p times the largest coefficient.
+inline float moving_edge_at(moving_edge e, float t)
+{
+    float s = 1.0f - t;
+    return (e.e0 * s + e.e1 * t) * s + (e.e1 * s + e.e2 * t) * t;
+}
+
+/// Sum of the absolute coefficients; infinite or NaN if one is.
+inline float moving_edge_size(moving_edge e) { return (gnomon_abs(e.e0) + gnomon_abs(e.e1)) + gnomon_abs(e.e2); }
+
+/// Times in [0, 1] at which e >= 0, or at which e <= 0 if facing is negative; all times if e is 0 throughout.
+/// Domain: the largest coefficient is between 2^-50 and 2^58 in float; none for larger ones.
+/// NaN: none.
+/// Error: the times are exact for coefficients that differ by 16 2^-p of the largest.
+/// Source: Gribel 2010; Palmer 2011, Sec. 2.1
+inline edge_intervals moving_edge_inside(moving_edge e, float facing)
+{
+    float side = gnomon_select(facing < 0.0f, -1.0f, 1.0f);
+    float c0 = side * e.e0;
+    float c1 = side * e.e1;
+    float c2 = side * e.e2;
+    edge_intervals x;
+    x.begin = 0.0f;
+    x.end = 1.0f;
+    x.gap_begin = coverage_none;
+    x.gap_end = coverage_none;
+    bool before = c0 < 0.0f; // outside at shutter open
+    bool after = c2 < 0.0f;
+    if (gnomon_any(before || after || c1 < 0.0f)) {
+        // q has the sign of -e1. Where e1 is 0, q has that of e0, which keeps q odd in e and finds the root in [0, 1].
+        bool up = 0.0f < c1 || (c1 == 0.0f && before);
+        bool late = (before && !up) || (up && !before);
+        bool once = (before && !after) || (after && !before);
+        // Otherwise there are two roots, in the order of the formulas, or none if all coefficients have one sign.
+        bool twice = !(once || late);
+        float r = gnomon_sqrt(gnomon_max(c1 * c1 - c0 * c2, 0.0f));
+        float q = gnomon_select(up, -1.0f * (c1 + r), r - c1);
+        float first = saturate_or_zero(gnomon_select(late, q, c0) / (gnomon_select(late, c2, c0) + q));
+        float second = first;
+        if (gnomon_any(twice)) {
+            second = gnomon_select(twice, saturate_or_zero(q / (q + c2)), first);
+            twice = twice && 0.0f < r;
+            bool gap = twice && !before && first < second;
+            x.gap_begin = gnomon_select(gap, first, x.gap_begin);
+            x.gap_end = gnomon_select(gap, second, x.gap_end);
+        }
+        bool some = once || twice || !before;
+        x.begin = gnomon_select(some, gnomon_select(before, first, 0.0f), 1.0f);
+        x.end = gnomon_select(some, gnomon_select(after, second, 1.0f), 0.0f);
+    }
+    bool known = moving_edge_size(e) < moving_edge_limit;
+    x.begin = gnomon_select(known, x.begin, 1.0f);
+    x.end = gnomon_select(known, x.end, 0.0f);
+    return x;
+}
+
+/// Times in [0, 1] at which an edge function that is linear in time, from e0 to e2, is >= 0. For the other side of the
+/// edge, call with -e0 and -e2.
+/// Domain: none for coefficients that differ by 2^60 or more.
+/// NaN: none.
+/// Error: 4 2^-p.
+inline linear_interval linear_edge_inside(float e0, float e2)
+{
+    bool before = e0 < 0.0f;
+    bool after = e2 < 0.0f;
+    float change = e0 - e2;
+    bool never = (before && after) || !(gnomon_abs(change) < moving_edge_limit);
+    float root = gnomon_min(e0 / change, 1.0f);
+    linear_interval x;
+    x.begin = gnomon_select(never, 1.0f, gnomon_select(before, root, 0.0f));
+    x.end = gnomon_select(never, 0.0f, gnomon_select(after, root, 1.0f));
+    return x;
+}
+
+/// Times at which three linear edge functions are all >= 0, for a triangle that is translated or static.
+inline linear_interval linear_coverage(moving_edges e)
+{
+    linear_interval a = linear_edge_inside(e.a.e0, e.a.e2);
+    linear_interval b = linear_edge_inside(e.b.e0, e.b.e2);
+    linear_interval c = linear_edge_inside(e.c.e0, e.c.e2);
+    a.begin = gnomon_max(gnomon_max(a.begin, b.begin), c.begin);
+    a.end = gnomon_min(gnomon_min(a.end, b.end), c.end);
+    return a;
+}
+
+/// Sort four numbers by a network of five exchanges.
+/// Domain: no NaN.
+inline ordered4 ordered4_make(float a, float b, float c, float d)
+{
+    float low0 = gnomon_min(a, b);
+    float high0 = gnomon_max(a, b);
+    float low1 = gnomon_min(c, d);
+    float high1 = gnomon_max(c, d);
+    float middle0 = gnomon_max(low0, low1);
+    float middle1 = gnomon_min(high0, high1);
+    ordered4 x;
+    x.first = gnomon_min(low0, low1);
+    x.second = gnomon_min(middle0, middle1);
+    x.third = gnomon_max(middle0, middle1);
+    x.fourth = gnomon_max(high0, high1);
+    return x;
+}
+
+/// Times at which the sample is on the inner side of all three edges.
+inline coverage_intervals intersect_edge_intervals(edge_intervals a, edge_intervals b, edge_intervals c)
+{
+    float begin = gnomon_max(gnomon_max(gnomon_max(a.begin, b.begin), c.begin), 0.0f);
+    float end = gnomon_min(gnomon_min(gnomon_min(a.end, b.end), c.end), 1.0f);
+    float none = coverage_none;
+    bool some = begin < end;
+    coverage_intervals x;
+    x.count = gnomon_select(some, 1.0f, 0.0f);
+    x.begin0 = gnomon_select(some, begin, none);
+    x.end0 = gnomon_select(some, end, none);
+    x.begin1 = none;
+    x.end1 = none;
+    x.begin2 = none;
+    x.end2 = none;
+    x.begin3 = none;
+    x.end3 = none;
+    bool gap_a = a.gap_begin < none;
+    bool gap_b = b.gap_begin < none;
+    bool gap_c = c.gap_begin < none;
+    if (gnomon_any(some && (gap_a || gap_b || gap_c))) {
+        // Intervals that a caller made may have a gap's end without a begin. Ignore such ends, so that no lane of a
+        // pack depends on the others.
+        a.gap_begin = gnomon_select(gap_a, a.gap_begin, none);
+        b.gap_begin = gnomon_select(gap_b, b.gap_begin, none);
+        c.gap_begin = gnomon_select(gap_c, c.gap_begin, none);
+        a.gap_end = gnomon_select(gap_a, a.gap_end, none);
+        b.gap_end = gnomon_select(gap_b, b.gap_end, none);
+        c.gap_end = gnomon_select(gap_c, c.gap_end, none);
+        // Sorted separately, the begins and ends of gaps bound the times outside of all gaps: a time is outside when as
+        // many gaps have begun as have ended.
+        ordered4 starts = ordered4_make(a.gap_begin, b.gap_begin, c.gap_begin, none);
+        ordered4 stops = ordered4_make(a.gap_end, b.gap_end, c.gap_end, none);
+        float begin1 = gnomon_max(begin, stops.first);
+        float begin2 = gnomon_max(begin, stops.second);
+        float begin3 = gnomon_max(begin, stops.third);
+        float end0 = gnomon_min(end, starts.first);
+        float end1 = gnomon_min(end, starts.second);
+        float end2 = gnomon_min(end, starts.third);
+        bool some0 = some && begin < end0;
+        bool some1 = some && begin1 < end1;
+        bool some2 = some && begin2 < end2;
+        bool some3 = some && begin3 < end;
+        // Move empty intervals to the end, and keep the order of the others.
+        starts = ordered4_make(gnomon_select(some0, begin, none), gnomon_select(some1, begin1, none),
+                               gnomon_select(some2, begin2, none), gnomon_select(some3, begin3, none));
+        stops = ordered4_make(gnomon_select(some0, end0, none), gnomon_select(some1, end1, none),
+                              gnomon_select(some2, end2, none), gnomon_select(some3, end, none));
+        x.count = (gnomon_select(some0, 1.0f, 0.0f) + gnomon_select(some1, 1.0f, 0.0f)) +
+                  (gnomon_select(some2, 1.0f, 0.0f) + gnomon_select(some3, 1.0f, 0.0f));
+        x.begin0 = starts.first;
+        x.end0 = stops.first;
+        x.begin1 = starts.second;
+        x.end1 = stops.second;
+        x.begin2 = starts.third;
+        x.end2 = stops.third;
+        x.begin3 = starts.fourth;
+        x.end3 = stops.fourth;
+    }
+    return x;
+}
+
+/// Times at which a triangle that turns this side to the sample covers it: all three edge functions are >= 0, or <= 0
+/// if facing is negative. A sample on the border is covered. A triangle without area, with three edge functions that
+/// are 0 throughout, covers nothing.
+/// Domain: none for coefficients that moving_edge_inside refuses.
+/// NaN: none.
+/// Error: that of moving_edge_inside.
+/// Source: Gribel 2010; Palmer 2011, Sec. 2.1
+inline coverage_intervals moving_coverage(moving_edges e, float facing)
+{
+    edge_intervals a = moving_edge_inside(e.a, facing);
+    float size = (moving_edge_size(e.a) + moving_edge_size(e.b)) + moving_edge_size(e.c);
+    a.end = gnomon_select(0.0f < size, a.end, 0.0f);
+    return intersect_edge_intervals(a, moving_edge_inside(e.b, facing), moving_edge_inside(e.c, facing));
+}
+
+/// Total duration of the intervals, in [0, 1].
+inline float coverage_duration(coverage_intervals x)
+{
+    return saturate_or_zero(((x.end0 - x.begin0) + (x.end1 - x.begin1)) + ((x.end2 - x.begin2) + (x.end3 - x.begin3)));
+}
+
+} // namespace gnomon
+
+#endif
+
+// motion/triangle/moving_triangle.h -----------------------------------------------------------------------------------
+// A triangle whose vertices move linearly through clip space while the shutter is open (Akenine-Moller et al. 2007), as
+// one sample of a shadow map sees it: edge functions, coverage, depth.
+//
+// A vertex is p(t) = (1 - t) q + t r. Sheared by the sample (s_x, s_y), its coordinates (x - s_x w, y - s_y w) are
+// linear in t as well, and 0 where the vertex projects to the sample. An edge function is the cross product of two
+// sheared vertices, a quadratic in t, also in perspective (w is 1 in an orthographic view):
+//     e(t) = p_i(t) x p_j(t) = (1 - t)^2 q_i x q_j + t (1 - t) (q_i x r_j + r_i x q_j) + t^2 r_i x r_j
+// This is the homogeneous edge function of Laine & Karras 2011. The point of the triangle that the sample sees is the
+// mean of the vertices, each weighted by the edge function opposite to it. So depth is a cubic over a cubic,
+//     z / w = sum_k e_k(t) z_k(t) / sum_k e_k(t) w_k(t)
+// Depth that is linear in view distance is affine in the point, so its w_k is 1 and it is a cubic over a quadratic.
+// Lists of ranges approximate depth by lines (Palmer 2011, 2.1 and 2.3.2), as many as a tolerance requires (chapter 5).
+//
+// The deviation of depth from a line is bounded, not sampled. Let depth be N / D, let h be the line through it at both
+// ends of an interval, and let u go from 0 to 1 there. N - h D vanishes at both ends, so it is u (1 - u) P(u). D / (u
+// (1 - u)) is at least some constant c. So |N / D - h| is at most |P| / c, with equality for a parabola.
+#ifndef GNOMON_MOTION_TRIANGLE_MOVING_TRIANGLE_H
+#define GNOMON_MOTION_TRIANGLE_MOVING_TRIANGLE_H
+
+namespace gnomon {
+
+/// A vertex in clip space, at shutter open (x0, ...) and at shutter close (x1, ...).
+struct moving_vertex { float x0, y0, z0, w0, x1, y1, z1, w1; };
+
+/// A triangle of three moving vertices.
+struct moving_triangle { moving_vertex a, b, c; };
+
+/// A vertex relative to a sample, at shutter open and at shutter close.
+struct sheared_vertex { float x0, y0, x1, y1; };
+
+/// Depths at the ends of an interval, and an upper bound of the distance between depth and the line through them.
+struct depth_line { float z0, z1, deviation; };
+
+/// A line of depth from time t0 to time t1, and the fraction of the whole interval that has passed at t1.
+struct depth_piece { float t0, t1, z0, z1, passed; };
+
+/// A search for the length of a piece: the piece so far, the fraction of the interval at which it starts, the share of
+/// the interval that it has, and whether it is settled, 1 or 0.
+struct depth_trial
+{
+    depth_piece piece;
+    float start, share, settled;
+};
+
+/// Bernstein coefficients of a cubic, the middle ones times 3.
+struct bernstein_cubic { float c0, c1, c2, c3; };
+
+/// The vertex relative to the sample (s_x, s_y), which is in the units of x / w.
+inline sheared_vertex moving_vertex_shear(moving_vertex v, float s_x, float s_y)
+{
+    sheared_vertex r;
+    r.x0 = v.x0 - gnomon_product(s_x, v.w0);
+    r.y0 = v.y0 - gnomon_product(s_y, v.w0);
+    r.x1 = v.x1 - gnomon_product(s_x, v.w1);
+    r.y1 = v.y1 - gnomon_product(s_y, v.w1);
+    return r;
+}
+
+/// Cross product of two vectors. Odd in the two vectors bit for bit, with and without contraction by the compiler.
+inline float sheared_cross(float a_x, float a_y, float b_x, float b_y)
+{
+    return gnomon_product(a_x, b_y) - gnomon_product(a_y, b_x);
+}
+
+/// Edge function from a to b: positive where the sample is on the left of the edge. Exchanging a and b negates it bit
+/// for bit.
+inline moving_edge moving_edge_make(sheared_vertex a, sheared_vertex b)
+{
+    moving_edge e;
+    e.e0 = sheared_cross(a.x0, a.y0, b.x0, b.y0);
+    e.e1 = 0.5f * (sheared_cross(a.x0, a.y0, b.x1, b.y1) + sheared_cross(a.x1, a.y1, b.x0, b.y0));
+    e.e2 = sheared_cross(a.x1, a.y1, b.x1, b.y1);
+    return e;
+}
+
+/// The three edge functions of a triangle, for moving_coverage. Positive where the triangle runs counterclockwise
+/// around the sample.
+/// Error: 32 2^-p (X_i Y_j + Y_i X_j) for a coefficient; the covered times are exact for coefficients that differ by as
+/// much; X = max(|x| + |s_x w|) and Y = max(|y| + |s_y w|) over the shutter's ends, p the bits of the significand.
+/// Source: Akenine-Moller 2007; Laine & Karras 2011
+inline moving_edges moving_triangle_edges(moving_triangle m, float s_x, float s_y)
+{
+    sheared_vertex a = moving_vertex_shear(m.a, s_x, s_y);
+    sheared_vertex b = moving_vertex_shear(m.b, s_x, s_y);
+    sheared_vertex c = moving_vertex_shear(m.c, s_x, s_y);
+    moving_edges e;
+    e.a = moving_edge_make(b, c);
+    e.b = moving_edge_make(c, a);
+    e.c = moving_edge_make(a, b);
+    return e;
+}
+
+/// Depth of the triangle's point at the sample at time t, in [-1, 1]; e from moving_triangle_edges. divided is 1 for
+/// depth z / w, with z in clip space, and 0 for a z that is linear in view distance: the result is then the mean of the
+/// vertices' z. Edge functions against the triangle's facing, which arise from rounding and outside of the covered
+/// times, count as 0, so that the result lies between the depths of the vertices if all w > 0. If all three vanish, the
+/// result is the depth of the centroid.
+/// Domain: 1, the far plane, where the point is behind the light, w <= 0.
+/// NaN: 1.
+/// Error: that of the edge functions times sum_k |z_k - z v_k| / |sum_k e_k v_k|, and 16 2^-p of the largest |z_k /
+/// v_k|; v = w where divided, else 1.
+inline float moving_depth_at(moving_triangle m, moving_edges e, float t, float divided)
+{
+    float a = moving_edge_at(e.a, t);
+    float b = moving_edge_at(e.b, t);
+    float c = moving_edge_at(e.c, t);
+    bool back = (a + b) + c < 0.0f;
+    a = gnomon_max(gnomon_select(back, -1.0f * a, a), 0.0f);
+    b = gnomon_max(gnomon_select(back, -1.0f * b, b), 0.0f);
+    c = gnomon_max(gnomon_select(back, -1.0f * c, c), 0.0f);
+    bool vanished = (a + b) + c <= 0.0f;
+    a = gnomon_select(vanished, 1.0f, a);
+    b = gnomon_select(vanished, 1.0f, b);
+    c = gnomon_select(vanished, 1.0f, c);
+
+    float s = 1.0f - t;
+    float z = (a * (m.a.z0 * s + m.a.z1 * t) + b * (m.b.z0 * s + m.b.z1 * t)) + c * (m.c.z0 * s + m.c.z1 * t);
+    float w = (a * (m.a.w0 * s + m.a.w1 * t) + b * (m.b.w0 * s + m.b.w1 * t)) + c * (m.c.w0 * s + m.c.w1 * t);
+    float divisor = gnomon_select(0.0f < divided, w, (a + b) + c);
+    float depth = gnomon_max(gnomon_min(z / divisor, 1.0f), -1.0f); // a NaN becomes 1
+    return gnomon_select(0.0f < w, depth, 1.0f);
+}
+
+/// Upper bound of the deviation of N / D from its chord, where N - chord D = u (1 - u) P(u), |P| <= most, and D is a
+/// cubic with the Bernstein coefficients d0, d0 + turn0, d3 + turn1, d3, the middle ones times 3. With turn the lesser
+/// of the two, for positive D,
+///     D(u) / (u (1 - u)) >= d0 / u + d3 / (1 - u) + turn - d0 - d3 >= turn + 2 sqrt(d0 d3)
+/// The same holds for negative D, with -D. If D may vanish, the bound is 4, more than all depths.
+/// NaN: 4.
+inline float depth_nonlinearity(float most, float d0, float d3, float turn0, float turn1)
+{
+    bool negative = d0 < 0.0f;
+    float turn = gnomon_select(negative, -1.0f * gnomon_max(turn0, turn1), gnomon_min(turn0, turn1));
+    float product = d0 * d3;
+    float least = turn + 2.0f * gnomon_sqrt(product);
+    bool known = 0.0f < product && 0.0f < least && least < moving_edge_limit;
+    return gnomon_select(known, most / least, 4.0f);
+}
+
+/// The line from depth z0 to depth z1, with a bound of its deviation. Depths are limited to [least, most]. Without
+/// these limits depth would be free0 and free1 at the ends, and deviate by bend from the line between them. A limit
+/// that is passed in between adds no more than the distance of either end from its free depth; and no deviation exceeds
+/// the limits.
+inline depth_line depth_line_within(float z0, float z1, float free0, float free1, float bend, float least, float most)
+{
+    float beyond = gnomon_max(gnomon_abs(free0 - z0), gnomon_abs(free1 - z1));
+    float all = gnomon_max(most - gnomon_min(z0, z1), gnomon_max(z0, z1) - least);
+    depth_line r;
+    r.z0 = z0;
+    r.z1 = z1;
+    r.deviation = gnomon_min(bend + gnomon_min(beyond, gnomon_abs(z1 - z0)), all); // a NaN becomes all
+    return r;
+}
+
+/// Edge function between the times begin and end, by its Bernstein coefficients there, the middle one times 2.
+inline moving_edge moving_edge_between(moving_edge e, float begin, float end)
+{
+    float left = 1.0f - end;
+    moving_edge r;
+    r.e0 = moving_edge_at(e, begin);
+    r.e1 = 2.0f * ((e.e0 * left + e.e1 * end) * (1.0f - begin) + (e.e1 * left + e.e2 * end) * begin);
+    r.e2 = moving_edge_at(e, end);
+    return r;
+}
+
+/// Sum of the three edge functions from moving_edge_between, each times a linear function: from a0 to a1, from b0 to
+/// b1, from c0 to c1.
+inline bernstein_cubic moving_edges_combine(moving_edges e, float a0, float a1, float b0, float b1, float c0, float c1)
+{
+    bernstein_cubic r;
+    r.c0 = (e.a.e0 * a0 + e.b.e0 * b0) + e.c.e0 * c0;
+    r.c1 = ((e.a.e0 * a1 + e.a.e1 * a0) + (e.b.e0 * b1 + e.b.e1 * b0)) + (e.c.e0 * c1 + e.c.e1 * c0);
+    r.c2 = ((e.a.e1 * a1 + e.a.e2 * a0) + (e.b.e1 * b1 + e.b.e2 * b0)) + (e.c.e1 * c1 + e.c.e2 * c0);
+    r.c3 = (e.a.e2 * a1 + e.b.e2 * b1) + e.c.e2 * c1;
+    return r;
+}
+
+/// Line through the depths at the times begin and end, and an upper bound of the deviation of depth from it. For
+/// divided, see moving_depth_at. If the point may get behind the light, or D near 0, the bound is the largest deviation
+/// of depths in [-1, 1].
+/// Domain: begin <= end, both within one interval of moving_coverage.
+/// Error: 64 2^-p sum_k e_k (z_k + (1 + deviation) v_k) / |D|; D = sum_k e_k(t) v_k(t) where |D| is least, and in the
+/// numerator the largest coefficients of e_k, |z_k| and |v_k|; v = w where divided, else 1.
+inline depth_line moving_depth_line(moving_triangle m, moving_edges e, float begin, float end, float divided)
+{
+    float b = 1.0f - begin;
+    float f = 1.0f - end;
+    moving_edges x;
+    x.a = moving_edge_between(e.a, begin, end);
+    x.b = moving_edge_between(e.b, begin, end);
+    x.c = moving_edge_between(e.c, begin, end);
+    bernstein_cubic n = moving_edges_combine(x, m.a.z0 * b + m.a.z1 * begin, m.a.z0 * f + m.a.z1 * end, m.b.z0 * b +
+                                             m.b.z1 * begin, m.b.z0 * f + m.b.z1 * end, m.c.z0 * b + m.c.z1 * begin,
+                                             m.c.z0 * f + m.c.z1 * end);
+    float a_w0 = m.a.w0 * b + m.a.w1 * begin;
+    float a_w1 = m.a.w0 * f + m.a.w1 * end;
+    float b_w0 = m.b.w0 * b + m.b.w1 * begin;
+    float b_w1 = m.b.w0 * f + m.b.w1 * end;
+    float c_w0 = m.c.w0 * b + m.c.w1 * begin;
+    float c_w1 = m.c.w0 * f + m.c.w1 * end;
+    bool before = 0.0f < a_w0 && 0.0f < a_w1 && 0.0f < b_w0 && 0.0f < b_w1 && 0.0f < c_w0 && 0.0f < c_w1;
+    bool by_w = 0.0f < divided;
+    bernstein_cubic d = moving_edges_combine(x, gnomon_select(by_w, a_w0, 1.0f), gnomon_select(by_w, a_w1, 1.0f),
+                                             gnomon_select(by_w, b_w0, 1.0f), gnomon_select(by_w, b_w1, 1.0f),
+                                             gnomon_select(by_w, c_w0, 1.0f), gnomon_select(by_w, c_w1, 1.0f));
+    float free0 = n.c0 / d.c0;
+    float free1 = n.c3 / d.c3;
+    float turn0 = d.c1 - d.c0;
+    float turn1 = d.c2 - d.c3;
+    float p0 = (n.c1 - free0 * turn0) - free1 * d.c0;
+    float p1 = (n.c1 + n.c2) - (free0 * d.c2 + free1 * d.c1);
+    float p2 = (n.c2 - free1 * turn1) - free0 * d.c3;
+    float most = gnomon_max(gnomon_max(gnomon_abs(p0), gnomon_abs(p2)), 0.5f * gnomon_abs(p1));
+    float bend = gnomon_select(before, depth_nonlinearity(most, d.c0, d.c3, turn0, turn1), 4.0f);
+    return depth_line_within(moving_depth_at(m, e, begin, divided), moving_depth_at(m, e, end, divided), free0, free1,
+                             bend, -1.0f, 1.0f);
+}
+
+/// Time at which the fraction `passed` of an interval has passed: begin for 0, end for 1, in order between.
+inline float moving_depth_time(float begin, float end, float passed)
+{
+    return gnomon_select(passed < 1.0f, begin + gnomon_product(end - begin, passed), end);
+}
+
+/// The rest of an interval from the fraction `passed` on, as the first trial.
+/// NaN: passed is then 0.
+inline depth_trial depth_trial_begin(float begin, float end, float passed)
+{
+    depth_trial r;
+    r.start = saturate_or_zero(passed);
+    r.share = 1.0f - r.start;
+    r.settled = 0.0f;
+    r.piece.t0 = moving_depth_time(begin, end, r.start);
+    r.piece.t1 = end;
+    r.piece.z0 = 1.0f;
+    r.piece.z1 = 1.0f;
+    r.piece.passed = 1.0f;
+    return r;
+}
+
+/// The next trial. It is settled if its line deviates by at most the tolerance, or if its share is at most 33/1024:
+/// there are at most 31 such pieces and a rest, since `passed` is rounded. Otherwise the piece is shortened to a half,
+/// or to a third if a half would not suffice: lines of a parabola deviate by the squares of their lengths. A settled
+/// trial stays so, with the same line.
+inline depth_trial depth_trial_next(depth_trial trial, depth_line fit, float begin, float end, float tolerance)
+{
+    float shortest = 0.0322265625f;
+    bool fits = fit.deviation <= tolerance || trial.share <= shortest;
+    float parts = gnomon_select(fit.deviation <= 4.0f * tolerance, 2.0f, 3.0f);
+    float shorter = gnomon_max(trial.share / parts, shortest);
+    float to = gnomon_min(trial.start + shorter, 1.0f);
+    trial.piece.z0 = fit.z0;
+    trial.piece.z1 = fit.z1;
+    trial.piece.t1 = gnomon_select(fits, trial.piece.t1, moving_depth_time(begin, end, to));
+    trial.piece.passed = gnomon_select(fits, trial.piece.passed, to);
+    trial.share = gnomon_select(fits, trial.share, shorter);
+    trial.settled = gnomon_select(fits, 1.0f, 0.0f);
+    return trial;
+}
+
+/// The next piece of an interval, from the fraction `passed` on, whose line deviates by at most the tolerance: the rest
+/// of the interval, or a half or a third of that, and so on. Pieces are as long as their lines fit (Palmer 2011,
+/// chapter 5):
+///     for (passed = 0; passed < 1; passed = piece.passed)
+///         piece = moving_depth_piece(m, e, begin, end, passed, divided, tolerance);
+/// The loop gives 1 to 32 pieces. Each begins where the one before ends, bit for bit; the first begins at begin, the
+/// last ends at end. Pieces before the last are never shorter than 33/1024 of the interval, even if the tolerance is
+/// missed: where the triangle turns edge-on, no line fits. A tolerance below 0 gives 32 pieces.
+/// NaN: a NaN tolerance gives 32 pieces; passed is then 0.
+/// Error: that of moving_depth_line, for the deviation.
+/// Source: Palmer 2011, Sec. 5
+inline depth_piece moving_depth_piece(moving_triangle m, moving_edges e, float begin, float end, float passed,
+                                      float divided, float tolerance)
+{
+    depth_trial r = depth_trial_begin(begin, end, passed);
+    for (int i = 0; i < 6; ++i) {
+        if (gnomon_any(r.settled < 1.0f)) r = depth_trial_next(r,
+                                                               moving_depth_line(m, e, r.piece.t0, r.piece.t1, divided),
+                                                               begin, end, tolerance);
+    }
+    return r.piece;
+}
+
+} // namespace gnomon
+
+#endif
+
+// motion/triangle/triangle_setup.h ------------------------------------------------------------------------------------
+// The edge functions of a moving triangle over many samples: coverage and depth for all texels of a rasterizer's tile,
+// and for whole blocks of texels at once.
+//
+// The edge function of moving_triangle.h, (p_i - s w_i) x (p_j - s w_j) for a sample s, is the homogeneous line through
+// p_i and p_j applied to (s_x, s_y, 1). So each of its three Bernstein coefficients is affine in the sample:
+//     e(s) = c + x s_x + y s_y,   (x, y, c) = (X_i, Y_i, W_i) x (X_j, Y_j, W_j)
+// Nine numbers for each edge serve a whole tile. Over a block of samples a coefficient is at most its value at the
+// middle plus |x| and |y| times half of the block's extents. Bernstein polynomials are not negative, so the edge
+// function is at all times at most the one with these bounds as coefficients. So moving_coverage of such edges contains
+// all times at which the triangle covers any sample of the block: one kernel shades and culls, in space and in time.
+//
+//     setup = triangle_setup_make(triangle, origin_x, origin_y);                 once for a tile
+//     blocks = triangle_setup_around(setup, h_x, h_y, facing);
+//     times = moving_coverage(triangle_setup_edges(blocks, s_x, s_y), facing);   none: skip the block
+//     times = moving_coverage(triangle_setup_edges(setup, s_x, s_y), facing);
+//
+// Vertices with equal motions have edge functions that are linear in time: the cross product of their motions, e0 - 2
+// e1 + e2, vanishes. Then two planes serve for an edge, and a quotient for its time. Decide for each edge alone whether
+// it is linear enough, so that both triangles at the edge decide alike and no crack opens:
+//
+//     linear = moving_edge_nonlinearity(b, c) <= tolerance, and so on for the other edges
+//     times = linear_coverage(triangle_setup_edges_linear(setup, s_x, s_y))
+//
+// Depth that is linear in view distance is measured from that of vertex c:
+//     z(t) = z_c(t) + N(t) / D(t),   N = e_a (z_a - z_c) + e_b (z_b - z_c),   D = e_a + e_b + e_c
+// N is a cubic whose four Bernstein coefficients are affine in the sample, too, and D follows from the edge functions.
+// This takes a third of the operations of the vertices' mean (moving_triangle.h), and nothing large cancels.
+//
+//     depths = depth_setup_make(setup, triangle);   once for a tile
+//     curve = moving_depth_curve(depths, edges, s_x, s_y);
+//     z = depth_curve_at(curve, t);   linear_depth_at, if edges and depths are linear
+//
+// Lines approximate depth where they are near enough, else lines of pieces, as for moving_depth_line:
+//
+//     line = depth_curve_line(curve, begin, end);   if (line.deviation <= tolerance), else
+//     for (passed = 0; passed < 1; passed = piece.passed)
+//         piece = depth_curve_piece(curve, begin, end, passed, tolerance);
+#ifndef GNOMON_MOTION_TRIANGLE_TRIANGLE_SETUP_H
+#define GNOMON_MOTION_TRIANGLE_TRIANGLE_SETUP_H
+
+namespace gnomon {
+
+/// An affine function of the sample: c + x s_x + y s_y.
+struct sample_plane { float x, y, c; };
+
+/// Bernstein coefficients of an edge function, as affine functions of the sample.
+struct edge_equation { sample_plane e0, e1, e2; };
+
+/// The edge equations opposite to the vertices a, b, c of a triangle.
+struct triangle_setup { edge_equation a, b, c; };
+
+/// Bernstein coefficients of N as affine functions of the sample, the middle ones times 3; z_c at shutter open and
+/// close; the least and the largest depth of all vertices, in [-1, 1].
+struct depth_setup
+{
+    sample_plane n0, n1, n2, n3;
+    float z0, z1, least, most;
+};
+
+/// Depth at one sample: the coefficients of N, the coefficients of D with the middle one times 2, and the rest as in
+/// depth_setup.
+struct depth_curve { float n0, n1, n2, n3, d0, d1, d2, z0, z1, least, most; };
+
+/// Homogeneous line through two points of the plane.
+inline sample_plane homogeneous_line(float a_x, float a_y, float a_w, float b_x, float b_y, float b_w)
+{
+    sample_plane r;
+    r.x = sheared_cross(a_y, a_w, b_y, b_w);
+    r.y = sheared_cross(a_w, a_x, b_w, b_x);
+    r.c = sheared_cross(a_x, a_y, b_x, b_y);
+    return r;
+}
+
+/// Edge equation from a to b. Exchanging a and b negates it bit for bit.
+inline edge_equation edge_equation_make(moving_vertex a, moving_vertex b)
+{
+    sample_plane early = homogeneous_line(a.x0, a.y0, a.w0, b.x1, b.y1, b.w1);
+    sample_plane late = homogeneous_line(a.x1, a.y1, a.w1, b.x0, b.y0, b.w0);
+    edge_equation f;
+    f.e0 = homogeneous_line(a.x0, a.y0, a.w0, b.x0, b.y0, b.w0);
+    f.e1.x = 0.5f * (early.x + late.x);
+    f.e1.y = 0.5f * (early.y + late.y);
+    f.e1.c = 0.5f * (early.c + late.c);
+    f.e2 = homogeneous_line(a.x1, a.y1, a.w1, b.x1, b.y1, b.w1);
+    return f;
+}
+
+/// The vertex relative to an origin on the map, in the units of x / w.
+inline moving_vertex moving_vertex_translate(moving_vertex v, float origin_x, float origin_y)
+{
+    sheared_vertex s = moving_vertex_shear(v, origin_x, origin_y);
+    v.x0 = s.x0;
+    v.y0 = s.y0;
+    v.x1 = s.x1;
+    v.y1 = s.y1;
+    return v;
+}
+
+/// Upper bound of the distance, in the units of x / w, of the edge from a to b from an edge that is linear in time and
+/// equal at both ends. It holds among the samples between the least and the largest x / w and y / w of both vertices.
+/// The same from b to a, bit for bit.
+/// Domain: all w > 0.
+/// NaN: the result for an edge without length is NaN.
+/// Error: 16 2^-p of the result, and 32 2^-p times the products X_i Y_j + Y_i X_j of triangle_setup_make's error, over
+/// the least slope of the edge function.
+inline float moving_edge_nonlinearity(moving_vertex a, moving_vertex b)
+{
+    float a_x0 = a.x0 / a.w0;
+    float a_x1 = a.x1 / a.w1;
+    float a_y0 = a.y0 / a.w0;
+    float a_y1 = a.y1 / a.w1;
+    float b_x0 = b.x0 / b.w0;
+    float b_x1 = b.x1 / b.w1;
+    float b_y0 = b.y0 / b.w0;
+    float b_y1 = b.y1 / b.w1;
+    float low_x = gnomon_min(gnomon_min(a_x0, a_x1), gnomon_min(b_x0, b_x1));
+    float low_y = gnomon_min(gnomon_min(a_y0, a_y1), gnomon_min(b_y0, b_y1));
+    float high_x = gnomon_max(gnomon_max(a_x0, a_x1), gnomon_max(b_x0, b_x1));
+    float high_y = gnomon_max(gnomon_max(a_y0, a_y1), gnomon_max(b_y0, b_y1));
+    float x = 0.5f * (low_x + high_x);
+    float y = 0.5f * (low_y + high_y);
+    moving_vertex p = moving_vertex_translate(a, x, y);
+    moving_vertex q = moving_vertex_translate(b, x, y);
+    edge_equation f = edge_equation_make(p, q);
+    sample_plane bend = homogeneous_line(p.x1 - p.x0, p.y1 - p.y0, p.w1 - p.w0, q.x1 - q.x0, q.y1 - q.y0, q.w1 - q.w0);
+    float most = gnomon_abs(bend.c) + 0.5f *
+                 (gnomon_abs(bend.x) * (high_x - low_x) + gnomon_abs(bend.y) * (high_y - low_y));
+    // Distance is value over slope. Between the ends, the slope is least where its line is nearest to 0.
+    float turn_x = f.e2.x - f.e0.x;
+    float turn_y = f.e2.y - f.e0.y;
+    float turn = turn_x * turn_x + turn_y * turn_y;
+    float nearest = saturate_or_zero(-1.0f * (f.e0.x * turn_x + f.e0.y * turn_y) / turn);
+    float slope_x = f.e0.x + nearest * turn_x;
+    float slope_y = f.e0.y + nearest * turn_y;
+    return 0.25f * most / gnomon_sqrt(slope_x * slope_x + slope_y * slope_y);
+}
+
+/// Edge equations of a triangle. Samples are relative to the origin, which is best near them.
+/// Error: 64 2^-p (X_i Y_j + Y_i X_j) for a coefficient at sample s; the covered times are exact for coefficients that
+/// differ by as much. X = max(|x| + (|origin_x| + |s_x|) |w|) over the shutter's ends, Y likewise, p the bits of the
+/// significand.
+inline triangle_setup triangle_setup_make(moving_triangle m, float origin_x, float origin_y)
+{
+    moving_vertex a = moving_vertex_translate(m.a, origin_x, origin_y);
+    moving_vertex b = moving_vertex_translate(m.b, origin_x, origin_y);
+    moving_vertex c = moving_vertex_translate(m.c, origin_x, origin_y);
+    triangle_setup f;
+    f.a = edge_equation_make(b, c);
+    f.b = edge_equation_make(c, a);
+    f.c = edge_equation_make(a, b);
+    return f;
+}
+
+/// Value of the affine function p at the sample. Odd in p, bit for bit.
+inline float sample_plane_at(sample_plane p, float s_x, float s_y)
+{
+    return (gnomon_product(p.x, s_x) + gnomon_product(p.y, s_y)) + p.c;
+}
+
+/// Edge function at a sample.
+inline moving_edge edge_equation_at(edge_equation f, float s_x, float s_y)
+{
+    moving_edge e;
+    e.e0 = sample_plane_at(f.e0, s_x, s_y);
+    e.e1 = sample_plane_at(f.e1, s_x, s_y);
+    e.e2 = sample_plane_at(f.e2, s_x, s_y);
+    return e;
+}
+
+/// Edge functions at a sample, for moving_coverage. Two triangles that share an edge cover each sample near it exactly
+/// one at a time, as with moving_triangle_edges.
+inline moving_edges triangle_setup_edges(triangle_setup f, float s_x, float s_y)
+{
+    moving_edges e;
+    e.a = edge_equation_at(f.a, s_x, s_y);
+    e.b = edge_equation_at(f.b, s_x, s_y);
+    e.c = edge_equation_at(f.c, s_x, s_y);
+    return e;
+}
+
+/// Edge function at a sample, for an edge function that is linear in time: its middle coefficient is the mean of the
+/// others.
+inline moving_edge linear_edge_at(edge_equation f, float s_x, float s_y)
+{
+    moving_edge e;
+    e.e0 = sample_plane_at(f.e0, s_x, s_y);
+    e.e2 = sample_plane_at(f.e2, s_x, s_y);
+    e.e1 = 0.5f * (e.e0 + e.e2);
+    return e;
+}
+
+/// Edge functions at a sample, for linear_coverage: all three are linear in time.
+inline moving_edges triangle_setup_edges_linear(triangle_setup f, float s_x, float s_y)
+{
+    moving_edges e;
+    e.a = linear_edge_at(f.a, s_x, s_y);
+    e.b = linear_edge_at(f.b, s_x, s_y);
+    e.c = linear_edge_at(f.c, s_x, s_y);
+    return e;
+}
+
+/// Upper bound of the affine function p over the samples within h_x and h_y of each sample; the lower bound if facing
+/// is -1.
+inline sample_plane sample_plane_around(sample_plane p, float h_x, float h_y, float facing)
+{
+    p.c = p.c + facing * (gnomon_abs(p.x) * h_x + gnomon_abs(p.y) * h_y);
+    return p;
+}
+
+/// Bounds of an edge function, as of triangle_setup_around.
+inline edge_equation edge_equation_around(edge_equation f, float h_x, float h_y, float facing)
+{
+    f.e0 = sample_plane_around(f.e0, h_x, h_y, facing);
+    f.e1 = sample_plane_around(f.e1, h_x, h_y, facing);
+    f.e2 = sample_plane_around(f.e2, h_x, h_y, facing);
+    return f;
+}
+
+/// Bounds of the edge functions over the samples within h_x and h_y of each sample: upper bounds if facing is 1, lower
+/// bounds if facing is -1. moving_coverage at (s_x, s_y), with the same facing, contains all times at which a triangle
+/// of this facing covers any sample of the block around (s_x, s_y).
+/// Error: rounding may reduce h_x and h_y by 8 2^-p of the tile's extents; pass a little more.
+inline triangle_setup triangle_setup_around(triangle_setup f, float h_x, float h_y, float facing)
+{
+    f.a = edge_equation_around(f.a, h_x, h_y, facing);
+    f.b = edge_equation_around(f.b, h_x, h_y, facing);
+    f.c = edge_equation_around(f.c, h_x, h_y, facing);
+    return f;
+}
+
+/// The sum of a times k_a and b times k_b.
+inline sample_plane sample_planes_combine(sample_plane a, float k_a, sample_plane b, float k_b)
+{
+    sample_plane r;
+    r.x = a.x * k_a + b.x * k_b;
+    r.y = a.y * k_a + b.y * k_b;
+    r.c = a.c * k_a + b.c * k_b;
+    return r;
+}
+
+/// Twice the middle coefficient of an edge times one end of a depth, plus an outer coefficient times the other end.
+inline sample_plane depth_setup_middle(sample_plane outer, float across, sample_plane middle, float beside)
+{
+    return sample_planes_combine(outer, across, middle, 2.0f * beside);
+}
+
+/// Depths of the triangle that the setup is of. The vertices' z is linear in view distance; samples are those of the
+/// setup.
+inline depth_setup depth_setup_make(triangle_setup f, moving_triangle m)
+{
+    float a0 = m.a.z0 - m.c.z0;
+    float a1 = m.a.z1 - m.c.z1;
+    float b0 = m.b.z0 - m.c.z0;
+    float b1 = m.b.z1 - m.c.z1;
+    depth_setup d;
+    d.n0 = sample_planes_combine(f.a.e0, a0, f.b.e0, b0);
+    d.n1 = sample_planes_combine(depth_setup_middle(f.a.e0, a1, f.a.e1, a0), 1.0f,
+                                 depth_setup_middle(f.b.e0, b1, f.b.e1, b0), 1.0f);
+    d.n2 = sample_planes_combine(depth_setup_middle(f.a.e2, a0, f.a.e1, a1), 1.0f,
+                                 depth_setup_middle(f.b.e2, b0, f.b.e1, b1), 1.0f);
+    d.n3 = sample_planes_combine(f.a.e2, a1, f.b.e2, b1);
+    d.z0 = m.c.z0;
+    d.z1 = m.c.z1;
+    float least = gnomon_min(gnomon_min(gnomon_min(m.a.z0, m.a.z1), gnomon_min(m.b.z0, m.b.z1)),
+                             gnomon_min(d.z0, d.z1));
+    float most = gnomon_max(gnomon_max(gnomon_max(m.a.z0, m.a.z1), gnomon_max(m.b.z0, m.b.z1)), gnomon_max(d.z0, d.z1));
+    d.least = gnomon_max(gnomon_min(least, 1.0f), -1.0f);
+    d.most = gnomon_max(gnomon_min(most, 1.0f), -1.0f);
+    return d;
+}
+
+/// Depth as a function of time at a sample; e are the edge functions at the same sample, from triangle_setup_edges.
+inline depth_curve moving_depth_curve(depth_setup d, moving_edges e, float s_x, float s_y)
+{
+    depth_curve r;
+    r.n0 = sample_plane_at(d.n0, s_x, s_y);
+    r.n1 = sample_plane_at(d.n1, s_x, s_y);
+    r.n2 = sample_plane_at(d.n2, s_x, s_y);
+    r.n3 = sample_plane_at(d.n3, s_x, s_y);
+    r.d0 = (e.a.e0 + e.b.e0) + e.c.e0;
+    r.d1 = 2.0f * ((e.a.e1 + e.b.e1) + e.c.e1);
+    r.d2 = (e.a.e2 + e.b.e2) + e.c.e2;
+    r.z0 = d.z0;
+    r.z1 = d.z1;
+    r.least = d.least;
+    r.most = d.most;
+    return r;
+}
+
+/// Depth of the triangle's point at the sample at time t in [0, 1], always within the limits of all vertices' depths.
+/// Where D is 0, such as where the triangle turns edge-on, one of these limits.
+/// Domain: the triangle covers the sample at time t, and all w > 0.
+/// NaN: the farthest depth of the vertices.
+/// Error: 32 2^-p (S_a |z_a - z_c| + S_b |z_b - z_c| + |z - z_c| (S_a + S_b + S_c)) / |D| and 8 2^-p; S_k the products
+/// X_i Y_j + Y_i X_j of edge k in triangle_setup_make's error, |z_k - z_c| the larger one of both ends of the shutter.
+inline float depth_curve_at(depth_curve c, float t)
+{
+    float s = 1.0f - t;
+    float numerator = (c.n0 * s + c.n1 * t) * (s * s) + (c.n2 * s + c.n3 * t) * (t * t);
+    float denominator = (c.d0 * s + c.d1 * t) * s + c.d2 * (t * t);
+    float z = (c.z0 * s + c.z1 * t) + numerator / denominator;
+    return gnomon_max(gnomon_min(z, c.most), c.least); // a NaN becomes the farthest
+}
+
+/// Depth at time t as of depth_curve_at, for N and D that are linear in time: edges are linear, and depths of vertices
+/// change alike.
+/// NaN: the farthest depth of the vertices.
+/// Error: that of depth_curve_at.
+inline float linear_depth_at(depth_curve c, float t)
+{
+    float s = 1.0f - t;
+    float z = (c.z0 * s + c.z1 * t) + (c.n0 * s + c.n3 * t) / (c.d0 * s + c.d2 * t);
+    return gnomon_max(gnomon_min(z, c.most), c.least); // a NaN becomes the farthest
+}
+
+/// Line through the depths of depth_curve_at at the times begin and end, and an upper bound of the deviation of depth
+/// from it. Where D may vanish, the bound is the largest deviation within the limits.
+/// Domain: begin <= end, both in [0, 1].
+/// Error: 24 2^-p (n + d (r + deviation)) / |D| and 8 2^-p of the largest depth; n and d the largest coefficients of N
+/// and D, the middle ones as means, not times 3 and 2; r the larger |N / D| at an end, |D| where it is least.
+inline depth_line depth_curve_line(depth_curve c, float begin, float end)
+{
+    float b = 1.0f - begin;
+    float f = 1.0f - end;
+    // Bernstein coefficients between the two times, by blossoming.
+    float three0 = 3.0f * c.n0;
+    float three3 = 3.0f * c.n3;
+    float n0 = (c.n0 * b + c.n1 * begin) * (b * b) + (c.n2 * b + c.n3 * begin) * (begin * begin);
+    float n1 = ((three0 * f + c.n1 * end) * (b * b) + (c.n2 * f + three3 * end) * (begin * begin)) +
+               (c.n1 * f + c.n2 * end) * (2.0f * (b * begin));
+    float n2 = ((three0 * b + c.n1 * begin) * (f * f) + (c.n2 * b + three3 * begin) * (end * end)) +
+               (c.n1 * b + c.n2 * begin) * (2.0f * (f * end));
+    float n3 = (c.n0 * f + c.n1 * end) * (f * f) + (c.n2 * f + c.n3 * end) * (end * end);
+    float d0 = (c.d0 * b + c.d1 * begin) * b + c.d2 * (begin * begin);
+    float d1 = (2.0f * (c.d0 * f) + c.d1 * end) * b + (c.d1 * f + 2.0f * (c.d2 * end)) * begin;
+    float d2 = (c.d0 * f + c.d1 * end) * f + c.d2 * (end * end);
+    float q0 = n0 / d0;
+    float q1 = n3 / d2;
+    float p0 = (n1 - q0 * d1) - q1 * d0;
+    float p1 = (n2 - q1 * d1) - q0 * d2;
+    float bend = depth_nonlinearity(gnomon_max(gnomon_abs(p0), gnomon_abs(p1)), d0, d2, d1, d1);
+    float free0 = (c.z0 * b + c.z1 * begin) + q0;
+    float free1 = (c.z0 * f + c.z1 * end) + q1;
+    float z0 = gnomon_max(gnomon_min(free0, c.most), c.least);
+    float z1 = gnomon_max(gnomon_min(free1, c.most), c.least);
+    return depth_line_within(z0, z1, free0, free1, bend, c.least, c.most);
+}
+
+/// Line through the depths of linear_depth_at at the times begin and end, and the largest deviation of depth from it,
+/// for N and D that are linear in time. The bound is attained.
+inline depth_line linear_depth_line(depth_curve c, float begin, float end)
+{
+    float b = 1.0f - begin;
+    float f = 1.0f - end;
+    float d0 = c.d0 * b + c.d2 * begin;
+    float d1 = c.d0 * f + c.d2 * end;
+    float q0 = (c.n0 * b + c.n3 * begin) / d0;
+    float q1 = (c.n0 * f + c.n3 * end) / d1;
+    float bend = depth_nonlinearity(gnomon_abs((q1 - q0) * (d1 - d0)), d0, d1, d0 + d1, d0 + d1);
+    float free0 = (c.z0 * b + c.z1 * begin) + q0;
+    float free1 = (c.z0 * f + c.z1 * end) + q1;
+    float z0 = gnomon_max(gnomon_min(free0, c.most), c.least);
+    float z1 = gnomon_max(gnomon_min(free1, c.most), c.least);
+    return depth_line_within(z0, z1, free0, free1, bend, c.least, c.most);
+}
+
+/// The next piece of an interval, as of moving_depth_piece, with lines of depth_curve_line; for linear N and D, too.
+inline depth_piece depth_curve_piece(depth_curve c, float begin, float end, float passed, float tolerance)
+{
+    depth_trial r = depth_trial_begin(begin, end, passed);
+    for (int i = 0; i < 6; ++i) {
+        if (gnomon_any(r.settled < 1.0f)) r = depth_trial_next(r, depth_curve_line(c, r.piece.t0, r.piece.t1), begin,
+                                                               end, tolerance);
+    }
+    return r.piece;
+}
+
+} // namespace gnomon
+
+#endif
+
+// motion/triangle/depth_planes.h --------------------------------------------------------------------------------------
+// Times at which the point of a moving triangle that a sample sees lies between the near and the far plane. A surface
+// that passes one of the planes is visible for a part of its covered times: its times are clipped, not its depths.
+//
+// With depth z = z_c + N / D (triangle_setup.h) and D > 0 where the triangle turns its positive side to the sample, z
+// is at least p exactly where
+//     h(t) = N(t) + (z_c(t) - p) D(t) >= 0
+// This is a cubic in t. Its turning points, the roots of a quadratic, divide [0, 1] into three intervals in which h is
+// monotonic. Each interval has one root or none; bisection finds the root. A cubic is positive in at most two
+// intervals, so the result is an edge_intervals, as for an edge.
+//
+//     near = depth_intervals_beyond(curve, -1, facing);   far = depth_intervals_before(curve, 1, facing);
+//     for every covered interval: edge_intervals_part(near, 0, begin, end), and part 1; each of them alike with far
+#ifndef GNOMON_MOTION_TRIANGLE_DEPTH_PLANES_H
+#define GNOMON_MOTION_TRIANGLE_DEPTH_PLANES_H
+
+namespace gnomon {
+
+/// A cubic: h0 s^3 + h1 s^2 t + h2 s t^2 + h3 t^3, s = 1 - t.
+struct moving_cubic { float h0, h1, h2, h3; };
+
+/// A root between two times, and whether there is one, 1 or 0.
+struct cubic_root { float t, found; };
+
+constant constexpr float cubic_third = 0.333333333333333333333f;
+
+/// Value of h at time t in [0, 1].
+/// Error: 8 2^-p times the largest coefficient.
+inline float moving_cubic_at(moving_cubic h, float t)
+{
+    float s = 1.0f - t;
+    return (h.h0 * s + h.h1 * t) * (s * s) + (h.h2 * s + h.h3 * t) * (t * t);
+}
+
+/// Time at which the sign of h changes between begin and end, where h has the values at_begin and at_end and is
+/// monotonic between them. By 24 halvings.
+/// Error: 2^-24 of the interval.
+inline cubic_root moving_cubic_root(moving_cubic h, float begin, float end, float at_begin, float at_end)
+{
+    bool before = at_begin < 0.0f;
+    bool after = at_end < 0.0f;
+    bool some = begin <= end && ((before && !after) || (after && !before));
+    float low = begin;
+    float high = end;
+    for (int i = 0; i < 24; ++i) {
+        float middle = 0.5f * (low + high);
+        bool outside = moving_cubic_at(h, middle) < 0.0f;
+        bool left = (outside && before) || !(outside || before); // the root is later
+        low = gnomon_select(left, middle, low);
+        high = gnomon_select(left, high, middle);
+    }
+    cubic_root r;
+    // Return the end that is inside, so that h is not negative at the time.
+    r.t = gnomon_select(before, high, low);
+    r.found = gnomon_select(some, 1.0f, 0.0f);
+    return r;
+}
+
+/// Times in [0, 1] at which h >= 0.
+/// NaN: none.
+/// Error: the error of the cubic's value over its slope at that time, and 2^-24. If h only touches 0 within its error,
+/// as if it did not.
+inline edge_intervals moving_cubic_inside(moving_cubic h)
+{
+    float none = coverage_none;
+    // A third of the slope, by Bernstein coefficients. The ends of the times at which h rises are the turning points.
+    float b1 = h.h1 * cubic_third;
+    float b2 = h.h2 * cubic_third;
+    moving_edge slope;
+    slope.e0 = b1 - h.h0;
+    slope.e1 = b2 - b1;
+    slope.e2 = h.h3 - b2;
+    edge_intervals rises = moving_edge_inside(slope, 1.0f);
+    bool gap = rises.gap_begin < none;
+    bool some = rises.begin < rises.end;
+    float first = gnomon_select(gap, rises.gap_begin, gnomon_select(some, rises.begin, 0.0f));
+    float second = gnomon_select(gap, rises.gap_end, gnomon_select(some, rises.end, 1.0f));
+    float at_first = moving_cubic_at(h, first);
+    float at_second = moving_cubic_at(h, second);
+    cubic_root a = moving_cubic_root(h, 0.0f, first, h.h0, at_first);
+    cubic_root b = moving_cubic_root(h, first, second, at_first, at_second);
+    cubic_root c = moving_cubic_root(h, second, 1.0f, at_second, h.h3);
+
+    // The roots in order, missing ones last.
+    bool has_a = 0.0f < a.found;
+    bool has_b = 0.0f < b.found;
+    bool has_c = 0.0f < c.found;
+    float root0 = gnomon_select(has_a, a.t, gnomon_select(has_b, b.t, gnomon_select(has_c, c.t, none)));
+    float later = gnomon_select(has_b, b.t, gnomon_select(has_c, c.t, none));
+    float root1 = gnomon_select(has_a, later, gnomon_select(has_b && has_c, c.t, none));
+    float root2 = gnomon_select(has_a && has_b && has_c, c.t, none);
+
+    bool open = 0.0f <= h.h0;
+    edge_intervals x;
+    x.begin = gnomon_select(open, 0.0f, gnomon_min(root0, 1.0f));
+    // A gap lasts from the first root to the second if h is positive at shutter open, else from the second to the
+    // third. Without its second root there is no gap, and the times end at its first.
+    float leaves = gnomon_select(open, root0, root1);
+    float returns = gnomon_select(open, root1, root2);
+    float leaves_again = gnomon_select(open, root2, none);
+    bool back = returns < none;
+    x.end = gnomon_min(gnomon_select(back, leaves_again, leaves), 1.0f);
+    x.gap_begin = gnomon_select(back, leaves, none);
+    x.gap_end = gnomon_select(back, returns, none);
+    bool known = (gnomon_abs(h.h0) + gnomon_abs(h.h1)) + (gnomon_abs(h.h2) + gnomon_abs(h.h3)) < moving_edge_limit;
+    bool ever = known && (open || root0 < none);
+    x.begin = gnomon_select(ever, x.begin, 1.0f);
+    x.end = gnomon_select(ever, x.end, 0.0f);
+    return x;
+}
+
+/// The cubic N + (z_c - plane) D, times side.
+inline moving_cubic depth_over_plane(depth_curve c, float plane, float side)
+{
+    float z0 = c.z0 - plane;
+    float z1 = c.z1 - plane;
+    moving_cubic h;
+    h.h0 = side * (c.n0 + z0 * c.d0);
+    h.h1 = side * (c.n1 + (z0 * c.d1 + z1 * c.d0));
+    h.h2 = side * (c.n2 + (z0 * c.d2 + z1 * c.d1));
+    h.h3 = side * (c.n3 + z1 * c.d2);
+    return h;
+}
+
+/// Times at which the depth of a triangle is at least that of the plane, among the times at which a triangle of this
+/// facing, 1 or -1, covers the sample.
+/// NaN: none.
+/// Error: that of moving_cubic_inside.
+inline edge_intervals depth_intervals_beyond(depth_curve c, float plane, float facing)
+{
+    return moving_cubic_inside(depth_over_plane(c, plane, facing));
+}
+
+/// Times at which the depth of a triangle is at most that of the plane, among the times at which a triangle of this
+/// facing, 1 or -1, covers the sample.
+/// NaN: none.
+/// Error: that of moving_cubic_inside.
+inline edge_intervals depth_intervals_before(depth_curve c, float plane, float facing)
+{
+    return moving_cubic_inside(depth_over_plane(c, plane, -1.0f * facing));
+}
+
+/// The part of the interval from begin to end that lies in x: before its gap (part 0) or after the gap (part 1). Empty
+/// unless begin < end. Without a gap everything is in part 0.
+inline linear_interval edge_intervals_part(edge_intervals x, float part, float begin, float end)
+{
+    bool second = 0.5f < part;
+    linear_interval r;
+    r.begin = gnomon_max(begin, gnomon_select(second, x.gap_end, x.begin));
+    r.end = gnomon_min(end, gnomon_select(second, x.end, gnomon_min(x.end, x.gap_begin)));
+    return r;
+}
+
+} // namespace gnomon
+
+#endif
+
+#endif

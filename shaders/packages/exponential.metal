@@ -1,0 +1,325 @@
+// Gnomon 0.1.0, exponential.metal: shadow filtering in Metal, this file alone.
+// Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
+// Written by shaders/package.py from the kernels in include/gnomon: change them there.
+#ifndef GNOMON_EXPONENTIAL_METAL
+#define GNOMON_EXPONENTIAL_METAL
+
+// the language --------------------------------------------------------------------------------------------------------
+// Metal: C++14 with address spaces. Kernels are not templates, as in the other shader languages: Real is float.
+// Compile with -fno-fast-math and -ffp-contract=off for the same bits as on the CPU.
+#if !defined(__METAL_VERSION__)
+#error "gnomon: exponential.metal is Metal; another language's compiler reads it"
+#elif defined(GNOMON_PORTABLE_H)
+#error "gnomon: exponential.metal and the headers of include/gnomon exclude one another"
+#elif defined(GNOMON_PACKAGE) && GNOMON_PACKAGE != 100
+#error "gnomon: exponential.metal is not of the same version as a package before it"
+#endif
+#define GNOMON_PACKAGE 100 // major, minor and patch, two digits each
+
+#ifndef GNOMON_PORTABLE_MSL_H
+#define GNOMON_PORTABLE_MSL_H
+
+#include <metal_stdlib>
+
+namespace gnomon {
+
+constant constexpr float gnomon_pivot_floor = 9.31322574615478515625e-10f; // 2^-30
+
+inline float gnomon_select(bool mask, float a, float b) { return mask ? a : b; }
+inline bool gnomon_any(bool mask) { return mask; }
+inline float gnomon_abs(float a) { return metal::fabs(a); }
+inline float gnomon_sqrt(float a) { return metal::precise::sqrt(a); }
+// x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
+// bits of NaN are above the bound, which is one.
+inline float gnomon_kept(float x) { return as_type<float>(metal::min(as_type<int>(x), 0x7FC00000)); }
+inline float gnomon_apart(float x) { return as_type<float>(metal::min(as_type<uint>(x), 0xFFC00000u)); }
+// A compiler that knew both operands would write min() and max(), which lose a NaN. gnomon_kept would not hide an operand
+// that is kept already, since two minima of integers become one; gnomon_apart is another one.
+inline float gnomon_min(float a, float b) { return gnomon_select(a < b, a, gnomon_apart(b)); }
+inline float gnomon_max(float a, float b) { return gnomon_select(b < a, a, gnomon_apart(b)); }
+inline float gnomon_product(float a, float b) { return gnomon_kept(a * b); }
+inline float gnomon_sum(float a, float b) { return gnomon_kept(a + b); }
+inline float gnomon_difference(float a, float b) { return gnomon_kept(a - b); }
+inline float gnomon_fma(float a, float b, float c) { return gnomon_kept(metal::fma(a, b, c)); }
+// a without the low half of its significand.
+inline float gnomon_high_part(float a) { return as_type<float>(as_type<uint>(a) & 0xFFFFF000u); }
+// The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
+inline float gnomon_power_of_two(float n) { return as_type<float>((as_type<uint>(n + 12582912.0f) << 23) + 0x3F800000u); }
+
+} // namespace gnomon
+
+#endif
+
+// numerics/round.h ----------------------------------------------------------------------------------------------------
+// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
+// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
+#ifndef GNOMON_NUMERICS_ROUND_H
+#define GNOMON_NUMERICS_ROUND_H
+
+namespace gnomon {
+
+/// The whole number nearest to x, ties to even.
+/// Domain: |x| <= 2^22 in float, 2^51 in double.
+/// NaN: stays NaN.
+inline float nearest_integer(float x)
+{
+    float rounder = -12582912.0f;
+    return gnomon_difference(x, rounder) + rounder;
+}
+
+} // namespace gnomon
+
+#endif
+
+// numerics/select.h ---------------------------------------------------------------------------------------------------
+// Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
+#ifndef GNOMON_NUMERICS_SELECT_H
+#define GNOMON_NUMERICS_SELECT_H
+
+namespace gnomon {
+
+/// x clamped to [low, high].
+/// NaN: stays NaN, so that the last step of a kernel can answer it.
+inline float clamp_or_nan(float x, float low, float high) { return gnomon_min(high, gnomon_max(low, x)); }
+
+/// x clamped to [low, high].
+/// NaN: high.
+inline float clamp_or_high(float x, float low, float high) { return gnomon_max(low, gnomon_min(x, high)); }
+
+/// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
+/// NaN: 0, lit.
+inline float saturate_or_zero(float x) { return gnomon_min(1.0f, gnomon_max(x, 0.0f)); }
+
+} // namespace gnomon
+
+#endif
+
+// numerics/exp.h ------------------------------------------------------------------------------------------------------
+// Exponential function and natural logarithm with the same bits in every language.
+//
+// The argument is reduced by a power of two (Cody & Waite 1980). ln 2 has two parts, the first of 10 bits, so that its
+// multiples are exact. A minimax polynomial approximates the function on the reduced range: a short one for float, a
+// long one for double. tests/derivations/minimax.cpp prints the coefficients of both.
+#ifndef GNOMON_NUMERICS_EXP_H
+#define GNOMON_NUMERICS_EXP_H
+
+namespace gnomon {
+
+constant constexpr float exp_log2_e = 1.4426950408889634f;
+constant constexpr float exp_ln2_low = -2.1219444005469058e-4f;
+constant constexpr float exp_sqrt_2 = 1.4142135623730951f;
+constant constexpr float exp_sqrt_half = 0.70710678118654752f;
+
+// exp x = 1 + x + x^2 p(x), |x| <= ln 2 / 2: relative error 2^-28.0 and 2^-57.4, coefficients rounded.
+constant constexpr float exp_float_0 = 0.49999993561656014f;
+constant constexpr float exp_float_1 = 0.16666518908321371f;
+constant constexpr float exp_float_2 = 0.041668318723256166f;
+constant constexpr float exp_float_3 = 0.0083689258101569408f;
+constant constexpr float exp_float_4 = 0.00138210541669496f;
+
+// 2 artanh y = 2 y + y^3 p(y^2), |y| <= (sqrt 2 - 1) / (sqrt 2 + 1): relative error 2^-30.2 and 2^-59.3.
+constant constexpr float log_float_0 = 0.66666776085218282f;
+constant constexpr float log_float_1 = 0.39977574040563962f;
+constant constexpr float log_float_2 = 0.29870936689734456f;
+
+/// e^x, always a finite, normal number.
+/// Domain: [-87, 88] in float, [-708, 709] in double; x is clamped.
+/// NaN: stays NaN.
+/// Error: 1 ulp in float, 1.2 ulp in double, where subtracting up to 1023 ln 2 from x costs 3 2^-56 of the result,
+/// nearly 0.4 ulp.
+/// Source: Cody & Waite 1980
+inline float polynomial_exp(float x)
+{
+    float low = -87.0f;
+    float high = 88.0f;
+    x = clamp_or_nan(x, low, high);
+    float n = nearest_integer(x * exp_log2_e);
+    float r = gnomon_difference(x, n * 0.693359375f) - n * exp_ln2_low;
+    float p = exp_float_0 + r * (exp_float_1 + r * (exp_float_2 + r * (exp_float_3 + r * exp_float_4)));
+    return (1.0f + (r + r * r * p)) * gnomon_power_of_two(n);
+}
+
+/// The number significand 2^exponent.
+struct scaled_number { float significand, exponent; };
+
+/// s with a factor of 2^k moved from the significand to the exponent if the significand is at least 2^k, with a factor
+/// of 2^-k if it is at most 2^-k.
+inline scaled_number scaled_number_step(scaled_number s, float k)
+{
+    float up = gnomon_power_of_two(k);
+    float down = gnomon_power_of_two(-k);
+    bool large = up <= s.significand;
+    bool tiny = s.significand <= down;
+    scaled_number r;
+    r.significand = gnomon_select(large, s.significand * down, gnomon_select(tiny, s.significand * up, s.significand));
+    r.exponent = gnomon_select(large, s.exponent + k, gnomon_select(tiny, s.exponent - k, s.exponent));
+    return r;
+}
+
+/// The natural logarithm of x.
+/// Domain: [2^-126, 2^127] in float, [2^-1022, 2^1023] in double; x is clamped, so that 0 and negative numbers give the
+/// value at the lower end.
+/// NaN: stays NaN.
+/// Error: 0.9 ulp in float and in double.
+/// Source: Cody & Waite 1980
+inline float polynomial_log(float x)
+{
+    scaled_number s;
+    s.exponent = 0.0f;
+    s.significand = clamp_or_nan(x, gnomon_power_of_two(-126.0f), gnomon_power_of_two(127.0f));
+    s = scaled_number_step(s, 64.0f);
+    s = scaled_number_step(s, 32.0f);
+    s = scaled_number_step(s, 16.0f);
+    s = scaled_number_step(s, 8.0f);
+    s = scaled_number_step(s, 4.0f);
+    s = scaled_number_step(s, 2.0f);
+    s = scaled_number_step(s, 1.0f);
+    bool large = exp_sqrt_2 < s.significand;
+    bool tiny = s.significand < exp_sqrt_half;
+    float m = gnomon_select(large, s.significand * 0.5f, gnomon_select(tiny, s.significand * 2.0f, s.significand));
+    float n = gnomon_select(large, s.exponent + 1.0f, gnomon_select(tiny, s.exponent - 1.0f, s.exponent));
+
+    // As in fdlibm, with exact f and y = f / (2 + f):
+    // log(1 + f) = 2 artanh y = f - (f^2 / 2 - y (f^2 / 2 + y^2 p(y^2))).
+    float f = m - 1.0f;
+    float y = f / (2.0f + f);
+    float z = y * y;
+    float p = log_float_0 + z * (log_float_1 + z * log_float_2);
+    float square = 0.5f * f * f;
+    float rest = y * (square + z * p) + n * exp_ln2_low;
+    return n * 0.693359375f - ((square - rest) - f);
+}
+
+} // namespace gnomon
+
+#endif
+
+// filters/exponential.h -----------------------------------------------------------------------------------------------
+// Exponential shadow maps (Salvi 2008; Annen et al. 2008; Peters et al. 2017, 2.2): the map holds exp(c z), and
+// Markov's inequality bounds the shadow intensity from below: Z(z < z_f) >= 1 - E[exp(c z)] / exp(c z_f).
+#ifndef GNOMON_FILTERS_EXPONENTIAL_H
+#define GNOMON_FILTERS_EXPONENTIAL_H
+
+namespace gnomon {
+
+/// E[exp(c z)].
+struct exponential_moment { float warped; };
+
+/// The exponent c > 0: the larger, the less light leaks just behind an occluder. In float c <= 44 keeps every product
+/// finite.
+struct exponential_settings { float exponent; };
+
+/// The warped moment of one depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Error: relative, (c + 2) 2^-p, mostly from rounding c z.
+inline exponential_moment exponential_encode(float z, exponential_settings settings)
+{
+    exponential_moment r;
+    r.warped = polynomial_exp(settings.exponent * clamp_or_high(z, -1.0f, 1.0f));
+    return r;
+}
+
+/// Shadow intensity in [0, 1] at depth z_f, never above percentage-closer filtering but for rounding.
+/// Domain: any z_f; beyond the far plane as on it; an exponent of at least 0. For 0 everything is lit. From 44 on in
+/// float shadows leak where both depths are on one side of 0. A negative exponent turns the order of depths around.
+/// NaN: 0, lit.
+/// Error: (c + 5) 2^-p (1 - intensity) + 2^-p, p the bits of the significand.
+/// Source: Salvi 2008; Annen 2008; Peters 2017, Sec. 2.2
+inline float exponential_intensity(exponential_moment filtered, float z_f, exponential_settings settings)
+{
+    return saturate_or_zero(1.0f - filtered.warped * polynomial_exp(-settings.exponent * gnomon_min(1.0f, z_f)));
+}
+
+} // namespace gnomon
+
+#endif
+
+// moments/channels.h --------------------------------------------------------------------------------------------------
+// The channels of a shadow map's texel, as a texture unit returns them: filtered or not, still behind the transform of
+// the storage format. Types of their own, so that channels never pass for moments, nor moments for channels.
+#ifndef GNOMON_MOMENTS_CHANNELS_H
+#define GNOMON_MOMENTS_CHANNELS_H
+
+namespace gnomon {
+
+struct channels1 { float c1; };
+
+struct channels2 { float c1, c2; };
+
+} // namespace gnomon
+
+#endif
+
+// moments/channels.h, four moments ------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_CHANNELS_4
+#define GNOMON_MOMENTS_CHANNELS_4
+
+namespace gnomon {
+
+struct channels4 { float c1, c2, c3, c4; };
+
+} // namespace gnomon
+
+#endif
+
+// moments/channels.h, six moments -------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_CHANNELS_6
+#define GNOMON_MOMENTS_CHANNELS_6
+
+namespace gnomon {
+
+struct channels6 { float c1, c2, c3, c4, c5, c6; };
+
+} // namespace gnomon
+
+#endif
+
+// storage/exponential.h -----------------------------------------------------------------------------------------------
+// Exponential shadow maps in a storage format: from a depth to the channel of a texel, and from a filtered channel to a
+// shadow, with the exponent of the format.
+//
+//   format      bytes   channel       write                      read
+//   1 x float     4     exp(40 z)     exponential_float_encode   exponential_float_intensity
+//
+// A lit surface is darkened by rounding alone: 84 roundings of exp(40 z), two of the filter passes and their sums.
+#ifndef GNOMON_STORAGE_EXPONENTIAL_H
+#define GNOMON_STORAGE_EXPONENTIAL_H
+
+namespace gnomon {
+
+constant constexpr float exponential_float_exponent = 40.0f; // exp(2 c) < 2^127
+constant constexpr float exponential_float_darkening = 6e-6f;
+
+/// The channel of a 1 x float texel of a depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Error: as exponential_encode.
+inline channels1 exponential_float_encode(float z)
+{
+    exponential_settings settings;
+    settings.exponent = exponential_float_exponent;
+    exponential_moment b = exponential_encode(z, settings);
+    channels1 c;
+    c.c1 = b.warped;
+    return c;
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channel of a 1 x float texel.
+/// Domain: any z_f; beyond the far plane as on it.
+/// NaN: 0, lit.
+/// Error: as exponential_intensity.
+inline float exponential_float_intensity(channels1 c, float z_f)
+{
+    exponential_settings settings;
+    settings.exponent = exponential_float_exponent;
+    exponential_moment b;
+    b.warped = c.c1;
+    return exponential_intensity(b, z_f, settings);
+}
+
+} // namespace gnomon
+
+#endif
+
+#endif

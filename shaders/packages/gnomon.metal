@@ -1,0 +1,6902 @@
+// Gnomon 0.1.0, gnomon.metal: shadow filtering in Metal, this file alone.
+// Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
+// Written by shaders/package.py from the kernels in include/gnomon: change them there.
+#ifndef GNOMON_GNOMON_METAL
+#define GNOMON_GNOMON_METAL
+
+// the language --------------------------------------------------------------------------------------------------------
+// Metal: C++14 with address spaces. Kernels are not templates, as in the other shader languages: Real is float.
+// Compile with -fno-fast-math and -ffp-contract=off for the same bits as on the CPU.
+#if !defined(__METAL_VERSION__)
+#error "gnomon: gnomon.metal is Metal; another language's compiler reads it"
+#elif defined(GNOMON_PORTABLE_H)
+#error "gnomon: gnomon.metal and the headers of include/gnomon exclude one another"
+#elif defined(GNOMON_PACKAGE) && GNOMON_PACKAGE != 100
+#error "gnomon: gnomon.metal is not of the same version as a package before it"
+#endif
+#define GNOMON_PACKAGE 100 // major, minor and patch, two digits each
+
+#ifndef GNOMON_PORTABLE_MSL_H
+#define GNOMON_PORTABLE_MSL_H
+
+#include <metal_stdlib>
+
+namespace gnomon {
+
+constant constexpr float gnomon_pivot_floor = 9.31322574615478515625e-10f; // 2^-30
+
+inline float gnomon_select(bool mask, float a, float b) { return mask ? a : b; }
+inline bool gnomon_any(bool mask) { return mask; }
+inline float gnomon_abs(float a) { return metal::fabs(a); }
+inline float gnomon_sqrt(float a) { return metal::precise::sqrt(a); }
+// x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
+// bits of NaN are above the bound, which is one.
+inline float gnomon_kept(float x) { return as_type<float>(metal::min(as_type<int>(x), 0x7FC00000)); }
+inline float gnomon_apart(float x) { return as_type<float>(metal::min(as_type<uint>(x), 0xFFC00000u)); }
+// A compiler that knew both operands would write min() and max(), which lose a NaN. gnomon_kept would not hide an operand
+// that is kept already, since two minima of integers become one; gnomon_apart is another one.
+inline float gnomon_min(float a, float b) { return gnomon_select(a < b, a, gnomon_apart(b)); }
+inline float gnomon_max(float a, float b) { return gnomon_select(b < a, a, gnomon_apart(b)); }
+inline float gnomon_product(float a, float b) { return gnomon_kept(a * b); }
+inline float gnomon_sum(float a, float b) { return gnomon_kept(a + b); }
+inline float gnomon_difference(float a, float b) { return gnomon_kept(a - b); }
+inline float gnomon_fma(float a, float b, float c) { return gnomon_kept(metal::fma(a, b, c)); }
+// a without the low half of its significand.
+inline float gnomon_high_part(float a) { return as_type<float>(as_type<uint>(a) & 0xFFFFF000u); }
+// The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
+inline float gnomon_power_of_two(float n) { return as_type<float>((as_type<uint>(n + 12582912.0f) << 23) + 0x3F800000u); }
+
+} // namespace gnomon
+
+#endif
+
+// numerics/select.h ---------------------------------------------------------------------------------------------------
+// Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
+#ifndef GNOMON_NUMERICS_SELECT_H
+#define GNOMON_NUMERICS_SELECT_H
+
+namespace gnomon {
+
+/// x clamped to [low, high].
+/// NaN: stays NaN, so that the last step of a kernel can answer it.
+inline float clamp_or_nan(float x, float low, float high) { return gnomon_min(high, gnomon_max(low, x)); }
+
+/// x clamped to [low, high].
+/// NaN: high.
+inline float clamp_or_high(float x, float low, float high) { return gnomon_max(low, gnomon_min(x, high)); }
+
+/// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
+/// NaN: 0, lit.
+inline float saturate_or_zero(float x) { return gnomon_min(1.0f, gnomon_max(x, 0.0f)); }
+
+} // namespace gnomon
+
+#endif
+
+// moments/depth.h -----------------------------------------------------------------------------------------------------
+// Signed depth from what depth buffers hold. Signed depth is -1 at the near plane, +1 at the far plane, and linear in
+// the view distance: filters need the linearity, since they average depths. A perspective projection is not linear, so
+// its buffer needs a conversion of its own.
+//
+//   buffer                                    near plane   far plane    conversion
+//   view distance                             near         far          depth_from_distance
+//   orthographic, or linear                   0            1            depth_from_unit
+//   orthographic, or linear, reversed         1            0            depth_from_reversed
+//   perspective                               0            1            depth_from_perspective
+//   perspective, reversed                     1            0            depth_from_reversed_perspective
+//   perspective, infinite far plane           0            (1)          depth_from_infinite
+//   perspective, infinite, reversed           1            (0)          depth_from_reversed_infinite
+//
+// A buffer in [-1, 1], as in OpenGL, first becomes 0.5 z + 0.5.
+#ifndef GNOMON_MOMENTS_DEPTH_H
+#define GNOMON_MOMENTS_DEPTH_H
+
+namespace gnomon {
+
+/// Signed depth from a linear buffer: z is 0 at the near plane and 1 at the far plane. For an orthographic projection
+/// or a stored linear depth alone: the buffer of a perspective projection needs depth_from_perspective.
+/// Domain: z in [0, 1].
+/// NaN: NaN.
+/// Error: one rounding.
+inline float depth_from_unit(float z) { return z * 2.0f - 1.0f; }
+
+/// Signed depth from a reversed linear buffer: z is 1 at the near plane and 0 at the far plane. The buffer of a
+/// perspective projection needs depth_from_reversed_perspective.
+/// Domain: z in [0, 1].
+/// NaN: NaN.
+/// Error: one rounding.
+inline float depth_from_reversed(float z) { return 1.0f - z * 2.0f; }
+
+/// Signed depth of a view distance: -1 at near_distance, +1 at far_distance, in any unit.
+/// Domain: near_distance < far_distance. Equal planes give infinities before and behind them, NaN on them, which
+/// encoders store as the near and the far plane.
+/// NaN: NaN.
+/// Error: 5 2^-p for distances between the planes.
+inline float depth_from_distance(float distance_, float near_distance, float far_distance)
+{
+    return ((distance_ - near_distance) - (far_distance - distance_)) / (far_distance - near_distance);
+}
+
+/// The signed depth (n - f) / (n + f) of a point whose distances to the planes are as n to f, near to far.
+inline float depth_between(float n, float f) { return (n - f) / (n + f); }
+
+/// Signed depth from the buffer of a perspective projection: z is 0 at near_distance and 1 at far_distance.
+/// Domain: any z, limited to [0, 1]; 0 < near_distance < far_distance < infinity. Elsewhere a finite number, infinity
+/// or NaN, which encoders limit.
+/// NaN: NaN.
+/// Error: 4 2^-p, where the buffer itself is exact.
+inline float depth_from_perspective(float z, float near_distance, float far_distance)
+{
+    float x = clamp_or_nan(z, 0.0f, 1.0f);
+    return depth_between(near_distance * x, far_distance * (1.0f - x));
+}
+
+/// Signed depth from the reversed buffer of a perspective projection: z is 1 at near_distance and 0 at far_distance.
+/// Domain: any z, limited to [0, 1]; 0 < near_distance < far_distance < infinity. Elsewhere a finite number, infinity
+/// or NaN, which encoders limit.
+/// NaN: NaN.
+/// Error: 4 2^-p, where the buffer itself is exact.
+inline float depth_from_reversed_perspective(float z, float near_distance, float far_distance)
+{
+    float x = clamp_or_nan(z, 0.0f, 1.0f);
+    return depth_between(near_distance * (1.0f - x), far_distance * x);
+}
+
+/// Signed depth from the reversed buffer of a perspective projection without far plane: z = near_distance / distance.
+/// Of signed depth far_distance is the far plane. Farther points are on it.
+/// Domain: any z, limited to [0, 1]; 0 < near_distance, 2 near_distance <= far_distance < infinity. Elsewhere a
+/// number in [-1, 1] or NaN.
+/// NaN: NaN.
+/// Error: 8 2^-p, where the buffer itself is exact.
+inline float depth_from_reversed_infinite(float z, float near_distance, float far_distance)
+{
+    float x = gnomon_abs(clamp_or_nan(z, 0.0f, 1.0f)); // -0 is the far plane, too
+    float depth = (near_distance * (1.0f - x) - (far_distance * x - near_distance)) /
+                  (x * (far_distance - near_distance));
+    return clamp_or_nan(depth, -1.0f, 1.0f);
+}
+
+/// Signed depth from the buffer of a perspective projection without far plane: z = 1 - near_distance / distance. Of
+/// signed depth far_distance is the far plane. Farther points are on it.
+/// Domain: any z, limited to [0, 1]; 0 < near_distance, 2 near_distance <= far_distance < infinity. Elsewhere a
+/// number in [-1, 1] or NaN.
+/// NaN: NaN.
+/// Error: 8 2^-p, where 1 - z is exact.
+inline float depth_from_infinite(float z, float near_distance, float far_distance)
+{
+    return depth_from_reversed_infinite(1.0f - z, near_distance, far_distance);
+}
+
+} // namespace gnomon
+
+#endif
+
+// moments/moments.h, four moments -------------------------------------------------------------------------------------
+// Depth to moments: the values of a moment shadow map before any storage format.
+// b_j = E[z^j] over the depths in a filter region, j = 1..4 or 1..6; b_0 = 1 is not stored (Peters et al.
+// 2017, 2.1, 2.2.1). Filtering, blending and resolving are linear combinations of such vectors with weights that sum
+// to 1.
+#ifndef GNOMON_MOMENTS_MOMENTS_4
+#define GNOMON_MOMENTS_MOMENTS_4
+
+namespace gnomon {
+
+struct moments4 { float b1, b2, b3, b4; };
+
+/// The four moments of a single depth z.
+/// Domain: z in [-1, 1].
+/// NaN: NaN.
+/// Source: Peters 2017, App. D.1
+inline moments4 moments4_from_depth(float z)
+{
+    moments4 b;
+    b.b1 = z;
+    b.b2 = z * z;
+    b.b3 = b.b2 * z;
+    b.b4 = b.b2 * b.b2;
+    return b;
+}
+
+/// b times weight: the first term of a linear combination.
+inline moments4 moments4_scale(moments4 b, float weight)
+{
+    b.b1 = b.b1 * weight;
+    b.b2 = b.b2 * weight;
+    b.b3 = b.b3 * weight;
+    b.b4 = b.b4 * weight;
+    return b;
+}
+
+/// sum + weight b: a further term of a linear combination.
+inline moments4 moments4_add(moments4 sum, moments4 b, float weight)
+{
+    sum.b1 = sum.b1 + b.b1 * weight;
+    sum.b2 = sum.b2 + b.b2 * weight;
+    sum.b3 = sum.b3 + b.b3 * weight;
+    sum.b4 = sum.b4 + b.b4 * weight;
+    return sum;
+}
+
+/// The moments of signed depth from moments c of depth in [0, 1], as older maps store them: Equation 2 with x = 2, y =
+/// -1.
+/// Source: Peters 2017, Eq. 2
+inline moments4 moments4_from_unit(moments4 c)
+{
+    moments4 b;
+    b.b1 = 2.0f * c.b1 - 1.0f;
+    b.b2 = 4.0f * (c.b2 - c.b1) + 1.0f;
+    b.b3 = (8.0f * c.b3 - 12.0f * c.b2) + (6.0f * c.b1 - 1.0f);
+    b.b4 = 16.0f * (c.b4 - 2.0f * c.b3) + (24.0f * c.b2 - 8.0f * c.b1 + 1.0f);
+    return b;
+}
+
+} // namespace gnomon
+
+#endif
+
+// moments/moments.h, six moments --------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_MOMENTS_6
+#define GNOMON_MOMENTS_MOMENTS_6
+
+namespace gnomon {
+
+struct moments6 { float b1, b2, b3, b4, b5, b6; };
+
+/// The six moments of a single depth z.
+/// Domain: z in [-1, 1].
+/// NaN: NaN.
+inline moments6 moments6_from_depth(float z)
+{
+    moments6 b;
+    b.b1 = z;
+    b.b2 = z * z;
+    b.b3 = b.b2 * z;
+    b.b4 = b.b2 * b.b2;
+    b.b5 = b.b4 * z;
+    b.b6 = b.b3 * b.b3;
+    return b;
+}
+
+/// b times weight: the first term of a linear combination.
+inline moments6 moments6_scale(moments6 b, float weight)
+{
+    b.b1 = b.b1 * weight;
+    b.b2 = b.b2 * weight;
+    b.b3 = b.b3 * weight;
+    b.b4 = b.b4 * weight;
+    b.b5 = b.b5 * weight;
+    b.b6 = b.b6 * weight;
+    return b;
+}
+
+/// sum + weight b: a further term of a linear combination.
+inline moments6 moments6_add(moments6 sum, moments6 b, float weight)
+{
+    sum.b1 = sum.b1 + b.b1 * weight;
+    sum.b2 = sum.b2 + b.b2 * weight;
+    sum.b3 = sum.b3 + b.b3 * weight;
+    sum.b4 = sum.b4 + b.b4 * weight;
+    sum.b5 = sum.b5 + b.b5 * weight;
+    sum.b6 = sum.b6 + b.b6 * weight;
+    return sum;
+}
+
+} // namespace gnomon
+
+#endif
+
+// numerics/round.h ----------------------------------------------------------------------------------------------------
+// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
+// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
+#ifndef GNOMON_NUMERICS_ROUND_H
+#define GNOMON_NUMERICS_ROUND_H
+
+namespace gnomon {
+
+/// The whole number nearest to x, ties to even.
+/// Domain: |x| <= 2^22 in float, 2^51 in double.
+/// NaN: stays NaN.
+inline float nearest_integer(float x)
+{
+    float rounder = -12582912.0f;
+    return gnomon_difference(x, rounder) + rounder;
+}
+
+} // namespace gnomon
+
+#endif
+
+// numerics/trigonometry.h ---------------------------------------------------------------------------------------------
+// Cosine, sine and the angle of a vector with the same bits in every language.
+//
+// Angles are reduced to |y| <= pi / 4 by multiples of pi / 2 in three parts, the first two of so few bits that their
+// multiples are exact (Cody & Waite 1980). A minimax polynomial approximates the function on the reduced range: a short
+// one for float, a long one for double. tests/derivations/minimax.cpp prints the coefficients of both.
+#ifndef GNOMON_NUMERICS_TRIGONOMETRY_H
+#define GNOMON_NUMERICS_TRIGONOMETRY_H
+
+namespace gnomon {
+
+constant constexpr float trigonometry_two_over_pi = 0.63661977236758134f;
+constant constexpr float trigonometry_half_pi_low = 7.5497899548918821e-8f;
+constant constexpr float trigonometry_half_pi = 1.5707963267948966f;
+constant constexpr float trigonometry_quarter_pi_low = 1.5695823932524066e-7f;
+constant constexpr float trigonometry_tan_pi_8 = 0.41421356237309505f;
+
+// sin y = y + y^3 p(y^2), |y| <= pi / 4: relative error 2^-26.8 and 2^-56.4, coefficients rounded.
+constant constexpr float sin_float_0 = -0.16666654609567105f;
+constant constexpr float sin_float_1 = 0.0083321607625195058f;
+constant constexpr float sin_float_2 = -0.00019515283258365583f;
+
+// cos y = 1 - y^2 / 2 + y^4 p(y^2), |y| <= pi / 4: relative error 2^-32.4 and 2^-59.6.
+constant constexpr float cos_float_0 = 0.041666645683017541f;
+constant constexpr float cos_float_1 = -0.0013887316256332952f;
+constant constexpr float cos_float_2 = 2.4433157272163749e-05f;
+
+// arctan y = y + y^3 p(y^2), |y| <= tan(pi / 8): relative error 2^-28.3 and 2^-57.4.
+constant constexpr float atan_float_0 = -0.33333315189495832f;
+constant constexpr float atan_float_1 = 0.19998471559801789f;
+constant constexpr float atan_float_2 = -0.14243534037509495f;
+constant constexpr float atan_float_3 = 0.10593818186484773f;
+constant constexpr float atan_float_4 = -0.060782316918251741f;
+
+/// A cosine and the sine of the same angle.
+struct cosine_sine { float cosine, sine; };
+
+/// cos x and sin x, in [-1, 1] up to the error.
+/// Domain: [-8192, 8192]; x is clamped.
+/// NaN: two NaNs.
+/// Error: 1.5 ulp for |x| <= pi / 4, else 1.75 2^-p, where p is the number of bits of the significand.
+/// Source: Cody & Waite 1980
+inline cosine_sine polynomial_cosine_sine(float x)
+{
+    x = clamp_or_nan(x, -8192.0f, 8192.0f);
+    float n = nearest_integer(x * trigonometry_two_over_pi);
+    float y = gnomon_difference(x, n * 1.5703125f);
+    y = gnomon_difference(y, n * 0.0004837512969970703125f) - n * trigonometry_half_pi_low;
+    float z = y * y;
+    float s = sin_float_0 + z * (sin_float_1 + z * sin_float_2);
+    float c = cos_float_0 + z * (cos_float_1 + z * cos_float_2);
+    s = y + y * z * s;
+    c = (1.0f - 0.5f * z) + z * z * c;
+
+    // x = y + m pi / 2 plus full turns, with m in {-2, ..., 2}.
+    float m = n - 4.0f * nearest_integer(0.25f * n);
+    bool odd = gnomon_abs(m) == 1.0f;
+    bool opposite = gnomon_abs(m) == 2.0f;
+    cosine_sine r;
+    r.cosine = gnomon_select(odd, -m * s, gnomon_select(opposite, -c, c));
+    r.sine = gnomon_select(odd, m * c, gnomon_select(opposite, -s, s));
+    return r;
+}
+
+/// cos x.
+/// Domain: as for polynomial_cosine_sine.
+/// NaN: stays NaN.
+/// Error: as for polynomial_cosine_sine.
+inline float polynomial_cos(float x) { return polynomial_cosine_sine(x).cosine; }
+
+/// sin x.
+/// Domain: as for polynomial_cosine_sine.
+/// NaN: stays NaN.
+/// Error: as for polynomial_cosine_sine.
+inline float polynomial_sin(float x) { return polynomial_cosine_sine(x).sine; }
+
+/// The angle of the vector (x, y), in [-pi, pi]; 0 for the zero vector. Zeros of either sign count as positive.
+/// Domain: |x| + |y| does not overflow, except that one of the two may be infinite.
+/// NaN: for a NaN, and if both are infinite.
+/// Error: 2.6 ulp, also where the result is denormal.
+inline float polynomial_atan2(float y, float x)
+{
+    float ax = gnomon_abs(x);
+    float ay = gnomon_abs(y);
+    bool steep = ax < ay;
+    float shorter = gnomon_select(steep, ax, ay);
+    float longer = gnomon_select(steep, ay, ax);
+
+    // Above tan(pi / 8), arctan q = pi / 4 + arctan((q - 1) / (q + 1)).
+    bool wide = trigonometry_tan_pi_8 * longer < shorter;
+    float denominator = gnomon_select(wide, longer + shorter, gnomon_select(longer == 0.0f, 1.0f, longer));
+    float t = gnomon_select(wide, shorter - longer, shorter) / denominator;
+    float z = t * t;
+    float p = atan_float_0 + z * (atan_float_1 + z * (atan_float_2 + z * (atan_float_3 + z * atan_float_4)));
+    float angle = t + t * z * p;
+
+    // The result is angle + eighths pi / 4. pi / 4 has two parts, the first of 21 bits, whose multiples are exact.
+    float eighths = gnomon_select(wide, 1.0f, 0.0f);
+    angle = gnomon_select(steep, -1.0f * angle, angle);
+    eighths = gnomon_select(steep, 2.0f - eighths, eighths);
+    angle = gnomon_select(x < 0.0f, -1.0f * angle, angle);
+    eighths = gnomon_select(x < 0.0f, 4.0f - eighths, eighths);
+    angle = eighths * 0.785398006439208984375f + (angle + eighths * trigonometry_quarter_pi_low);
+    return gnomon_select(y < 0.0f, -1.0f * angle, angle);
+}
+
+} // namespace gnomon
+
+#endif
+
+// comparators/hamburger_cholesky.h ------------------------------------------------------------------------------------
+// Algorithm 1 of Peters et al. 2017 as the paper states it, for four and for six moments. This is the comparator that
+// hamburger4.h and hamburger6.h are measured against, not a route to use. Both kernels need biased moments (bias.h:
+// moments4_add_bias, moments6_add_bias) and keep the steps of the paper:
+//
+//   1, 2  Solve B q = (1, z_f, ..., z_f^(m/2)) by the square-root-free Cholesky decomposition B = L D L^T (Sec. 5.4.1).
+//   3     Solve q_0 + q_1 z + ... = 0 for the other depths: a quadratic, or a cubic in closed form (Blinn 2007;
+//         Sec. 5.4.1).
+//   4, 5  The weights solve a Vandermonde system. The sum of those before z_f is E[u(z)], where the polynomial u is 1
+//         at the depths before z_f and 0 at z_f and behind (Sec. 5.4.2).
+//
+// Only totality is added: singular moments, such as those of a single depth, give 0, lit, even in shadow.
+#ifndef GNOMON_COMPARATORS_HAMBURGER_CHOLESKY_H
+#define GNOMON_COMPARATORS_HAMBURGER_CHOLESKY_H
+
+namespace gnomon {
+
+constant constexpr float hamburger_cholesky_third = 0.33333333333333333f;
+constant constexpr float hamburger_cholesky_sqrt3 = 1.7320508075688773f;
+
+/// Lower bound on the shadow intensity at z_f, in [0, 1], from four biased moments. Takes four divisions and one root.
+/// Domain: the Hankel matrix is positive definite in the precision of float; else the result is not accurate.
+/// NaN: 0, lit.
+/// Source: Peters 2017, Alg. 1
+inline float hamburger4_cholesky_intensity(moments4 b, float z_f)
+{
+    // Factor B = L D L^T.
+    float inverse1 = 1.0f / (b.b2 - b.b1 * b.b1);
+    float c12 = b.b3 - b.b1 * b.b2;
+    float l21 = c12 * inverse1;
+    float d2 = (b.b4 - b.b2 * b.b2) - l21 * c12;
+
+    // Forward substitution, L y = (1, z_f, z_f^2), scaling by D, and back substitution, L^T q = D^-1 y.
+    float y1 = z_f - b.b1;
+    float q2 = ((z_f * z_f - b.b2) - l21 * y1) / d2;
+    float q1 = y1 * inverse1 - l21 * q2;
+    float q0 = 1.0f - (q1 * b.b1 + q2 * b.b2);
+
+    // Solve the quadratic q_0 + q_1 z + q_2 z^2 = 0 for the other two depths.
+    float inverse_q2 = 1.0f / q2;
+    float centre = -0.5f * (q1 * inverse_q2);
+    float r = gnomon_sqrt(centre * centre - q0 * inverse_q2);
+    float z1 = centre - r;
+    float z2 = centre + r;
+
+    // Two depths before z_f: 1 minus the weight of z_f. One: its weight. The weight of a depth n with other depths o
+    // and z2 is E[(z - o) (z - z2)] / ((n - o) (n - z2)) by Cramer's rule.
+    bool both = z2 < z_f;
+    float node = gnomon_select(both, z_f, z1);
+    float other = gnomon_select(both, z1, z_f);
+    float w = (b.b2 - b.b1 * (other + z2) + other * z2) / ((node - other) * (node - z2));
+    return saturate_or_zero(gnomon_select(both, 1.0f - w, gnomon_select(z1 < z_f, w, 0.0f)));
+}
+
+/// The three real roots of a cubic, in no particular order.
+struct cubic_roots { float z1, z2, z3; };
+
+/// The three real roots of z^3 + c2 z^2 + c1 z + c0, by one branch of Blinn's algorithm, as the paper advises.
+/// NaN: also if two roots are complex.
+/// Source: Blinn 2007; Peters 2017, Sec. 5.4.1
+inline cubic_roots cubic_roots_blinn(float c2, float c1, float c0)
+{
+    float b = c2 * hamburger_cholesky_third;
+    float c = c1 * hamburger_cholesky_third;
+    float hessian1 = c - b * b;
+    float hessian2 = c0 - b * c;
+    float hessian3 = b * c0 - c * c;
+    float discriminant = 4.0f * hessian1 * hessian3 - hessian2 * hessian2;
+    // The depressed cubic is x^3 + 3 hessian1 x + d with x = z + b.
+    float d = hessian2 - 2.0f * b * hessian1;
+    float angle = polynomial_atan2(gnomon_sqrt(discriminant), -1.0f * d);
+    cosine_sine t = polynomial_cosine_sine(angle * hamburger_cholesky_third);
+    float radius = gnomon_sqrt(-1.0f * hessian1);
+    float half_cosine = radius * t.cosine;
+    float half_sine = radius * t.sine * hamburger_cholesky_sqrt3;
+    cubic_roots roots;
+    roots.z1 = 2.0f * half_cosine - b;
+    roots.z2 = (half_sine - half_cosine) - b;
+    roots.z3 = -1.0f * (half_sine + half_cosine) - b;
+    return roots;
+}
+
+/// Lower bound on the shadow intensity at z_f, in [0, 1], from six biased moments. Takes eleven divisions, two roots,
+/// an arc tangent, a cosine and a sine.
+/// Domain: the Hankel matrix is positive definite in the precision of float; else the result is not accurate.
+/// NaN: 0, lit.
+/// Source: Peters 2017, Alg. 1; Peters 2017, Sec. 5.4
+inline float hamburger6_cholesky_intensity(moments6 b, float z_f)
+{
+    // Factor B = L D L^T.
+    float inverse1 = 1.0f / (b.b2 - b.b1 * b.b1);
+    float c12 = b.b3 - b.b1 * b.b2;
+    float c13 = b.b4 - b.b1 * b.b3;
+    float l21 = c12 * inverse1;
+    float l31 = c13 * inverse1;
+    float inverse2 = 1.0f / ((b.b4 - b.b2 * b.b2) - l21 * c12);
+    float c23 = (b.b5 - b.b2 * b.b3) - l21 * c13;
+    float l32 = c23 * inverse2;
+    float d3 = ((b.b6 - b.b3 * b.b3) - l31 * c13) - l32 * c23;
+
+    // Forward substitution, L y = (1, z_f, z_f^2, z_f^3).
+    float z_f2 = z_f * z_f;
+    float y1 = z_f - b.b1;
+    float y2 = (z_f2 - b.b2) - l21 * y1;
+    float y3 = ((z_f2 * z_f - b.b3) - l31 * y1) - l32 * y2;
+    // Scaling by D and back substitution, L^T q = D^-1 y.
+    float q3 = y3 / d3;
+    float q2 = y2 * inverse2 - l32 * q3;
+    float q1 = y1 * inverse1 - (l21 * q2 + l31 * q3);
+    float q0 = 1.0f - (q1 * b.b1 + q2 * b.b2 + q3 * b.b3);
+
+    // Solve the cubic q_0 + q_1 z + q_2 z^2 + q_3 z^3 = 0 for the other three depths.
+    float inverse_q3 = 1.0f / q3;
+    cubic_roots z = cubic_roots_blinn(q2 * inverse_q3, q1 * inverse_q3, q0 * inverse_q3);
+
+    // The Newton form of u by divided differences.
+    float v1 = gnomon_select(z.z1 < z_f, 1.0f, 0.0f);
+    float v2 = gnomon_select(z.z2 < z_f, 1.0f, 0.0f);
+    float v3 = gnomon_select(z.z3 < z_f, 1.0f, 0.0f);
+    float v01 = v1 / (z.z1 - z_f);
+    float v12 = (v2 - v1) / (z.z2 - z.z1);
+    float v23 = (v3 - v2) / (z.z3 - z.z2);
+    float v012 = (v12 - v01) / (z.z2 - z_f);
+    float v123 = (v23 - v12) / (z.z3 - z.z1);
+    float v0123 = (v123 - v012) / (z.z3 - z_f);
+    // The coefficients of u = (z - z_f) (v01 + (z - z1) (v012 + (z - z2) v0123)), multiplied out from the
+    // inside, and E[u(z)].
+    float s0 = v012 - v0123 * z.z2;
+    float t1 = s0 - v0123 * z.z1;
+    float t0 = v01 - s0 * z.z1;
+    float u2 = t1 - v0123 * z_f;
+    float u1 = t0 - t1 * z_f;
+    return saturate_or_zero(((v0123 * b.b3 + u2 * b.b2) + u1 * b.b1) - t0 * z_f);
+}
+
+} // namespace gnomon
+
+#endif
+
+// motion/range/range.h ------------------------------------------------------------------------------------------------
+// Depth-time ranges. From time t0 to time t1 of the shutter interval [0, 1] a surface covers a texel of the shadow map,
+// at a depth that changes linearly from z0 to z1. The depth-time range of Hong & Oh ("Motion blurred shadows utilizing
+// a depth-time ranges shadow map", section 4), the tuple of their temporal shadow map (2017), and the interval of
+// Gribel et al. 2010 and Palmer 2011 are these five numbers. The id names the surface, because no surface shadows
+// itself.
+//
+// A range whose times are out of order, or with a NaN time, is empty: it shadows nothing.
+#ifndef GNOMON_MOTION_RANGE_RANGE_H
+#define GNOMON_MOTION_RANGE_RANGE_H
+
+namespace gnomon {
+
+/// Times in [0, 1], signed depths, and an id: a whole number that floats hold, such as a triangle's index below 2^24.
+struct depth_time_range { float t0, t1, z0, z1, id; };
+
+// the id of a range of several surfaces: it shadows them all
+constant constexpr float range_mixed = -1.0f;
+constant constexpr float range_nothing = -2.0f;              // the id of a time without any surface
+constant constexpr float range_far = 1152921504606846976.0f; // 2^60: products of two depths are finite in float
+
+/// The range between two points of time and depth, given in either order.
+inline depth_time_range range_between(float time_a, float z_a, float time_b, float z_b, float id)
+{
+    bool swapped = time_b < time_a;
+    depth_time_range r;
+    r.t0 = gnomon_select(swapped, time_b, time_a);
+    r.t1 = gnomon_select(swapped, time_a, time_b);
+    r.z0 = gnomon_select(swapped, z_b, z_a);
+    r.z1 = gnomon_select(swapped, z_a, z_b);
+    r.id = id;
+    return r;
+}
+
+/// An empty range: it shadows nothing.
+inline depth_time_range range_empty(float id)
+{
+    depth_time_range r;
+    r.t0 = 1.0f;
+    r.t1 = 0.0f;
+    r.z0 = 1.0f;
+    r.z1 = 1.0f;
+    r.id = id;
+    return r;
+}
+
+/// Fraction of the range elapsed at time t, in [0, 1]: 0 up to t0, 1 from t1 on, 0 if t0 == t1.
+/// NaN: 0.
+inline float range_elapsed(depth_time_range r, float t) { return saturate_or_zero((t - r.t0) / (r.t1 - r.t0)); }
+
+/// Depth at time t, held constant before t0 and after t1; z0 if t0 == t1. Exact at both ends, and at all times if z0 ==
+/// z1.
+/// NaN: the result is NaN if z0 or z1 is.
+/// Error: 5 (|z0| + |z1|) 2^-p, p the bits of the significand.
+inline float range_depth(depth_time_range r, float t)
+{
+    float passed = range_elapsed(r, t);
+    return gnomon_select(r.z0 == r.z1, r.z0, r.z0 * (1.0f - passed) + r.z1 * passed);
+}
+
+/// Duration of the range, 0 if it is empty.
+inline float range_duration(depth_time_range r) { return gnomon_max(r.t1 - r.t0, 0.0f); }
+
+/// The part of r between the times begin and end, possibly empty.
+inline depth_time_range range_clip(depth_time_range r, float begin, float end)
+{
+    depth_time_range c;
+    c.t0 = gnomon_max(begin, r.t0);
+    c.t1 = gnomon_min(end, r.t1);
+    c.z0 = range_depth(r, c.t0);
+    c.z1 = range_depth(r, c.t1);
+    c.id = r.id;
+    return c;
+}
+
+/// a where the mask is set, b elsewhere.
+inline depth_time_range range_select(bool mask, depth_time_range a, depth_time_range b)
+{
+    depth_time_range r;
+    r.t0 = gnomon_select(mask, a.t0, b.t0);
+    r.t1 = gnomon_select(mask, a.t1, b.t1);
+    r.z0 = gnomon_select(mask, a.z0, b.z0);
+    r.z1 = gnomon_select(mask, a.z1, b.z1);
+    r.id = gnomon_select(mask, a.id, b.id);
+    return r;
+}
+
+/// r where the mask is set; elsewhere an empty range, which begins after all others.
+inline depth_time_range range_keep_if(bool mask, depth_time_range r)
+{
+    return range_select(mask, r, range_empty(range_nothing));
+}
+
+/// True if a comes before b in a total order: by begin, end, depth at begin, depth at end, id.
+inline bool range_less(depth_time_range a, depth_time_range b)
+{
+    bool by_id = a.id < b.id;
+    bool by_z1 = a.z1 < b.z1 || (a.z1 == b.z1 && by_id);
+    bool by_z0 = a.z0 < b.z0 || (a.z0 == b.z0 && by_z1);
+    bool by_t1 = a.t1 < b.t1 || (a.t1 == b.t1 && by_z0);
+    return a.t0 < b.t0 || (a.t0 == b.t0 && by_t1);
+}
+
+/// True if a provably occludes all of b: all of a is in front of all of b while b lasts, or both have the same times
+/// and a has the nearer ends. Of two equal ranges the one with the lower id occludes the other. Nothing is rounded, so
+/// the relation is transitive: the ranges that remain when the occluded ones go do not depend on the order of the
+/// tests.
+inline bool range_occludes(depth_time_range a, depth_time_range b)
+{
+    bool during = a.t0 <= b.t0 && b.t1 <= a.t1;
+    bool apart = gnomon_max(a.z0, a.z1) <= gnomon_min(b.z0, b.z1);
+    bool nearer = a.t0 == b.t0 && a.t1 == b.t1 && a.z0 <= b.z0 && a.z1 <= b.z1;
+    bool equal = nearer && a.z0 == b.z0 && a.z1 == b.z1;
+    return during && (apart || nearer) && !(equal && b.id < a.id);
+}
+
+/// The part of a during the time of b, possibly empty.
+inline depth_time_range range_clip_to(depth_time_range a, depth_time_range b) { return range_clip(a, b.t0, b.t1); }
+
+/// Time at which two ranges of the same begin and end are at the same depth; one of these ends if they never are.
+inline float range_crossing(depth_time_range a, depth_time_range b)
+{
+    float distance0 = a.z0 - b.z0;
+    float distance1 = a.z1 - b.z1;
+    float passed = saturate_or_zero(distance0 / (distance0 - distance1));
+    return a.t0 * (1.0f - passed) + a.t1 * passed;
+}
+
+/// The part of a that is in front of b, possibly empty. Where depths are equal throughout, the range with the lower id
+/// is in front. This part and the part of b in front of a fill the time that both share, bit for bit, unless both
+/// depths and ids are equal.
+/// Error: (80 z / d + 4) 2^-p for the time at which the front changes, z the largest depth and d the change of the
+/// distance between the ranges.
+inline depth_time_range range_visible_part(depth_time_range a, depth_time_range b)
+{
+    depth_time_range near_a = range_clip_to(a, b);
+    depth_time_range near_b = range_clip_to(b, a);
+    float before0 = near_b.z0 - near_a.z0;
+    float before1 = near_b.z1 - near_a.z1;
+    bool tie = before0 == 0.0f && before1 == 0.0f && a.id < b.id;
+    bool first = 0.0f < before0 || (before0 == 0.0f && 0.0f < before1) || tie;
+    bool last = 0.0f < before1 || (before1 == 0.0f && 0.0f < before0) || tie;
+    float crossing = clamp_or_nan(range_crossing(near_a, near_b), near_a.t0, near_a.t1);
+    float begin = gnomon_select(first, near_a.t0, gnomon_select(last, crossing, 1.0f));
+    float end = gnomon_select(last, near_a.t1, gnomon_select(first, crossing, 0.0f));
+    bool some = begin < end;
+    return range_clip(a, gnomon_select(some, begin, 1.0f), gnomon_select(some, end, 0.0f));
+}
+
+/// The part of r that remains after `other` occludes its begin, its end or all of it. If only the middle is occluded, r
+/// stays whole, since a range cannot have a hole. Cuts fall at times that `other` covers, so no gap opens.
+/// Error: that of range_depth, for the depth line.
+inline depth_time_range range_trim(depth_time_range r, depth_time_range other)
+{
+    depth_time_range occluding = range_visible_part(other, r);
+    bool some = occluding.t0 < occluding.t1;
+    float begin = gnomon_select(some && occluding.t0 <= r.t0, occluding.t1, r.t0);
+    float end = gnomon_select(some && r.t1 <= occluding.t1, occluding.t0, r.t1);
+    return range_clip(r, begin, end);
+}
+
+/// The part of r between begin and end that is in front of a receiver, possibly empty. The receiver's depth is a range,
+/// too, and level for a static receiver.
+/// NaN: a NaN depth is in front of nothing.
+/// Error: the times at which the two are within 26 z 2^-p of one another, z the largest depth; and 8 2^-p.
+inline depth_time_range range_occluding_part(depth_time_range r, depth_time_range receiver, float begin, float end)
+{
+    float early = gnomon_max(begin, r.t0);
+    float late = gnomon_min(end, r.t1);
+    // In most cases one of the two is in front at all times.
+    bool nearer = r.z0 < receiver.z0 && r.z0 < receiver.z1 && r.z1 < receiver.z0 && r.z1 < receiver.z1;
+    bool farther = receiver.z0 <= r.z0 && receiver.z0 <= r.z1 && receiver.z1 <= r.z0 && receiver.z1 <= r.z1;
+    float front = early;
+    float back = gnomon_select(farther, 0.0f, late);
+    bool open = early < late && !(nearer || farther);
+    if (gnomon_any(open)) {
+        float before0 = range_depth(receiver, early) - range_depth(r, early);
+        float before1 = range_depth(receiver, late) - range_depth(r, late);
+        float passed = before0 / (before0 - before1); // in [0, 1] where their signs differ
+        float crossing = clamp_or_nan(early * (1.0f - passed) + late * passed, early, late);
+        float first = gnomon_select(0.0f < before0, early, gnomon_select(0.0f < before1, crossing, 1.0f));
+        float last = gnomon_select(0.0f < before1, late, gnomon_select(0.0f < before0, crossing, 0.0f));
+        front = gnomon_select(open, first, front);
+        back = gnomon_select(open, last, back);
+    }
+    bool some = front < back; // false for NaN
+    return range_clip(r, gnomon_select(some, front, 1.0f), gnomon_select(some, back, 0.0f));
+}
+
+/// Shadow intensity at time t and depth z on the surface with the given id: 1 where the range lasts at time t, lies
+/// more than the bias in front of z, and has another id; else 0.
+/// NaN: 0, lit.
+/// Source: Hong & Oh 2018, Sec. 3.3
+inline float range_intensity(depth_time_range r, float t, float z, float id, float bias)
+{
+    bool during = r.t0 <= t && t <= r.t1;
+    bool occludes = range_depth(r, t) + bias < z && !(id == r.id);
+    return gnomon_select(during && occludes, 1.0f, 0.0f);
+}
+
+} // namespace gnomon
+
+#endif
+
+// motion/triangle/coverage_intervals.h --------------------------------------------------------------------------------
+// Times at which a triangle covers a sample, for edge functions that are quadratic in time (moving_triangle.h): at most
+// four intervals of the shutter for either facing (Gribel et al. 2010; Palmer 2011, 2.1).
+//
+// An edge function is stored by its Bernstein coefficients, e(t) = e0 (1 - t)^2 + 2 e1 t (1 - t) + e2 t^2. So e0 and e2
+// are its values at shutter open and close, and a root t = u / (1 + u) belongs to a root u >= 0 of
+//     e2 u^2 + 2 e1 u + e0 = 0,   u = q / e2 or e0 / q,   q = -(e1 + sign(e1) sqrt(e1^2 - e0 e2))
+// This gives t = q / (q + e2) or e0 / (e0 + q). Both are sums of like signs, so nothing cancels, neither near 0 nor
+// near 1. The set of times with e >= 0 is a single interval, or, if e is positive at both ends, everything except one
+// gap. Three edges leave one interval less three gaps, hence four intervals. No sign is sampled in between. Of two
+// triangles that share an edge, one has e and the other -e. Both find the same roots bit for bit, so one triangle
+// covers the sample exactly when the other does not.
+#ifndef GNOMON_MOTION_TRIANGLE_COVERAGE_INTERVALS_H
+#define GNOMON_MOTION_TRIANGLE_COVERAGE_INTERVALS_H
+
+namespace gnomon {
+
+/// A quadratic by its Bernstein coefficients: e(t) = e0 (1 - t)^2 + 2 e1 t (1 - t) + e2 t^2.
+struct moving_edge { float e0, e1, e2; };
+
+/// The edge functions opposite to the vertices a, b, c of a triangle.
+struct moving_edges { moving_edge a, b, c; };
+
+/// The times from begin to end, except those from gap_begin to gap_end. Without a gap, both of these are coverage_none.
+/// An empty set has begin 1 and end 0.
+struct edge_intervals { float begin, end, gap_begin, gap_end; };
+
+/// The times from begin to end; none unless begin < end.
+struct linear_interval { float begin, end; };
+
+/// Four numbers in ascending order.
+struct ordered4 { float first, second, third, fourth; };
+
+/// Disjoint intervals in order, `count` of them; the others begin and end at coverage_none.
+struct coverage_intervals { float count, begin0, end0, begin1, end1, begin2, end2, begin3, end3; };
+
+constant constexpr float coverage_none = 2.0f;                       // after the shutter has closed
+// 2^60: squares of coefficients are finite in float
+constant constexpr float moving_edge_limit = 1152921504606846976.0f;
+
+/// Value e(t) at time t in [0, 1], by de Casteljau's algorithm. Odd in e, bit for bit.
+/// Error: 6 2^-p times the largest coefficient.
+inline float moving_edge_at(moving_edge e, float t)
+{
+    float s = 1.0f - t;
+    return (e.e0 * s + e.e1 * t) * s + (e.e1 * s + e.e2 * t) * t;
+}
+
+/// Sum of the absolute coefficients; infinite or NaN if one is.
+inline float moving_edge_size(moving_edge e) { return (gnomon_abs(e.e0) + gnomon_abs(e.e1)) + gnomon_abs(e.e2); }
+
+/// Times in [0, 1] at which e >= 0, or at which e <= 0 if facing is negative; all times if e is 0 throughout.
+/// Domain: the largest coefficient is between 2^-50 and 2^58 in float; none for larger ones.
+/// NaN: none.
+/// Error: the times are exact for coefficients that differ by 16 2^-p of the largest.
+/// Source: Gribel 2010; Palmer 2011, Sec. 2.1
+inline edge_intervals moving_edge_inside(moving_edge e, float facing)
+{
+    float side = gnomon_select(facing < 0.0f, -1.0f, 1.0f);
+    float c0 = side * e.e0;
+    float c1 = side * e.e1;
+    float c2 = side * e.e2;
+    edge_intervals x;
+    x.begin = 0.0f;
+    x.end = 1.0f;
+    x.gap_begin = coverage_none;
+    x.gap_end = coverage_none;
+    bool before = c0 < 0.0f; // outside at shutter open
+    bool after = c2 < 0.0f;
+    if (gnomon_any(before || after || c1 < 0.0f)) {
+        // q has the sign of -e1. Where e1 is 0, q has that of e0, which keeps q odd in e and finds the root in [0, 1].
+        bool up = 0.0f < c1 || (c1 == 0.0f && before);
+        bool late = (before && !up) || (up && !before);
+        bool once = (before && !after) || (after && !before);
+        // Otherwise there are two roots, in the order of the formulas, or none if all coefficients have one sign.
+        bool twice = !(once || late);
+        float r = gnomon_sqrt(gnomon_max(c1 * c1 - c0 * c2, 0.0f));
+        float q = gnomon_select(up, -1.0f * (c1 + r), r - c1);
+        float first = saturate_or_zero(gnomon_select(late, q, c0) / (gnomon_select(late, c2, c0) + q));
+        float second = first;
+        if (gnomon_any(twice)) {
+            second = gnomon_select(twice, saturate_or_zero(q / (q + c2)), first);
+            twice = twice && 0.0f < r;
+            bool gap = twice && !before && first < second;
+            x.gap_begin = gnomon_select(gap, first, x.gap_begin);
+            x.gap_end = gnomon_select(gap, second, x.gap_end);
+        }
+        bool some = once || twice || !before;
+        x.begin = gnomon_select(some, gnomon_select(before, first, 0.0f), 1.0f);
+        x.end = gnomon_select(some, gnomon_select(after, second, 1.0f), 0.0f);
+    }
+    bool known = moving_edge_size(e) < moving_edge_limit;
+    x.begin = gnomon_select(known, x.begin, 1.0f);
+    x.end = gnomon_select(known, x.end, 0.0f);
+    return x;
+}
+
+/// Times in [0, 1] at which an edge function that is linear in time, from e0 to e2, is >= 0. For the other side of the
+/// edge, call with -e0 and -e2.
+/// Domain: none for coefficients that differ by 2^60 or more.
+/// NaN: none.
+/// Error: 4 2^-p.
+inline linear_interval linear_edge_inside(float e0, float e2)
+{
+    bool before = e0 < 0.0f;
+    bool after = e2 < 0.0f;
+    float change = e0 - e2;
+    bool never = (before && after) || !(gnomon_abs(change) < moving_edge_limit);
+    float root = gnomon_min(e0 / change, 1.0f);
+    linear_interval x;
+    x.begin = gnomon_select(never, 1.0f, gnomon_select(before, root, 0.0f));
+    x.end = gnomon_select(never, 0.0f, gnomon_select(after, root, 1.0f));
+    return x;
+}
+
+/// Times at which three linear edge functions are all >= 0, for a triangle that is translated or static.
+inline linear_interval linear_coverage(moving_edges e)
+{
+    linear_interval a = linear_edge_inside(e.a.e0, e.a.e2);
+    linear_interval b = linear_edge_inside(e.b.e0, e.b.e2);
+    linear_interval c = linear_edge_inside(e.c.e0, e.c.e2);
+    a.begin = gnomon_max(gnomon_max(a.begin, b.begin), c.begin);
+    a.end = gnomon_min(gnomon_min(a.end, b.end), c.end);
+    return a;
+}
+
+/// Sort four numbers by a network of five exchanges.
+/// Domain: no NaN.
+inline ordered4 ordered4_make(float a, float b, float c, float d)
+{
+    float low0 = gnomon_min(a, b);
+    float high0 = gnomon_max(a, b);
+    float low1 = gnomon_min(c, d);
+    float high1 = gnomon_max(c, d);
+    float middle0 = gnomon_max(low0, low1);
+    float middle1 = gnomon_min(high0, high1);
+    ordered4 x;
+    x.first = gnomon_min(low0, low1);
+    x.second = gnomon_min(middle0, middle1);
+    x.third = gnomon_max(middle0, middle1);
+    x.fourth = gnomon_max(high0, high1);
+    return x;
+}
+
+/// Times at which the sample is on the inner side of all three edges.
+inline coverage_intervals intersect_edge_intervals(edge_intervals a, edge_intervals b, edge_intervals c)
+{
+    float begin = gnomon_max(gnomon_max(gnomon_max(a.begin, b.begin), c.begin), 0.0f);
+    float end = gnomon_min(gnomon_min(gnomon_min(a.end, b.end), c.end), 1.0f);
+    float none = coverage_none;
+    bool some = begin < end;
+    coverage_intervals x;
+    x.count = gnomon_select(some, 1.0f, 0.0f);
+    x.begin0 = gnomon_select(some, begin, none);
+    x.end0 = gnomon_select(some, end, none);
+    x.begin1 = none;
+    x.end1 = none;
+    x.begin2 = none;
+    x.end2 = none;
+    x.begin3 = none;
+    x.end3 = none;
+    bool gap_a = a.gap_begin < none;
+    bool gap_b = b.gap_begin < none;
+    bool gap_c = c.gap_begin < none;
+    if (gnomon_any(some && (gap_a || gap_b || gap_c))) {
+        // Intervals that a caller made may have a gap's end without a begin. Ignore such ends, so that no lane of a
+        // pack depends on the others.
+        a.gap_begin = gnomon_select(gap_a, a.gap_begin, none);
+        b.gap_begin = gnomon_select(gap_b, b.gap_begin, none);
+        c.gap_begin = gnomon_select(gap_c, c.gap_begin, none);
+        a.gap_end = gnomon_select(gap_a, a.gap_end, none);
+        b.gap_end = gnomon_select(gap_b, b.gap_end, none);
+        c.gap_end = gnomon_select(gap_c, c.gap_end, none);
+        // Sorted separately, the begins and ends of gaps bound the times outside of all gaps: a time is outside when as
+        // many gaps have begun as have ended.
+        ordered4 starts = ordered4_make(a.gap_begin, b.gap_begin, c.gap_begin, none);
+        ordered4 stops = ordered4_make(a.gap_end, b.gap_end, c.gap_end, none);
+        float begin1 = gnomon_max(begin, stops.first);
+        float begin2 = gnomon_max(begin, stops.second);
+        float begin3 = gnomon_max(begin, stops.third);
+        float end0 = gnomon_min(end, starts.first);
+        float end1 = gnomon_min(end, starts.second);
+        float end2 = gnomon_min(end, starts.third);
+        bool some0 = some && begin < end0;
+        bool some1 = some && begin1 < end1;
+        bool some2 = some && begin2 < end2;
+        bool some3 = some && begin3 < end;
+        // Move empty intervals to the end, and keep the order of the others.
+        starts = ordered4_make(gnomon_select(some0, begin, none), gnomon_select(some1, begin1, none),
+                               gnomon_select(some2, begin2, none), gnomon_select(some3, begin3, none));
+        stops = ordered4_make(gnomon_select(some0, end0, none), gnomon_select(some1, end1, none),
+                              gnomon_select(some2, end2, none), gnomon_select(some3, end, none));
+        x.count = (gnomon_select(some0, 1.0f, 0.0f) + gnomon_select(some1, 1.0f, 0.0f)) +
+                  (gnomon_select(some2, 1.0f, 0.0f) + gnomon_select(some3, 1.0f, 0.0f));
+        x.begin0 = starts.first;
+        x.end0 = stops.first;
+        x.begin1 = starts.second;
+        x.end1 = stops.second;
+        x.begin2 = starts.third;
+        x.end2 = stops.third;
+        x.begin3 = starts.fourth;
+        x.end3 = stops.fourth;
+    }
+    return x;
+}
+
+/// Times at which a triangle that turns this side to the sample covers it: all three edge functions are >= 0, or <= 0
+/// if facing is negative. A sample on the border is covered. A triangle without area, with three edge functions that
+/// are 0 throughout, covers nothing.
+/// Domain: none for coefficients that moving_edge_inside refuses.
+/// NaN: none.
+/// Error: that of moving_edge_inside.
+/// Source: Gribel 2010; Palmer 2011, Sec. 2.1
+inline coverage_intervals moving_coverage(moving_edges e, float facing)
+{
+    edge_intervals a = moving_edge_inside(e.a, facing);
+    float size = (moving_edge_size(e.a) + moving_edge_size(e.b)) + moving_edge_size(e.c);
+    a.end = gnomon_select(0.0f < size, a.end, 0.0f);
+    return intersect_edge_intervals(a, moving_edge_inside(e.b, facing), moving_edge_inside(e.c, facing));
+}
+
+/// Total duration of the intervals, in [0, 1].
+inline float coverage_duration(coverage_intervals x)
+{
+    return saturate_or_zero(((x.end0 - x.begin0) + (x.end1 - x.begin1)) + ((x.end2 - x.begin2) + (x.end3 - x.begin3)));
+}
+
+} // namespace gnomon
+
+#endif
+
+// motion/triangle/moving_triangle.h -----------------------------------------------------------------------------------
+// A triangle whose vertices move linearly through clip space while the shutter is open (Akenine-Moller et al. 2007), as
+// one sample of a shadow map sees it: edge functions, coverage, depth.
+//
+// A vertex is p(t) = (1 - t) q + t r. Sheared by the sample (s_x, s_y), its coordinates (x - s_x w, y - s_y w) are
+// linear in t as well, and 0 where the vertex projects to the sample. An edge function is the cross product of two
+// sheared vertices, a quadratic in t, also in perspective (w is 1 in an orthographic view):
+//     e(t) = p_i(t) x p_j(t) = (1 - t)^2 q_i x q_j + t (1 - t) (q_i x r_j + r_i x q_j) + t^2 r_i x r_j
+// This is the homogeneous edge function of Laine & Karras 2011. The point of the triangle that the sample sees is the
+// mean of the vertices, each weighted by the edge function opposite to it. So depth is a cubic over a cubic,
+//     z / w = sum_k e_k(t) z_k(t) / sum_k e_k(t) w_k(t)
+// Depth that is linear in view distance is affine in the point, so its w_k is 1 and it is a cubic over a quadratic.
+// Lists of ranges approximate depth by lines (Palmer 2011, 2.1 and 2.3.2), as many as a tolerance requires (chapter 5).
+//
+// The deviation of depth from a line is bounded, not sampled. Let depth be N / D, let h be the line through it at both
+// ends of an interval, and let u go from 0 to 1 there. N - h D vanishes at both ends, so it is u (1 - u) P(u). D / (u
+// (1 - u)) is at least some constant c. So |N / D - h| is at most |P| / c, with equality for a parabola.
+#ifndef GNOMON_MOTION_TRIANGLE_MOVING_TRIANGLE_H
+#define GNOMON_MOTION_TRIANGLE_MOVING_TRIANGLE_H
+
+namespace gnomon {
+
+/// A vertex in clip space, at shutter open (x0, ...) and at shutter close (x1, ...).
+struct moving_vertex { float x0, y0, z0, w0, x1, y1, z1, w1; };
+
+/// A triangle of three moving vertices.
+struct moving_triangle { moving_vertex a, b, c; };
+
+/// A vertex relative to a sample, at shutter open and at shutter close.
+struct sheared_vertex { float x0, y0, x1, y1; };
+
+/// Depths at the ends of an interval, and an upper bound of the distance between depth and the line through them.
+struct depth_line { float z0, z1, deviation; };
+
+/// A line of depth from time t0 to time t1, and the fraction of the whole interval that has passed at t1.
+struct depth_piece { float t0, t1, z0, z1, passed; };
+
+/// A search for the length of a piece: the piece so far, the fraction of the interval at which it starts, the share of
+/// the interval that it has, and whether it is settled, 1 or 0.
+struct depth_trial
+{
+    depth_piece piece;
+    float start, share, settled;
+};
+
+/// Bernstein coefficients of a cubic, the middle ones times 3.
+struct bernstein_cubic { float c0, c1, c2, c3; };
+
+/// The vertex relative to the sample (s_x, s_y), which is in the units of x / w.
+inline sheared_vertex moving_vertex_shear(moving_vertex v, float s_x, float s_y)
+{
+    sheared_vertex r;
+    r.x0 = v.x0 - gnomon_product(s_x, v.w0);
+    r.y0 = v.y0 - gnomon_product(s_y, v.w0);
+    r.x1 = v.x1 - gnomon_product(s_x, v.w1);
+    r.y1 = v.y1 - gnomon_product(s_y, v.w1);
+    return r;
+}
+
+/// Cross product of two vectors. Odd in the two vectors bit for bit, with and without contraction by the compiler.
+inline float sheared_cross(float a_x, float a_y, float b_x, float b_y)
+{
+    return gnomon_product(a_x, b_y) - gnomon_product(a_y, b_x);
+}
+
+/// Edge function from a to b: positive where the sample is on the left of the edge. Exchanging a and b negates it bit
+/// for bit.
+inline moving_edge moving_edge_make(sheared_vertex a, sheared_vertex b)
+{
+    moving_edge e;
+    e.e0 = sheared_cross(a.x0, a.y0, b.x0, b.y0);
+    e.e1 = 0.5f * (sheared_cross(a.x0, a.y0, b.x1, b.y1) + sheared_cross(a.x1, a.y1, b.x0, b.y0));
+    e.e2 = sheared_cross(a.x1, a.y1, b.x1, b.y1);
+    return e;
+}
+
+/// The three edge functions of a triangle, for moving_coverage. Positive where the triangle runs counterclockwise
+/// around the sample.
+/// Error: 32 2^-p (X_i Y_j + Y_i X_j) for a coefficient; the covered times are exact for coefficients that differ by as
+/// much; X = max(|x| + |s_x w|) and Y = max(|y| + |s_y w|) over the shutter's ends, p the bits of the significand.
+/// Source: Akenine-Moller 2007; Laine & Karras 2011
+inline moving_edges moving_triangle_edges(moving_triangle m, float s_x, float s_y)
+{
+    sheared_vertex a = moving_vertex_shear(m.a, s_x, s_y);
+    sheared_vertex b = moving_vertex_shear(m.b, s_x, s_y);
+    sheared_vertex c = moving_vertex_shear(m.c, s_x, s_y);
+    moving_edges e;
+    e.a = moving_edge_make(b, c);
+    e.b = moving_edge_make(c, a);
+    e.c = moving_edge_make(a, b);
+    return e;
+}
+
+/// Depth of the triangle's point at the sample at time t, in [-1, 1]; e from moving_triangle_edges. divided is 1 for
+/// depth z / w, with z in clip space, and 0 for a z that is linear in view distance: the result is then the mean of the
+/// vertices' z. Edge functions against the triangle's facing, which arise from rounding and outside of the covered
+/// times, count as 0, so that the result lies between the depths of the vertices if all w > 0. If all three vanish, the
+/// result is the depth of the centroid.
+/// Domain: 1, the far plane, where the point is behind the light, w <= 0.
+/// NaN: 1.
+/// Error: that of the edge functions times sum_k |z_k - z v_k| / |sum_k e_k v_k|, and 16 2^-p of the largest |z_k /
+/// v_k|; v = w where divided, else 1.
+inline float moving_depth_at(moving_triangle m, moving_edges e, float t, float divided)
+{
+    float a = moving_edge_at(e.a, t);
+    float b = moving_edge_at(e.b, t);
+    float c = moving_edge_at(e.c, t);
+    bool back = (a + b) + c < 0.0f;
+    a = gnomon_max(gnomon_select(back, -1.0f * a, a), 0.0f);
+    b = gnomon_max(gnomon_select(back, -1.0f * b, b), 0.0f);
+    c = gnomon_max(gnomon_select(back, -1.0f * c, c), 0.0f);
+    bool vanished = (a + b) + c <= 0.0f;
+    a = gnomon_select(vanished, 1.0f, a);
+    b = gnomon_select(vanished, 1.0f, b);
+    c = gnomon_select(vanished, 1.0f, c);
+
+    float s = 1.0f - t;
+    float z = (a * (m.a.z0 * s + m.a.z1 * t) + b * (m.b.z0 * s + m.b.z1 * t)) + c * (m.c.z0 * s + m.c.z1 * t);
+    float w = (a * (m.a.w0 * s + m.a.w1 * t) + b * (m.b.w0 * s + m.b.w1 * t)) + c * (m.c.w0 * s + m.c.w1 * t);
+    float divisor = gnomon_select(0.0f < divided, w, (a + b) + c);
+    float depth = gnomon_max(gnomon_min(z / divisor, 1.0f), -1.0f); // a NaN becomes 1
+    return gnomon_select(0.0f < w, depth, 1.0f);
+}
+
+/// Upper bound of the deviation of N / D from its chord, where N - chord D = u (1 - u) P(u), |P| <= most, and D is a
+/// cubic with the Bernstein coefficients d0, d0 + turn0, d3 + turn1, d3, the middle ones times 3. With turn the lesser
+/// of the two, for positive D,
+///     D(u) / (u (1 - u)) >= d0 / u + d3 / (1 - u) + turn - d0 - d3 >= turn + 2 sqrt(d0 d3)
+/// The same holds for negative D, with -D. If D may vanish, the bound is 4, more than all depths.
+/// NaN: 4.
+inline float depth_nonlinearity(float most, float d0, float d3, float turn0, float turn1)
+{
+    bool negative = d0 < 0.0f;
+    float turn = gnomon_select(negative, -1.0f * gnomon_max(turn0, turn1), gnomon_min(turn0, turn1));
+    float product = d0 * d3;
+    float least = turn + 2.0f * gnomon_sqrt(product);
+    bool known = 0.0f < product && 0.0f < least && least < moving_edge_limit;
+    return gnomon_select(known, most / least, 4.0f);
+}
+
+/// The line from depth z0 to depth z1, with a bound of its deviation. Depths are limited to [least, most]. Without
+/// these limits depth would be free0 and free1 at the ends, and deviate by bend from the line between them. A limit
+/// that is passed in between adds no more than the distance of either end from its free depth; and no deviation exceeds
+/// the limits.
+inline depth_line depth_line_within(float z0, float z1, float free0, float free1, float bend, float least, float most)
+{
+    float beyond = gnomon_max(gnomon_abs(free0 - z0), gnomon_abs(free1 - z1));
+    float all = gnomon_max(most - gnomon_min(z0, z1), gnomon_max(z0, z1) - least);
+    depth_line r;
+    r.z0 = z0;
+    r.z1 = z1;
+    r.deviation = gnomon_min(bend + gnomon_min(beyond, gnomon_abs(z1 - z0)), all); // a NaN becomes all
+    return r;
+}
+
+/// Edge function between the times begin and end, by its Bernstein coefficients there, the middle one times 2.
+inline moving_edge moving_edge_between(moving_edge e, float begin, float end)
+{
+    float left = 1.0f - end;
+    moving_edge r;
+    r.e0 = moving_edge_at(e, begin);
+    r.e1 = 2.0f * ((e.e0 * left + e.e1 * end) * (1.0f - begin) + (e.e1 * left + e.e2 * end) * begin);
+    r.e2 = moving_edge_at(e, end);
+    return r;
+}
+
+/// Sum of the three edge functions from moving_edge_between, each times a linear function: from a0 to a1, from b0 to
+/// b1, from c0 to c1.
+inline bernstein_cubic moving_edges_combine(moving_edges e, float a0, float a1, float b0, float b1, float c0, float c1)
+{
+    bernstein_cubic r;
+    r.c0 = (e.a.e0 * a0 + e.b.e0 * b0) + e.c.e0 * c0;
+    r.c1 = ((e.a.e0 * a1 + e.a.e1 * a0) + (e.b.e0 * b1 + e.b.e1 * b0)) + (e.c.e0 * c1 + e.c.e1 * c0);
+    r.c2 = ((e.a.e1 * a1 + e.a.e2 * a0) + (e.b.e1 * b1 + e.b.e2 * b0)) + (e.c.e1 * c1 + e.c.e2 * c0);
+    r.c3 = (e.a.e2 * a1 + e.b.e2 * b1) + e.c.e2 * c1;
+    return r;
+}
+
+/// Line through the depths at the times begin and end, and an upper bound of the deviation of depth from it. For
+/// divided, see moving_depth_at. If the point may get behind the light, or D near 0, the bound is the largest deviation
+/// of depths in [-1, 1].
+/// Domain: begin <= end, both within one interval of moving_coverage.
+/// Error: 64 2^-p sum_k e_k (z_k + (1 + deviation) v_k) / |D|; D = sum_k e_k(t) v_k(t) where |D| is least, and in the
+/// numerator the largest coefficients of e_k, |z_k| and |v_k|; v = w where divided, else 1.
+inline depth_line moving_depth_line(moving_triangle m, moving_edges e, float begin, float end, float divided)
+{
+    float b = 1.0f - begin;
+    float f = 1.0f - end;
+    moving_edges x;
+    x.a = moving_edge_between(e.a, begin, end);
+    x.b = moving_edge_between(e.b, begin, end);
+    x.c = moving_edge_between(e.c, begin, end);
+    bernstein_cubic n = moving_edges_combine(x, m.a.z0 * b + m.a.z1 * begin, m.a.z0 * f + m.a.z1 * end, m.b.z0 * b +
+                                             m.b.z1 * begin, m.b.z0 * f + m.b.z1 * end, m.c.z0 * b + m.c.z1 * begin,
+                                             m.c.z0 * f + m.c.z1 * end);
+    float a_w0 = m.a.w0 * b + m.a.w1 * begin;
+    float a_w1 = m.a.w0 * f + m.a.w1 * end;
+    float b_w0 = m.b.w0 * b + m.b.w1 * begin;
+    float b_w1 = m.b.w0 * f + m.b.w1 * end;
+    float c_w0 = m.c.w0 * b + m.c.w1 * begin;
+    float c_w1 = m.c.w0 * f + m.c.w1 * end;
+    bool before = 0.0f < a_w0 && 0.0f < a_w1 && 0.0f < b_w0 && 0.0f < b_w1 && 0.0f < c_w0 && 0.0f < c_w1;
+    bool by_w = 0.0f < divided;
+    bernstein_cubic d = moving_edges_combine(x, gnomon_select(by_w, a_w0, 1.0f), gnomon_select(by_w, a_w1, 1.0f),
+                                             gnomon_select(by_w, b_w0, 1.0f), gnomon_select(by_w, b_w1, 1.0f),
+                                             gnomon_select(by_w, c_w0, 1.0f), gnomon_select(by_w, c_w1, 1.0f));
+    float free0 = n.c0 / d.c0;
+    float free1 = n.c3 / d.c3;
+    float turn0 = d.c1 - d.c0;
+    float turn1 = d.c2 - d.c3;
+    float p0 = (n.c1 - free0 * turn0) - free1 * d.c0;
+    float p1 = (n.c1 + n.c2) - (free0 * d.c2 + free1 * d.c1);
+    float p2 = (n.c2 - free1 * turn1) - free0 * d.c3;
+    float most = gnomon_max(gnomon_max(gnomon_abs(p0), gnomon_abs(p2)), 0.5f * gnomon_abs(p1));
+    float bend = gnomon_select(before, depth_nonlinearity(most, d.c0, d.c3, turn0, turn1), 4.0f);
+    return depth_line_within(moving_depth_at(m, e, begin, divided), moving_depth_at(m, e, end, divided), free0, free1,
+                             bend, -1.0f, 1.0f);
+}
+
+/// Time at which the fraction `passed` of an interval has passed: begin for 0, end for 1, in order between.
+inline float moving_depth_time(float begin, float end, float passed)
+{
+    return gnomon_select(passed < 1.0f, begin + gnomon_product(end - begin, passed), end);
+}
+
+/// The rest of an interval from the fraction `passed` on, as the first trial.
+/// NaN: passed is then 0.
+inline depth_trial depth_trial_begin(float begin, float end, float passed)
+{
+    depth_trial r;
+    r.start = saturate_or_zero(passed);
+    r.share = 1.0f - r.start;
+    r.settled = 0.0f;
+    r.piece.t0 = moving_depth_time(begin, end, r.start);
+    r.piece.t1 = end;
+    r.piece.z0 = 1.0f;
+    r.piece.z1 = 1.0f;
+    r.piece.passed = 1.0f;
+    return r;
+}
+
+/// The next trial. It is settled if its line deviates by at most the tolerance, or if its share is at most 33/1024:
+/// there are at most 31 such pieces and a rest, since `passed` is rounded. Otherwise the piece is shortened to a half,
+/// or to a third if a half would not suffice: lines of a parabola deviate by the squares of their lengths. A settled
+/// trial stays so, with the same line.
+inline depth_trial depth_trial_next(depth_trial trial, depth_line fit, float begin, float end, float tolerance)
+{
+    float shortest = 0.0322265625f;
+    bool fits = fit.deviation <= tolerance || trial.share <= shortest;
+    float parts = gnomon_select(fit.deviation <= 4.0f * tolerance, 2.0f, 3.0f);
+    float shorter = gnomon_max(trial.share / parts, shortest);
+    float to = gnomon_min(trial.start + shorter, 1.0f);
+    trial.piece.z0 = fit.z0;
+    trial.piece.z1 = fit.z1;
+    trial.piece.t1 = gnomon_select(fits, trial.piece.t1, moving_depth_time(begin, end, to));
+    trial.piece.passed = gnomon_select(fits, trial.piece.passed, to);
+    trial.share = gnomon_select(fits, trial.share, shorter);
+    trial.settled = gnomon_select(fits, 1.0f, 0.0f);
+    return trial;
+}
+
+/// The next piece of an interval, from the fraction `passed` on, whose line deviates by at most the tolerance: the rest
+/// of the interval, or a half or a third of that, and so on. Pieces are as long as their lines fit (Palmer 2011,
+/// chapter 5):
+///     for (passed = 0; passed < 1; passed = piece.passed)
+///         piece = moving_depth_piece(m, e, begin, end, passed, divided, tolerance);
+/// The loop gives 1 to 32 pieces. Each begins where the one before ends, bit for bit; the first begins at begin, the
+/// last ends at end. Pieces before the last are never shorter than 33/1024 of the interval, even if the tolerance is
+/// missed: where the triangle turns edge-on, no line fits. A tolerance below 0 gives 32 pieces.
+/// NaN: a NaN tolerance gives 32 pieces; passed is then 0.
+/// Error: that of moving_depth_line, for the deviation.
+/// Source: Palmer 2011, Sec. 5
+inline depth_piece moving_depth_piece(moving_triangle m, moving_edges e, float begin, float end, float passed,
+                                      float divided, float tolerance)
+{
+    depth_trial r = depth_trial_begin(begin, end, passed);
+    for (int i = 0; i < 6; ++i) {
+        if (gnomon_any(r.settled < 1.0f)) r = depth_trial_next(r,
+                                                               moving_depth_line(m, e, r.piece.t0, r.piece.t1, divided),
+                                                               begin, end, tolerance);
+    }
+    return r.piece;
+}
+
+} // namespace gnomon
+
+#endif
+
+// comparators/prism.h -------------------------------------------------------------------------------------------------
+// The prism of Hong & Oh ("Motion blurred shadows utilizing a depth-time ranges shadow map", Sec. 4.1 and 4.3): the
+// volume that a moving triangle sweeps, enclosed by triangles that any rasterizer draws. Each triangle carries the
+// time at its vertices, so the fragments of a texel tell when the moving triangle enters and leaves the texel, and
+// at which depth.
+//
+// The caps of the prism are the moving triangle at shutter open and close. Each edge sweeps a side: four triangles
+// around the midpoint of the edge halfway in time. If the edge at open crosses the edge at close on the screen, the
+// side is a bow tie. Its centre is then at the crossing, and two of the four triangles, which have no area, are
+// omitted. With A B the edge at open, C D the edge at close, and x the cross product, A + s (B - A) = C + u (D - C).
+// Multiplication by D - C and by B - A gives (Eq. 1, with the signs that the printed order of factors loses)
+//     s = (C - A) x (D - C) / (B - A) x (D - C),   u = (C - A) x (B - A) / (B - A) x (D - C).
+// The paper does not say which attributes the crossing vertex gets. The edge passes there twice, at time 0 with depth
+// z_AB(s) and at time 1 with depth z_CD(u). This text uses the mean of both: time 1/2 and the mean depth and 1 / w. The
+// errors, half a shutter and half the distance of the depths, are then the least possible in the worst case. Without a
+// crossing the centre has the attributes of the midpoint.
+//
+// Between vertices, time and depth are interpolated as rasterizers do by default, linearly in space, since the
+// paper names no other way. The weight of corner k on the screen is its edge function e_k. Divided by w_k it is the
+// weight in space:
+//     time = sum_k e_k t_k / w_k / sum_k e_k / w_k
+// Depth that is linear in view distance has the same weights. Depth z / w is linear on the screen and has the weights
+// e_k. All of this is exact if the sides are plane and time is linear on them, hence for translations, also in
+// perspective. A translation makes bow ties only of sides that are seen edge-on and have no area. For other motions
+// prisms approximate: 10% to 13% of the triangles that rotate or deform are present at wrong times for more than 5% of
+// the shutter (tests/comparators/prism_ranges.cpp). Prisms are therefore the comparator for moving_triangle.h, which is
+// exact and the default. The ranges of one triangle in one texel:
+//
+//     prism p = prism_make(m, divided);
+//     prism_pair pair = prism_pair_begin(id);
+//     for (k = 0; k < 14; ++k)
+//         pair = prism_pair_add(pair, prism_fragment_at(prism_triangle_make(p, k), s_x, s_y, divided));
+//     prism_ranges ranges = prism_pair_end(pair);
+#ifndef GNOMON_COMPARATORS_PRISM_H
+#define GNOMON_COMPARATORS_PRISM_H
+
+namespace gnomon {
+
+/// A vertex on the screen, with depth z, time t and inverse_w = 1 / w, which is 1 in orthographic views.
+struct prism_vertex { float x, y, z, t, inverse_w; };
+
+/// A triangle of a prism.
+struct prism_triangle { prism_vertex a, b, c; };
+
+/// The side that an edge sweeps: the vertex at its centre. crosses is 1 if the edge at open crosses the edge at close
+/// there, else 0.
+struct prism_side
+{
+    prism_vertex centre;
+    float crosses;
+};
+
+/// The corners at shutter open (0) and at shutter close (1), and the sides of the three edges.
+struct prism
+{
+    prism_vertex a0, b0, c0, a1, b1, c1;
+    prism_side ab, bc, ca;
+};
+
+/// A fragment: covered is 1 or 0, time is in [0, 1] and depth in [-1, 1].
+struct prism_fragment { float covered, time, depth; };
+
+/// The fragments of one triangle id in one texel: their number, the earliest, the latest, and the nearest four in
+/// order.
+struct prism_pair
+{
+    float id, count;
+    prism_fragment earliest, latest, first, second, third, fourth;
+};
+
+/// The ranges of a triangle in a texel, count of them, 0 to 2; the remaining ones are empty.
+struct prism_ranges
+{
+    depth_time_range first, second;
+    float count;
+};
+
+constant constexpr float prism_no_depth = 2.0f; // behind every fragment
+
+/// The vertex on the screen of a point in clip space at time t. divided is as for moving_depth_at. A vertex with w <= 0
+/// or a NaN w produces no fragment.
+inline prism_vertex prism_vertex_make(float x, float y, float z, float w, float t, float divided)
+{
+    float divisor = gnomon_max(w, 0.0f);
+    prism_vertex r;
+    r.x = x / divisor;
+    r.y = y / divisor;
+    r.z = gnomon_select(0.0f < divided, z / divisor, z);
+    r.t = t;
+    r.inverse_w = 1.0f / divisor;
+    return r;
+}
+
+/// The vertex at shutter open.
+inline prism_vertex prism_vertex_open(moving_vertex v, float divided)
+{
+    return prism_vertex_make(v.x0, v.y0, v.z0, v.w0, 0.0f, divided);
+}
+
+/// The vertex at shutter close.
+inline prism_vertex prism_vertex_close(moving_vertex v, float divided)
+{
+    return prism_vertex_make(v.x1, v.y1, v.z1, v.w1, 1.0f, divided);
+}
+
+/// The factor of the screen weight in the interpolation of depth: 1 if depth is divided, else 1 / w, as for time.
+inline float prism_depth_weight(prism_vertex v, float divided)
+{
+    return gnomon_select(0.0f < divided, 1.0f, v.inverse_w);
+}
+
+/// The vertex at the fraction `passed` of the way from a to b on the screen, at the time of a.
+inline prism_vertex prism_vertex_between(prism_vertex a, prism_vertex b, float passed, float divided)
+{
+    float left = 1.0f - passed;
+    float weight_a = left * prism_depth_weight(a, divided);
+    float weight_b = passed * prism_depth_weight(b, divided);
+    prism_vertex r;
+    r.x = a.x * left + b.x * passed;
+    r.y = a.y * left + b.y * passed;
+    r.z = (weight_a * a.z + weight_b * b.z) / (weight_a + weight_b);
+    r.t = a.t;
+    r.inverse_w = a.inverse_w * left + b.inverse_w * passed;
+    return r;
+}
+
+/// The side that the edge from a to b sweeps. A centre without a crossing is the same, bit for bit, for b to a.
+inline prism_side prism_side_make(moving_vertex a, moving_vertex b, float divided)
+{
+    prism_vertex a0 = prism_vertex_open(a, divided);
+    prism_vertex b0 = prism_vertex_open(b, divided);
+    prism_vertex a1 = prism_vertex_close(a, divided);
+    prism_vertex b1 = prism_vertex_close(b, divided);
+    float open_x = b0.x - a0.x;
+    float open_y = b0.y - a0.y;
+    float close_x = b1.x - a1.x;
+    float close_y = b1.y - a1.y;
+    float between_x = a1.x - a0.x;
+    float between_y = a1.y - a0.y;
+    float area = sheared_cross(open_x, open_y, close_x, close_y);
+    float s = sheared_cross(between_x, between_y, close_x, close_y) / area;
+    float u = sheared_cross(between_x, between_y, open_x, open_y) / area;
+    bool crosses = 0.0f <= s && s <= 1.0f && 0.0f <= u && u <= 1.0f; // false if area is 0
+
+    // The mean in clip space, where the midpoint of the moving edge is.
+    float x = 0.25f * ((a.x0 + b.x0) + (a.x1 + b.x1));
+    float y = 0.25f * ((a.y0 + b.y0) + (a.y1 + b.y1));
+    float z = 0.25f * ((a.z0 + b.z0) + (a.z1 + b.z1));
+    float w = 0.25f * ((a.w0 + b.w0) + (a.w1 + b.w1));
+    prism_vertex middle = prism_vertex_make(x, y, z, w, 0.5f, divided);
+    prism_vertex open = prism_vertex_between(a0, b0, s, divided);
+    prism_vertex close = prism_vertex_between(a1, b1, u, divided);
+    prism_side r;
+    r.centre.x = gnomon_select(crosses, open.x, middle.x);
+    r.centre.y = gnomon_select(crosses, open.y, middle.y);
+    r.centre.z = gnomon_select(crosses, 0.5f * (open.z + close.z), middle.z);
+    r.centre.t = 0.5f;
+    r.centre.inverse_w = gnomon_select(crosses, 0.5f * (open.inverse_w + close.inverse_w), middle.inverse_w);
+    r.crosses = gnomon_select(crosses, 1.0f, 0.0f);
+    return r;
+}
+
+/// The prism of a moving triangle.
+/// Domain: all w > 0 at shutter open and close, else parts of the prism are missing.
+/// Source: Hong & Oh 2018, Sec. 4.1; Hong & Oh 2018, Eq. 1
+inline prism prism_make(moving_triangle m, float divided)
+{
+    prism p;
+    p.a0 = prism_vertex_open(m.a, divided);
+    p.b0 = prism_vertex_open(m.b, divided);
+    p.c0 = prism_vertex_open(m.c, divided);
+    p.a1 = prism_vertex_close(m.a, divided);
+    p.b1 = prism_vertex_close(m.b, divided);
+    p.c1 = prism_vertex_close(m.c, divided);
+    p.ab = prism_side_make(m.a, m.b, divided);
+    p.bc = prism_side_make(m.b, m.c, divided);
+    p.ca = prism_side_make(m.c, m.a, divided);
+    return p;
+}
+
+/// The vertex `first` for k <= 0, `second` for k = 1, else `third`.
+inline prism_vertex prism_choice(float k, prism_vertex first, prism_vertex second, prism_vertex third)
+{
+    bool is_first = k < 0.5f;
+    bool is_second = k < 1.5f;
+    prism_vertex r;
+    r.x = gnomon_select(is_first, first.x, gnomon_select(is_second, second.x, third.x));
+    r.y = gnomon_select(is_first, first.y, gnomon_select(is_second, second.y, third.y));
+    r.z = gnomon_select(is_first, first.z, gnomon_select(is_second, second.z, third.z));
+    r.t = gnomon_select(is_first, first.t, gnomon_select(is_second, second.t, third.t));
+    r.inverse_w = gnomon_select(is_first, first.inverse_w, gnomon_select(is_second, second.inverse_w, third.inverse_w));
+    return r;
+}
+
+/// Triangle k of the 14 of a prism: 0 to 3, 4 to 7 and 8 to 11 around the centres of the sides, 12 and 13 the caps.
+/// Winding is not kept. The first and the third triangle of a side with a crossing are points.
+/// Domain: k in 0, ..., 13; any other k gives a point.
+/// Source: Hong & Oh 2018, Sec. 4.1
+inline prism_triangle prism_triangle_make(prism p, float k)
+{
+    float side = gnomon_select(k < 3.5f, 0.0f, gnomon_select(k < 7.5f, 1.0f, 2.0f));
+    float i = k - 4.0f * side;
+    prism_vertex from0 = prism_choice(side, p.a0, p.b0, p.c0);
+    prism_vertex to0 = prism_choice(side, p.b0, p.c0, p.a0);
+    prism_vertex to1 = prism_choice(side, p.b1, p.c1, p.a1);
+    prism_vertex from1 = prism_choice(side, p.a1, p.b1, p.c1);
+    float crosses = gnomon_select(side < 0.5f, p.ab.crosses, gnomon_select(side < 1.5f, p.bc.crosses, p.ca.crosses));
+
+    prism_triangle r;
+    r.a = prism_choice(i, from0, to0, prism_choice(i - 2.0f, to1, from1, from1));
+    r.b = prism_choice(i, to0, to1, prism_choice(i - 2.0f, from1, from0, from0));
+    r.c = prism_choice(side, p.ab.centre, p.bc.centre, p.ca.centre);
+    float cap = k - 11.0f;
+    r.a = prism_choice(cap, r.a, p.a0, p.a1);
+    r.b = prism_choice(cap, r.b, p.b0, p.b1);
+    r.c = prism_choice(cap, r.c, p.c0, p.c1);
+
+    bool odd = (0.5f < i && i < 1.5f) || 2.5f < i;
+    bool none = (0.0f < crosses && k < 11.5f && !odd) || !(-0.5f < k && k < 13.5f);
+    float dropped = gnomon_select(none, 0.0f, 1.0f);
+    r.b = prism_choice(dropped, r.a, r.b, r.b);
+    r.c = prism_choice(dropped, r.a, r.c, r.c);
+    return r;
+}
+
+/// The edge function of p and q at the sample (s_x, s_y).
+inline float prism_edge(prism_vertex p, prism_vertex q, float s_x, float s_y)
+{
+    return sheared_cross(p.x - s_x, p.y - s_y, q.x - s_x, q.y - s_y);
+}
+
+/// The side of the edge from p to q that the sample is on, 1 or -1, for edge function e. If e is 0, the side of a point
+/// slightly further along x and, far less, along y. 0 for an edge without length.
+inline float prism_edge_side(prism_vertex p, prism_vertex q, float e)
+{
+    float level = gnomon_select(q.x < p.x, -1.0f, gnomon_select(p.x < q.x, 1.0f, 0.0f));
+    float tie = gnomon_select(q.y < p.y, 1.0f, gnomon_select(p.y < q.y, -1.0f, level));
+    return gnomon_select(0.0f < e, 1.0f, gnomon_select(e < 0.0f, -1.0f, tie));
+}
+
+/// The fragment of a triangle at the sample (s_x, s_y), in the units of x / w. A sample is covered if it is on the same
+/// side of all three edges. Exchanging the ends of an edge negates the side bit for bit, so triangles that share an
+/// edge agree on the side of a sample. Triangles that meet at a sample all displace it to the same point nearby, which
+/// is the fill rule of rasterizers, for either winding. A surface that encloses a volume therefore has an even number
+/// of fragments. An odd number remains if rounding gives an edge function the wrong sign, and beside crossings, which
+/// sides and caps share only up to rounding. A cap's time is exactly 0 or 1. divided is as for moving_depth_at.
+/// Domain: |e_k| and |e_k / w_k| up to 2^60, triangles with an area; elsewhere the sample is not covered.
+/// NaN: a triangle with a NaN coordinate covers no sample.
+/// Error: of time, and of depth in units of the largest |z|, (48 X Y max_k v_k / |sum_k e_k v_k| + 10) 2^-p. X
+/// and Y are the distances along each axis from the sample to the farthest vertex, and v_k = 1 / w_k, but 1
+/// for divided depth.
+/// Source: Hong & Oh 2018, Sec. 4.1
+inline prism_fragment prism_fragment_at(prism_triangle v, float s_x, float s_y, float divided)
+{
+    float a = prism_edge(v.b, v.c, s_x, s_y);
+    float b = prism_edge(v.c, v.a, s_x, s_y);
+    float c = prism_edge(v.a, v.b, s_x, s_y);
+    float sides = (prism_edge_side(v.b, v.c, a) + prism_edge_side(v.c, v.a, b)) + prism_edge_side(v.a, v.b, c);
+    float depth_a = a * prism_depth_weight(v.a, divided);
+    float depth_b = b * prism_depth_weight(v.b, divided);
+    float depth_c = c * prism_depth_weight(v.c, divided);
+    float depth = ((depth_a * v.a.z + depth_b * v.b.z) + depth_c * v.c.z) / ((depth_a + depth_b) + depth_c);
+    float time_a = gnomon_product(a, v.a.inverse_w); // not contracted: a cap's time is exactly 0 or 1
+    float time_b = gnomon_product(b, v.b.inverse_w);
+    float time_c = gnomon_product(c, v.c.inverse_w);
+    float weight = (time_a + time_b) + time_c;
+    float size = gnomon_abs((a + b) + c); // inside all have one sign
+    float limit = moving_edge_limit;
+    bool known = 0.0f < size && size < limit && 0.0f < gnomon_abs(weight) && gnomon_abs(weight) < limit;
+    prism_fragment f;
+    f.covered = gnomon_select(known && gnomon_abs(sides) == 3.0f && depth == depth, 1.0f, 0.0f);
+    f.time = saturate_or_zero(((time_a * v.a.t + time_b * v.b.t) + time_c * v.c.t) / weight);
+    f.depth = gnomon_max(gnomon_min(depth, 1.0f), -1.0f); // a NaN becomes 1
+    return f;
+}
+
+/// The fragment b if chosen is 0, else a.
+inline prism_fragment prism_fragment_choice(float chosen, prism_fragment a, prism_fragment b)
+{
+    bool second = chosen == 0.0f;
+    prism_fragment r;
+    r.covered = gnomon_select(second, b.covered, a.covered);
+    r.time = gnomon_select(second, b.time, a.time);
+    r.depth = gnomon_select(second, b.depth, a.depth);
+    return r;
+}
+
+/// 1 if a is in front of b, or at the same depth and earlier; else 0.
+inline float prism_fragment_before(prism_fragment a, prism_fragment b)
+{
+    return gnomon_select(a.depth < b.depth || (a.depth == b.depth && a.time < b.time), 1.0f, 0.0f);
+}
+
+/// The state before the first fragment of the triangle with this id.
+inline prism_pair prism_pair_begin(float id)
+{
+    prism_fragment none;
+    none.covered = 0.0f;
+    none.time = 1.0f;
+    none.depth = prism_no_depth;
+    prism_pair state;
+    state.id = id;
+    state.count = 0.0f;
+    state.earliest = none;
+    state.latest = none;
+    state.first = none;
+    state.second = none;
+    state.third = none;
+    state.fourth = none;
+    return state;
+}
+
+/// The state after one more fragment, in any order.
+/// Domain: fragments that are covered, with time in [0, 1] and depth in [-1, 1]; others are ignored.
+/// NaN: the fragment is ignored.
+inline prism_pair prism_pair_add(prism_pair state, prism_fragment f)
+{
+    bool known = 0.0f <= f.time && f.time <= 1.0f && -1.0f <= f.depth && f.depth <= 1.0f;
+    bool some = 0.0f < f.covered && known;
+    bool alone = state.count == 0.0f;
+    bool sooner = f.time < state.earliest.time || (f.time == state.earliest.time && f.depth < state.earliest.depth);
+    bool later = state.latest.time < f.time || (f.time == state.latest.time && state.latest.depth < f.depth);
+    float is_earliest = gnomon_select(some && (alone || sooner), 1.0f, 0.0f);
+    float is_latest = gnomon_select(some && (alone || later), 1.0f, 0.0f);
+    state.earliest = prism_fragment_choice(is_earliest, f, state.earliest);
+    state.latest = prism_fragment_choice(is_latest, f, state.latest);
+    state.count = state.count + gnomon_select(some, 1.0f, 0.0f);
+
+    // Insertion into the sorted four: the farther of two goes on. An ignored fragment goes past all four.
+    f.depth = gnomon_select(some, f.depth, prism_no_depth);
+    f.time = gnomon_select(some, f.time, 1.0f);
+    float before = prism_fragment_before(f, state.first);
+    prism_fragment next = prism_fragment_choice(before, state.first, f);
+    state.first = prism_fragment_choice(before, f, state.first);
+    before = prism_fragment_before(next, state.second);
+    f = prism_fragment_choice(before, state.second, next);
+    state.second = prism_fragment_choice(before, next, state.second);
+    before = prism_fragment_before(f, state.third);
+    next = prism_fragment_choice(before, state.third, f);
+    state.third = prism_fragment_choice(before, f, state.third);
+    before = prism_fragment_before(next, state.fourth);
+    state.fourth = prism_fragment_choice(before, next, state.fourth);
+    return state;
+}
+
+/// The range between two fragments, in any order.
+inline depth_time_range prism_range_between(prism_fragment a, prism_fragment b, float id)
+{
+    return range_between(a.time, a.depth, b.time, b.depth, id);
+}
+
+/// The ranges of the fragments: between two fragments; of four, between the front two and between the rear two. The
+/// paper does not treat other numbers, which occur if sides fold (six and more) and by rounding (odd numbers). A single
+/// fragment does not tell how long the triangle stays and gives no range. Three, or more than four, give one range from
+/// the earliest to the latest, so that no shadow is lost, though the range may last too long.
+/// Source: Hong & Oh 2018, Sec. 4.3
+inline prism_ranges prism_pair_end(prism_pair state)
+{
+    bool some = 1.0f < state.count;
+    bool two = state.count == 4.0f;
+    depth_time_range whole = prism_range_between(state.earliest, state.latest, state.id);
+    depth_time_range front = prism_range_between(state.first, state.second, state.id);
+    depth_time_range rear = prism_range_between(state.third, state.fourth, state.id);
+    prism_ranges r;
+    r.first = range_select(some, range_select(two, front, whole), range_empty(state.id));
+    r.second = range_select(two, rear, range_empty(state.id));
+    r.count = gnomon_select(some, gnomon_select(two, 2.0f, 1.0f), 0.0f);
+    return r;
+}
+
+/// The size in bytes of a shadow map of prisms: 16 for a fragment (depth, time, id, link), 24 for a range (two times,
+/// two depths, id, link), and 8 for a texel (the heads of its two lists).
+/// Error: exact in float up to 2^27 bytes.
+/// Source: Hong & Oh 2018, Eq. 2
+inline float prism_map_bytes(float fragments, float ranges, float texels)
+{
+    return (16.0f * fragments + 24.0f * ranges) + 8.0f * texels;
+}
+
+} // namespace gnomon
+
+#endif
+
+// comparators/three_pass_cover.h --------------------------------------------------------------------------------------
+// The coverage map of Hong & Oh ("Efficient motion blurred shadows using a temporal shadow map", 2017): texels that one
+// surface covers throughout the shutter, found from fragments of prisms (prism.h) in passes over the geometry.
+// motion/range/range_cover.h finds the same covers in one pass from ranges.
+//
+// The nearest map holds time and id of the nearest fragment. A fragment with the same id and a time that differs by 1
+// shows that the triangle is there at shutter open and at close: a cover. A fragment with another id in front of the
+// cover revokes the cover. The paper compares with whichever end of the cover its second pass wrote last, since the
+// depth test is off; this text compares with the farther end, which is independent of order and conservative. A third
+// fragment with the cover's own id revokes the cover as well, since the triangle left and returned; the paper lets such
+// a fragment pass. A cover that remains is in front at all times if depth is linear between the fragments. The paper's
+// second and third pass are one pass here, since no order matters:
+//
+//     nearest = nearest_fragment_begin(1);       nearest = nearest_fragment_add(nearest, f);   for all f
+//     state = fragment_cover_begin(nearest);     state = fragment_cover_add(state, f);         for all f
+//     cover = fragment_cover_end(state);
+#ifndef GNOMON_COMPARATORS_THREE_PASS_COVER_H
+#define GNOMON_COMPARATORS_THREE_PASS_COVER_H
+
+namespace gnomon {
+
+/// A fragment: time t in [0, 1], depth z in [-1, 1], and the id of a triangle, a whole number from 0.
+struct timed_fragment { float t, z, id; };
+
+/// The nearest fragment; the number of fragments with its id, the farthest depth of these, and ends, 1 if one of these
+/// is at the other end of the shutter, else 0; front, the nearest depth of all other fragments.
+struct fragment_cover
+{
+    timed_fragment nearest;
+    float count, far_depth, ends, front;
+};
+
+/// The state before the first fragment. Only fragments nearer than `cleared`, the depth of the cleared map, are kept.
+inline timed_fragment nearest_fragment_begin(float cleared)
+{
+    timed_fragment r;
+    r.t = 0.0f;
+    r.z = cleared;
+    r.id = -1.0f;
+    return r;
+}
+
+/// The nearer of two fragments; at the same depth the one with the lesser id, then the earlier one.
+/// Domain: f with id >= 0 and time in [0, 1]; others are ignored.
+/// NaN: f is ignored.
+/// Source: Hong & Oh 2017
+inline timed_fragment nearest_fragment_add(timed_fragment nearest, timed_fragment f)
+{
+    bool before = f.id < nearest.id || (f.id == nearest.id && f.t < nearest.t);
+    bool known = 0.0f <= f.id && 0.0f <= f.t && f.t <= 1.0f;
+    bool taken = known && (f.z < nearest.z || (f.z == nearest.z && before));
+    nearest.t = gnomon_select(taken, f.t, nearest.t);
+    nearest.z = gnomon_select(taken, f.z, nearest.z);
+    nearest.id = gnomon_select(taken, f.id, nearest.id);
+    return nearest;
+}
+
+/// The state before the first fragment of the second pass, from the result of the first pass.
+inline fragment_cover fragment_cover_begin(timed_fragment nearest)
+{
+    fragment_cover state;
+    state.nearest = nearest;
+    state.count = 0.0f;
+    state.far_depth = nearest.z;
+    state.ends = 0.0f;
+    state.front = 1.0f;
+    return state;
+}
+
+/// The state after one more fragment, in any order. The nearest fragment must be among them.
+/// Domain: f with id >= 0 and time in [0, 1]; others are ignored.
+/// NaN: f is ignored.
+/// Source: Hong & Oh 2017
+inline fragment_cover fragment_cover_add(fragment_cover state, timed_fragment f)
+{
+    bool known = 0.0f <= f.id && 0.0f <= f.t && f.t <= 1.0f && f.z == f.z;
+    bool same = known && f.id == state.nearest.id;
+    bool other = known && !(f.id == state.nearest.id);
+    bool end = same && 1.0f <= gnomon_abs(f.t - state.nearest.t);
+    state.count = state.count + gnomon_select(same, 1.0f, 0.0f);
+    state.ends = gnomon_select(end, 1.0f, state.ends);
+    state.far_depth = gnomon_select(same && state.far_depth < f.z, f.z, state.far_depth);
+    state.front = gnomon_select(other && f.z < state.front, f.z, state.front);
+    return state;
+}
+
+/// The cover as a range over the whole shutter, or an empty range if there is none.
+inline depth_time_range fragment_cover_end(fragment_cover state)
+{
+    bool alone = state.count == 2.0f && state.far_depth <= state.front;
+    bool known = 0.0f <= state.nearest.id && -1.0f <= state.nearest.z;
+    bool covers = known && 0.0f < state.ends && alone;
+    timed_fragment n = state.nearest;
+    depth_time_range cover = range_between(n.t, n.z, 1.0f - n.t, state.far_depth, n.id);
+    return range_select(covers, cover, range_empty(-1.0f));
+}
+
+} // namespace gnomon
+
+#endif
+
+// numerics/exp.h ------------------------------------------------------------------------------------------------------
+// Exponential function and natural logarithm with the same bits in every language.
+//
+// The argument is reduced by a power of two (Cody & Waite 1980). ln 2 has two parts, the first of 10 bits, so that its
+// multiples are exact. A minimax polynomial approximates the function on the reduced range: a short one for float, a
+// long one for double. tests/derivations/minimax.cpp prints the coefficients of both.
+#ifndef GNOMON_NUMERICS_EXP_H
+#define GNOMON_NUMERICS_EXP_H
+
+namespace gnomon {
+
+constant constexpr float exp_log2_e = 1.4426950408889634f;
+constant constexpr float exp_ln2_low = -2.1219444005469058e-4f;
+constant constexpr float exp_sqrt_2 = 1.4142135623730951f;
+constant constexpr float exp_sqrt_half = 0.70710678118654752f;
+
+// exp x = 1 + x + x^2 p(x), |x| <= ln 2 / 2: relative error 2^-28.0 and 2^-57.4, coefficients rounded.
+constant constexpr float exp_float_0 = 0.49999993561656014f;
+constant constexpr float exp_float_1 = 0.16666518908321371f;
+constant constexpr float exp_float_2 = 0.041668318723256166f;
+constant constexpr float exp_float_3 = 0.0083689258101569408f;
+constant constexpr float exp_float_4 = 0.00138210541669496f;
+
+// 2 artanh y = 2 y + y^3 p(y^2), |y| <= (sqrt 2 - 1) / (sqrt 2 + 1): relative error 2^-30.2 and 2^-59.3.
+constant constexpr float log_float_0 = 0.66666776085218282f;
+constant constexpr float log_float_1 = 0.39977574040563962f;
+constant constexpr float log_float_2 = 0.29870936689734456f;
+
+/// e^x, always a finite, normal number.
+/// Domain: [-87, 88] in float, [-708, 709] in double; x is clamped.
+/// NaN: stays NaN.
+/// Error: 1 ulp in float, 1.2 ulp in double, where subtracting up to 1023 ln 2 from x costs 3 2^-56 of the result,
+/// nearly 0.4 ulp.
+/// Source: Cody & Waite 1980
+inline float polynomial_exp(float x)
+{
+    float low = -87.0f;
+    float high = 88.0f;
+    x = clamp_or_nan(x, low, high);
+    float n = nearest_integer(x * exp_log2_e);
+    float r = gnomon_difference(x, n * 0.693359375f) - n * exp_ln2_low;
+    float p = exp_float_0 + r * (exp_float_1 + r * (exp_float_2 + r * (exp_float_3 + r * exp_float_4)));
+    return (1.0f + (r + r * r * p)) * gnomon_power_of_two(n);
+}
+
+/// The number significand 2^exponent.
+struct scaled_number { float significand, exponent; };
+
+/// s with a factor of 2^k moved from the significand to the exponent if the significand is at least 2^k, with a factor
+/// of 2^-k if it is at most 2^-k.
+inline scaled_number scaled_number_step(scaled_number s, float k)
+{
+    float up = gnomon_power_of_two(k);
+    float down = gnomon_power_of_two(-k);
+    bool large = up <= s.significand;
+    bool tiny = s.significand <= down;
+    scaled_number r;
+    r.significand = gnomon_select(large, s.significand * down, gnomon_select(tiny, s.significand * up, s.significand));
+    r.exponent = gnomon_select(large, s.exponent + k, gnomon_select(tiny, s.exponent - k, s.exponent));
+    return r;
+}
+
+/// The natural logarithm of x.
+/// Domain: [2^-126, 2^127] in float, [2^-1022, 2^1023] in double; x is clamped, so that 0 and negative numbers give the
+/// value at the lower end.
+/// NaN: stays NaN.
+/// Error: 0.9 ulp in float and in double.
+/// Source: Cody & Waite 1980
+inline float polynomial_log(float x)
+{
+    scaled_number s;
+    s.exponent = 0.0f;
+    s.significand = clamp_or_nan(x, gnomon_power_of_two(-126.0f), gnomon_power_of_two(127.0f));
+    s = scaled_number_step(s, 64.0f);
+    s = scaled_number_step(s, 32.0f);
+    s = scaled_number_step(s, 16.0f);
+    s = scaled_number_step(s, 8.0f);
+    s = scaled_number_step(s, 4.0f);
+    s = scaled_number_step(s, 2.0f);
+    s = scaled_number_step(s, 1.0f);
+    bool large = exp_sqrt_2 < s.significand;
+    bool tiny = s.significand < exp_sqrt_half;
+    float m = gnomon_select(large, s.significand * 0.5f, gnomon_select(tiny, s.significand * 2.0f, s.significand));
+    float n = gnomon_select(large, s.exponent + 1.0f, gnomon_select(tiny, s.exponent - 1.0f, s.exponent));
+
+    // As in fdlibm, with exact f and y = f / (2 + f):
+    // log(1 + f) = 2 artanh y = f - (f^2 / 2 - y (f^2 / 2 + y^2 p(y^2))).
+    float f = m - 1.0f;
+    float y = f / (2.0f + f);
+    float z = y * y;
+    float p = log_float_0 + z * (log_float_1 + z * log_float_2);
+    float square = 0.5f * f * f;
+    float rest = y * (square + z * p) + n * exp_ln2_low;
+    return n * 0.693359375f - ((square - rest) - f);
+}
+
+} // namespace gnomon
+
+#endif
+
+// filters/cascade.h ---------------------------------------------------------------------------------------------------
+// Cascades of one light: shadow maps of growing regions around the camera, the finest first (Engel 2006; Zhang et al.
+// 2006). Every cascade has a weight in [0, 1] at a receiver: 1 within its region, falling to 0 over a band at its
+// border. By view distance the regions are slices of the camera's frustum, by projection they are the maps' own
+// squares, which reach farther. Over the maps front to back, intensities blend as layers do:
+//
+//     state = cascade_begin(weight, intensity);            for the finest cascade
+//     state = cascade_add(state, weight, intensity);       for every other, the finer ones first
+//     intensity = cascade_end(state);                      lit beyond the last one
+//
+// cascade_share is the part that the next cascade has in the result; a cascade with a share of 0 need not be read. One
+// look-up for each receiver is enough where noise is filtered later: cascade_index_add finds the first cascade whose
+// weight exceeds a threshold. The mean over thresholds drawn evenly from [0, 1) is the blend, as long as at most one
+// weight lies between 0 and 1.
+#ifndef GNOMON_FILTERS_CASCADE_H
+#define GNOMON_FILTERS_CASCADE_H
+
+namespace gnomon {
+
+/// The view distance that ends a cascade: a mean of logarithmic and even splits of the distances from near_distance to
+/// far_distance. fraction is (i + 1) / n for cascade i of n, evenness the weight of even splits.
+/// Domain: 0 < near_distance < far_distance; fraction and evenness in [0, 1], else as for the nearer end.
+/// NaN: NaN in a distance; a fraction counts as 0, an evenness as 0.
+/// Error: relative, 25 2^-p where far_distance / near_distance <= 2^20.
+/// Source: Zhang 2006
+inline float cascade_split(float near_distance, float far_distance, float fraction, float evenness)
+{
+    float f = saturate_or_zero(fraction);
+    float e = saturate_or_zero(evenness);
+    float logarithmic = near_distance * polynomial_exp(f * polynomial_log(far_distance / near_distance));
+    float even = near_distance + f * (far_distance - near_distance);
+    return logarithmic + e * (even - logarithmic);
+}
+
+/// The part in [0, 1] of a band that lies between its border and a point inside: distance_inside / band.
+/// NaN: 0.
+inline float cascade_inside(float distance_inside, float band)
+{
+    float w = saturate_or_zero(distance_inside / gnomon_select(0.0f < band, band, 1.0f));
+    return gnomon_select(0.0f < band, w, gnomon_select(0.0f <= distance_inside, 1.0f, 0.0f));
+}
+
+/// The weight in [0, 1] of a cascade for receivers up to the view distance end_distance: 1 up to a band before its end,
+/// 0 from the end on. Without a band, 1 up to the end and on it.
+/// Domain: any; a band that is not positive is none.
+/// NaN: 0.
+/// Error: 2 2^-p of end_distance over band.
+inline float cascade_weight_by_distance(float distance_, float end_distance, float band)
+{
+    return cascade_inside(end_distance - distance_, band);
+}
+
+/// The weight in [0, 1] of a cascade at texture coordinates u, v in its map and signed depth z: 1 in the middle,
+/// falling over a band to 0 at margin from the border of [0, 1] x [0, 1]. margin is the reach of filter and blur in
+/// texture coordinates, so that no filter reads over the map's edge. z before the near plane or beyond the far plane
+/// has weight 0: casters are moved to the near plane when the map is rendered, receivers are not.
+/// Domain: any; a band that is not positive is none.
+/// NaN: 0.
+/// Error: 2 2^-p over band.
+inline float cascade_weight_by_projection(float u, float v, float z, float margin, float band)
+{
+    float x = gnomon_abs(u - 0.5f);
+    float y = gnomon_abs(v - 0.5f);
+    float inside = (0.5f - margin) - gnomon_max(y, x);
+    bool known = y <= 0.5f && gnomon_abs(z) <= 1.0f; // a NaN in u is one in inside
+    return gnomon_select(known, cascade_inside(inside, band), 0.0f);
+}
+
+/// The blended intensity of the cascades so far, and the part in [0, 1] that is left to those to come.
+struct cascade_blend { float intensity, rest; };
+
+/// The part in [0, 1] that a cascade with this weight will have in the result.
+/// NaN: 0.
+inline float cascade_share(cascade_blend state, float weight)
+{
+    return saturate_or_zero(state.rest) * saturate_or_zero(weight);
+}
+
+/// The state after a cascade with its weight and its shadow intensity.
+/// NaN: a weight counts as 0, an intensity as lit.
+inline cascade_blend cascade_add(cascade_blend state, float weight, float intensity)
+{
+    float share = cascade_share(state, weight);
+    state.intensity = state.intensity + share * saturate_or_zero(intensity);
+    state.rest = state.rest - share;
+    return state;
+}
+
+/// The state after the first cascade, with its weight and its shadow intensity.
+/// NaN: a weight counts as 0, an intensity as lit.
+inline cascade_blend cascade_begin(float weight, float intensity)
+{
+    cascade_blend r;
+    r.intensity = 0.0f;
+    r.rest = 1.0f;
+    return cascade_add(r, weight, intensity);
+}
+
+/// Shadow intensity in [0, 1]. The part that no cascade took is lit.
+/// NaN: 0, lit.
+/// Error: 3 n 2^-p for n cascades.
+inline float cascade_end(cascade_blend state) { return saturate_or_zero(state.intensity); }
+
+/// The number of cascades passed over so far, and 1 while the search goes on, 0 afterwards.
+struct cascade_index { float index, searching; };
+
+/// The state after a cascade with its weight. index ends as the index of the first cascade whose weight exceeds
+/// threshold, or as the number of cascades if there is none. By threshold 0 that is the finest that may be read at all.
+/// NaN: a weight counts as 0.
+inline cascade_index cascade_index_add(cascade_index state, float weight, float threshold)
+{
+    state.searching = gnomon_select(threshold < weight, 0.0f, state.searching);
+    state.index = state.index + state.searching;
+    return state;
+}
+
+/// The state after the first cascade with its weight.
+/// NaN: a weight counts as 0.
+inline cascade_index cascade_index_begin(float weight, float threshold)
+{
+    cascade_index r;
+    r.index = 0.0f;
+    r.searching = 1.0f;
+    return cascade_index_add(r, weight, threshold);
+}
+
+} // namespace gnomon
+
+#endif
+
+// filters/convolution.h -----------------------------------------------------------------------------------------------
+// Convolution shadow maps (Annen, Mertens, Bekaert, Seidel & Kautz 2007): the shadow test is a square wave in z_f - z,
+// and its Fourier series
+//     1/2 + sum_k w_k sin(a_k (z_f - z)),   w_k = 2 / (pi (2 k - 1)),   a_k = (2 k - 1) span pi / 2,   k = 1..terms,
+// separates into products of functions of z, which the map holds (a cosine and a sine per term), and functions of z_f.
+// Unlike the other filters the series is no bound: truncated, it rings, and is 1/2 at z_f = z.
+//
+//     phase = convolution_encode(z, settings);          a texel's first cosine and sine
+//     phase = convolution_next(phase);                  its next ones
+//
+//     state = convolution_begin(z_f, settings);
+//     state = convolution_add(state, cosine, sine, convolution_weight(k, settings));       filtered, for k = 1, 2, ...
+//     intensity = convolution_end(state);
+#ifndef GNOMON_FILTERS_CONVOLUTION_H
+#define GNOMON_FILTERS_CONVOLUTION_H
+
+namespace gnomon {
+
+/// The number of terms. damping >= 0 attenuates term k by exp(-damping (k / terms)^2) against ringing (Annen et al.
+/// 2007). offset is subtracted from z_f, so that a surface in its own map lies where the series has come down to 0: the
+/// first zero is at 1.926 / (pi terms span), where the sine integral is pi / 2. span in (0, 1] is the part of a half
+/// period that depths in [-1, 1] fill. A span below 1 keeps a near receiver before a far texel from reaching the next
+/// edge of the wave.
+struct convolution_settings { float terms, damping, offset, span; };
+
+/// Cosine and sine of a_k z, and of the step from one term to the next.
+struct convolution_phase { float cosine, sine, step_cosine, step_sine; };
+
+/// The phase of the first term at z.
+/// Domain: z in [-2, 2], span in [0, 1]. For a span of 0 the series is 1/2.
+/// NaN: NaN.
+inline convolution_phase convolution_phase_at(float z, float span)
+{
+    float angle = trigonometry_half_pi * span * z;
+    cosine_sine first = polynomial_cosine_sine(angle);
+    cosine_sine step = polynomial_cosine_sine(2.0f * angle);
+    convolution_phase r;
+    r.cosine = first.cosine;
+    r.sine = first.sine;
+    r.step_cosine = step.cosine;
+    r.step_sine = step.sine;
+    return r;
+}
+
+/// The phase of the first term of the texel of a depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane.
+inline convolution_phase convolution_encode(float z, convolution_settings settings)
+{
+    return convolution_phase_at(clamp_or_high(z, -1.0f, 1.0f), settings.span);
+}
+
+/// The phase of the next term, by rotation.
+/// Error: of both values of term k, 8 k 2^-p.
+inline convolution_phase convolution_next(convolution_phase phase)
+{
+    convolution_phase r = phase;
+    r.cosine = phase.cosine * phase.step_cosine - phase.sine * phase.step_sine;
+    r.sine = phase.sine * phase.step_cosine + phase.cosine * phase.step_sine;
+    return r;
+}
+
+/// The weight w_k with its damping, k = 1, 2, ...: constant over texels and receivers, so best computed once.
+/// Domain: terms at least 1, damping at least 0. An infinite damping leaves no term, and the series is 1/2.
+/// NaN: NaN, which makes everything lit.
+inline float convolution_weight(float k, convolution_settings settings)
+{
+    float ratio = k / settings.terms;
+    return trigonometry_two_over_pi * polynomial_exp(-settings.damping * (ratio * ratio)) / (2.0f * k - 1.0f);
+}
+
+/// The receiver's phase at the next term, and the sum so far.
+struct convolution_sum
+{
+    convolution_phase receiver;
+    float intensity;
+};
+
+/// The state before the first term.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: lit, also for an offset or span of NaN.
+inline convolution_sum convolution_begin(float z_f, convolution_settings settings)
+{
+    convolution_sum r;
+    r.receiver = convolution_phase_at(clamp_or_nan(z_f, -1.0f, 1.0f) - settings.offset, settings.span);
+    r.intensity = 0.5f;
+    return r;
+}
+
+/// The state after the next term of the filtered map.
+inline convolution_sum convolution_add(convolution_sum state, float cosine, float sine, float weight)
+{
+    state.intensity = state.intensity + weight * (state.receiver.sine * cosine - state.receiver.cosine * sine);
+    state.receiver = convolution_next(state.receiver);
+    return state;
+}
+
+/// Shadow intensity in [0, 1].
+/// NaN: 0, lit.
+/// Error: against the exact series over 16 terms, 150 2^-p.
+/// Source: Annen 2007, Sec. 3
+inline float convolution_end(convolution_sum state) { return saturate_or_zero(state.intensity); }
+
+} // namespace gnomon
+
+#endif
+
+// filters/cube.h ------------------------------------------------------------------------------------------------------
+// Shadow maps of a point light on the six faces of a cube, with the faces, axes and orientations of OpenGL, Vulkan and
+// Direct3D: faces 0 to 5 look along +x, -x, +y, -y, +z, -z, and texture coordinates (u, v) lie in [0, 1].
+//
+// Store signed depth of the distance along the face's axis, cube_position.distance, which is the largest of |x|, |y|,
+// |z|, or of the distance to the light. Both are continuous over the edges of the cube, so maps may be blurred and
+// looked up across them. A face unfolds over its edge: texels beyond the edge are those of the neighbour, in order, so
+// that cube_direction of the centre of a texel beyond the edge leads to the centre of a texel there. A cube sampler
+// reads it as it is:
+//
+//     direction = cube_direction(face, u + k / size, v);       tap k of a blur along u, 0 <= u <= 1
+//
+// A quarter around each corner of the cube is missing, and the taps that would lie there go to the edge between the two
+// neighbours. Every result is a mean of texels, so bounds stay honest there, too. passes/cube.hpp has blur and look-up
+// in main memory.
+#ifndef GNOMON_FILTERS_CUBE_H
+#define GNOMON_FILTERS_CUBE_H
+
+namespace gnomon {
+
+/// A face, texture coordinates on it, and the distance from the centre along the face's axis.
+struct cube_position { float face, u, v, distance; };
+
+/// A direction from the centre of the cube, of any length.
+struct cube_vector { float x, y, z; };
+
+/// The face that a direction from the light points to, with the place on it. Among equal coordinates z has precedence
+/// over y, and y over x.
+/// Domain: any finite direction; for the zero vector the middle of face 4, at distance 0.
+/// NaN: some face and some place on it.
+/// Error: u and v 2 2^-p, distance none.
+inline cube_position cube_position_from_direction(float x, float y, float z)
+{
+    float ax = gnomon_abs(x);
+    float ay = gnomon_abs(y);
+    float az = gnomon_abs(z);
+    bool along_z = ax <= az && ay <= az;
+    bool along_y = ax <= ay && !along_z;
+    float major = gnomon_select(along_z, z, gnomon_select(along_y, y, x));
+    bool backward = major < 0.0f;
+    float sign = gnomon_select(backward, -1.0f, 1.0f);
+    float across = gnomon_select(along_z, sign * x, gnomon_select(along_y, x, -1.0f * sign * z));
+    float down = gnomon_select(along_y, sign * z, -1.0f * y);
+    cube_position r;
+    r.distance = gnomon_abs(major);
+    r.face = gnomon_select(along_z, 4.0f, gnomon_select(along_y, 2.0f, 0.0f)) + gnomon_select(backward, 1.0f, 0.0f);
+    float divisor = gnomon_select(0.0f < r.distance, r.distance, 1.0f);
+    r.u = clamp_or_high(0.5f * (across / divisor) + 0.5f, 0.0f, 1.0f);
+    r.v = clamp_or_high(0.5f * (down / divisor) + 0.5f, 0.0f, 1.0f);
+    return r;
+}
+
+/// The direction to a place on a face. Beyond an edge, by less than the face's extent, the place lies on the face
+/// folded over that edge.
+/// Domain: face 0, 1, ..., 5; u and v in [-1, 2].
+/// NaN: NaN in a coordinate.
+/// Error: 2 2^-p in each coordinate, the largest of which is 1 on the face.
+inline cube_vector cube_direction(float face, float u, float v)
+{
+    float s = 2.0f * u - 1.0f;
+    float t = 2.0f * v - 1.0f;
+    float across = clamp_or_nan(s, -1.0f, 1.0f);
+    float down = clamp_or_nan(t, -1.0f, 1.0f);
+    // The folded part is as far along the neighbour as the place is beyond the edge.
+    float ahead = (1.0f - gnomon_abs(s - across)) - gnomon_abs(t - down);
+    bool along_z = 3.5f < face;
+    bool along_y = 1.5f < face && !along_z;
+    bool backward = face == 1.0f || face == 3.0f || face == 5.0f;
+    float sign = gnomon_select(backward, -1.0f, 1.0f);
+    float up = -1.0f * down;
+    cube_vector r;
+    r.x = gnomon_select(along_z, sign * across, gnomon_select(along_y, across, sign * ahead));
+    r.y = gnomon_select(along_y, sign * ahead, up);
+    r.z = gnomon_select(along_z, sign * ahead, gnomon_select(along_y, sign * down, -1.0f * sign * across));
+    return r;
+}
+
+} // namespace gnomon
+
+#endif
+
+// numerics/two_product.h ----------------------------------------------------------------------------------------------
+// Error-free transformations: the difference or product of two numbers as the rounded result and its exact error
+// (Dekker 1971; Knuth 1997; Ogita, Rump & Oishi 2005). A double word, the unevaluated sum of such a pair, carries both
+// through further operations, so that differences of products keep the digits that cancellation would lose.
+#ifndef GNOMON_NUMERICS_TWO_PRODUCT_H
+#define GNOMON_NUMERICS_TWO_PRODUCT_H
+
+namespace gnomon {
+
+/// The unevaluated sum high + low.
+struct double_word { float high, low; };
+
+/// The error a b - p of the rounded product p, without a fused multiply-add: both factors are split into halves whose
+/// products are exact. In this order of summation all sums are exact, and an error of zero is +0, as by a fused
+/// multiply-add.
+/// Domain: as for two_product.
+/// Source: Dekker 1971
+inline float dekker_product_error(float a, float b, float p)
+{
+    float ah = gnomon_high_part(a);
+    float bh = gnomon_high_part(b);
+    float al = gnomon_difference(a, ah);
+    float bl = gnomon_difference(b, bh);
+    return gnomon_sum(gnomon_sum(gnomon_difference(ah * bh, p), al * bh), ah * bl) + al * bl;
+}
+
+/// a b exactly, as the rounded product and its error. Fused multiply-add and splitting give the same bits.
+/// Domain: |a|, |b| <= 2^100 and |a b| = 0 or >= 2^-100 in float; 2^900 and 2^-900 in double.
+/// Error: none; for smaller products low is off by at most two of the smallest denormals, since each of the four
+/// products of the split route rounds by half of one.
+/// Source: Dekker 1971; Ogita, Rump & Oishi 2005
+inline double_word two_product(float a, float b)
+{
+    double_word r;
+    r.high = gnomon_fma(a, b, -0.0f); // kept, as gnomon_product is: two fused products read it
+    r.low = gnomon_fma(a, b, -r.high);
+    return r;
+}
+
+/// a - b exactly, as the rounded difference and its error, for magnitudes in any order.
+/// Source: Knuth 1997, Sec. 4.2.2
+inline double_word two_difference(float a, float b)
+{
+    double_word r;
+    r.high = gnomon_difference(a, b);
+    float bv = gnomon_difference(r.high, a);
+    float av = gnomon_difference(r.high, bv);
+    r.low = gnomon_difference(a, av) - gnomon_sum(b, bv);
+    return r;
+}
+
+/// a - b exactly, as the rounded difference and its error.
+/// Domain: |a| >= |b| or a = 0; elsewhere low is off by up to a rounding of b.
+/// Source: Dekker 1971
+inline double_word two_difference_ordered(float a, float b)
+{
+    double_word r;
+    r.high = gnomon_difference(a, b);
+    r.low = gnomon_difference(a, r.high) - b;
+    return r;
+}
+
+/// c - a b as a double word, for magnitudes in any order.
+/// Domain: as for two_product.
+/// Error: 2 u^2 (|c| + |a b|), u = 2^-p.
+inline double_word subtract_product(float c, float a, float b)
+{
+    double_word p = two_product(a, b);
+    double_word r = two_difference(c, p.high);
+    r.low = r.low - p.low;
+    return r;
+}
+
+/// c - a b as a double word.
+/// Domain: |c| >= |a b|, elsewhere low is off by up to a rounding of a b; as for two_product.
+/// Error: 2 u^2 (|c| + |a b|), u = 2^-p.
+inline double_word subtract_product_ordered(float c, float a, float b)
+{
+    double_word p = two_product(a, b);
+    double_word r = two_difference_ordered(c, p.high);
+    r.low = r.low - p.low;
+    return r;
+}
+
+/// c - a b, rounded. Where c and a b cancel, their difference is exact.
+/// Domain: as for two_product.
+/// Error: 2 roundings of the result, also under cancellation.
+inline float subtract_product_rounded(float c, float a, float b)
+{
+    double_word p = two_product(a, b);
+    return gnomon_difference(c, p.high) - p.low;
+}
+
+/// a b - c d for double words, as a double word.
+/// Domain: each low is at most 2^-20 of its high in float, 2^-49 in double.
+/// Error: 2^-40 (|a b| + |c d|) in float, 2^-98 (|a b| + |c d|) in double.
+inline double_word double_word_minor(double_word a, double_word b, double_word c, double_word d)
+{
+    double_word p = two_product(a.high, b.high);
+    double_word q = two_product(c.high, d.high);
+    double_word r = two_difference(p.high, q.high);
+    float cross = (a.high * b.low + a.low * b.high) - (c.high * d.low + c.low * d.high);
+    r.low = r.low + ((p.low - q.low) + (cross + (a.low * b.low - c.low * d.low)));
+    return r;
+}
+
+/// a c - b^2 for double words, rounded.
+/// Domain: as for double_word_minor.
+/// Error: 2 roundings of the result beside that of double_word_minor.
+inline float double_word_determinant(double_word a, double_word b, double_word c)
+{
+    double_word p = two_product(a.high, c.high);
+    double_word q = two_product(b.high, b.high);
+    float cross = (a.high * c.low + a.low * (c.high + c.low)) - b.low * ((b.high + b.high) + b.low);
+    return gnomon_difference(p.high, q.high) + ((p.low - q.low) + cross);
+}
+
+} // namespace gnomon
+
+#endif
+
+// filters/depth_bias.h ------------------------------------------------------------------------------------------------
+// The depth bias that keeps a surface from shadowing itself: subtract it from the receiver's depth before the
+// intensity. A filter region holds depths of the receiver's own plane that are nearer to the light than the receiver,
+// by the most that the plane rises within the half widths of the filter. Half widths are those of blur and look-up
+// together, from the receiver to the centre of the farthest texel; for mip level l they are 2^l times as large. 9 taps
+// and bilinear filtering have 5.5 texels.
+//
+//     bias = depth_bias_slope_scaled(sine, cosine, 5.5 * footprint * depth_per_texel, 5.67);       from the normal
+//
+//     gradient = depth_gradient_from_derivatives(...);                                             from screen space
+//     bias = depth_bias_receiver_plane(gradient, half_width_x, half_width_y, limit);
+//
+//     intensity = variance_unorm16_intensity(channels, z_f - bias);
+#ifndef GNOMON_FILTERS_DEPTH_BIAS_H
+#define GNOMON_FILTERS_DEPTH_BIAS_H
+
+namespace gnomon {
+
+/// A bias of any size limited to [0, 2], the whole range of signed depth.
+/// NaN: 0.
+inline float depth_bias_limit(float bias) { return gnomon_min(2.0f, gnomon_max(bias, 0.0f)); }
+
+/// The slope-scaled depth bias in [0, 2] of a plane, from its tilt against the light. across and along are the parts of
+/// the normal across the light's direction and along it, of any length and sign. rise is the depth by which a plane at
+/// 45 degrees rises within the half width of the filter: half width in texels times depth per texel. steepest is the
+/// largest
+/// slope: beyond it a bias would remove the shadows of whole casters for the sake of surfaces that are hardly lit. The
+/// slope of 80 degrees is 5.67.
+/// Domain: any; rise and steepest at least 0, else 0. A plane along the light has the slope steepest.
+/// NaN: 0; a steepest of NaN counts as none.
+/// Error: relative, 2 2^-p.
+inline float depth_bias_slope_scaled(float across, float along, float rise, float steepest)
+{
+    return depth_bias_limit(rise * gnomon_min(steepest, gnomon_abs(across) / gnomon_abs(along)));
+}
+
+/// The change of depth per texel along x and y of the map.
+struct depth_gradient { float x, y; };
+
+/// The difference a b - c d, rounded. Where both products cancel, their difference keeps its precision.
+inline float depth_gradient_minor(float a, float b, float c, float d)
+{
+    double_word p = two_product(a, b);
+    double_word q = two_product(c, d);
+    return (p.high - q.high) + (p.low - q.low);
+}
+
+/// The gradient of depth across the receiver's plane, from the derivatives of the position in the map, x and y in
+/// texels, and of depth along two directions, 1 and 2, such as those of the screen.
+/// Domain: as for two_product; the directions are not parallel in the map, else infinite or NaN, for which
+/// depth_bias_receiver_plane gives the limit or 0.
+/// NaN: NaN.
+/// Error: relative, 10 2^-p.
+inline depth_gradient depth_gradient_from_derivatives(float x1, float y1, float depth1, float x2, float y2,
+                                                      float depth2)
+{
+    float determinant = depth_gradient_minor(x1, y2, x2, y1);
+    depth_gradient r;
+    r.x = depth_gradient_minor(depth1, y2, depth2, y1) / determinant;
+    r.y = depth_gradient_minor(x1, depth2, x2, depth1) / determinant;
+    return r;
+}
+
+/// The receiver-plane depth bias in [0, 2]: the most that a plane with this gradient rises within the half widths of
+/// the filter, in texels, but at most limit.
+/// Domain: any; limit at least 0, else 0.
+/// NaN: 0; a limit of NaN counts as none.
+/// Error: relative, 2 2^-p.
+inline float depth_bias_receiver_plane(depth_gradient gradient, float half_width_x, float half_width_y, float limit)
+{
+    float rise = gnomon_abs(gradient.x * half_width_x) + gnomon_abs(gradient.y * half_width_y);
+    return depth_bias_limit(gnomon_min(limit, rise));
+}
+
+} // namespace gnomon
+
+#endif
+
+// filters/exponential.h -----------------------------------------------------------------------------------------------
+// Exponential shadow maps (Salvi 2008; Annen et al. 2008; Peters et al. 2017, 2.2): the map holds exp(c z), and
+// Markov's inequality bounds the shadow intensity from below: Z(z < z_f) >= 1 - E[exp(c z)] / exp(c z_f).
+#ifndef GNOMON_FILTERS_EXPONENTIAL_H
+#define GNOMON_FILTERS_EXPONENTIAL_H
+
+namespace gnomon {
+
+/// E[exp(c z)].
+struct exponential_moment { float warped; };
+
+/// The exponent c > 0: the larger, the less light leaks just behind an occluder. In float c <= 44 keeps every product
+/// finite.
+struct exponential_settings { float exponent; };
+
+/// The warped moment of one depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Error: relative, (c + 2) 2^-p, mostly from rounding c z.
+inline exponential_moment exponential_encode(float z, exponential_settings settings)
+{
+    exponential_moment r;
+    r.warped = polynomial_exp(settings.exponent * clamp_or_high(z, -1.0f, 1.0f));
+    return r;
+}
+
+/// Shadow intensity in [0, 1] at depth z_f, never above percentage-closer filtering but for rounding.
+/// Domain: any z_f; beyond the far plane as on it; an exponent of at least 0. For 0 everything is lit. From 44 on in
+/// float shadows leak where both depths are on one side of 0. A negative exponent turns the order of depths around.
+/// NaN: 0, lit.
+/// Error: (c + 5) 2^-p (1 - intensity) + 2^-p, p the bits of the significand.
+/// Source: Salvi 2008; Annen 2008; Peters 2017, Sec. 2.2
+inline float exponential_intensity(exponential_moment filtered, float z_f, exponential_settings settings)
+{
+    return saturate_or_zero(1.0f - filtered.warped * polynomial_exp(-settings.exponent * gnomon_min(1.0f, z_f)));
+}
+
+} // namespace gnomon
+
+#endif
+
+// filters/variance.h --------------------------------------------------------------------------------------------------
+// Variance shadow maps (Donnelly & Lauritzen 2006; Peters et al. 2017, 2.2): the map holds z and z^2, filtered to mean
+// and second moment, and Cantelli's inequality bounds the shadow intensity from below: Z(z < z_f) >= d^2 / (variance +
+// d^2), d = z_f - mean >= 0.
+#ifndef GNOMON_FILTERS_VARIANCE_H
+#define GNOMON_FILTERS_VARIANCE_H
+
+namespace gnomon {
+
+/// E[z] and E[z^2]. Linear combinations of such moments, by weights that sum to 1, are such moments again.
+struct variance_moments { float mean, square; };
+
+/// minimum_variance, at least 0, hides the rounding of the stored moments from the inequality (storage/variance.h).
+struct variance_settings { float minimum_variance; };
+
+/// The moments of one depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+inline variance_moments variance_encode(float z)
+{
+    variance_moments r;
+    r.mean = clamp_or_high(z, -1.0f, 1.0f);
+    r.square = r.mean * r.mean;
+    return r;
+}
+
+/// Cantelli's lower bound in [0, 1] on the probability of values below the receiver; 0 for a receiver at or before the
+/// mean.
+/// Domain: minimum_variance at least 0. A negative one counts for nothing; an infinite one leaves no shadow.
+/// NaN: 0; a minimum_variance of NaN counts for nothing.
+/// Error: with the rounding of the moments, r (1 + 4 q + sqrt q), q = (square + receiver^2) / (variance + d^2),
+/// r = 4 2^-p, p the bits of the significand.
+inline float cantelli_lower(variance_moments moments, float receiver, float minimum_variance)
+{
+    float variance = gnomon_max(minimum_variance, moments.square - moments.mean * moments.mean);
+    float d = gnomon_max(0.0f, receiver - moments.mean);
+    return saturate_or_zero(d * d / (variance + d * d));
+}
+
+/// Shadow intensity in [0, 1] at depth z_f, never above percentage-closer filtering but for rounding.
+/// Domain: any z_f; beyond the far plane as on it; minimum_variance as of cantelli_lower.
+/// NaN: 0, lit; a minimum_variance of NaN counts for nothing.
+/// Error: as cantelli_lower.
+/// Source: Donnelly & Lauritzen 2006; Peters 2017, Sec. 2.2
+inline float variance_intensity(variance_moments filtered, float z_f, variance_settings settings)
+{
+    return cantelli_lower(filtered, gnomon_min(1.0f, z_f), settings.minimum_variance);
+}
+
+} // namespace gnomon
+
+#endif
+
+// filters/exponential_variance.h --------------------------------------------------------------------------------------
+// Exponential variance shadow maps (Lauritzen & McCool 2008; Peters et al. 2017, 2.2): variance shadow maps of two
+// warped depths, exp(c+ z) and -exp(-c- z), both increasing, so both give a lower bound on the shadow intensity, and
+// the larger one holds too.
+#ifndef GNOMON_FILTERS_EXPONENTIAL_VARIANCE_H
+#define GNOMON_FILTERS_EXPONENTIAL_VARIANCE_H
+
+namespace gnomon {
+
+/// First and second moment of either warped depth.
+struct exponential_variance_moments { float positive, positive_square, negative, negative_square; };
+
+/// The exponents c+ and c-, and the minimum variance of the depth, before the warp. The paper has c+ = c- = 5.54 for
+/// half floats, whose range exp(2 c) fills, and c+ = 40, c- = 5.54 for floats. In float exponents of at most 40
+/// keep every product finite.
+struct exponential_variance_settings { float positive_exponent, negative_exponent, minimum_variance; };
+
+/// The warped moments of one depth z.
+/// Domain: z in [-1, 1].
+/// NaN: NaN.
+/// Error: of each value, relative, (2 c + 4) 2^-p.
+inline exponential_variance_moments exponential_variance_warp(float z, exponential_variance_settings settings)
+{
+    exponential_variance_moments r;
+    r.positive = polynomial_exp(settings.positive_exponent * z);
+    r.positive_square = r.positive * r.positive;
+    r.negative = -polynomial_exp(-settings.negative_exponent * z);
+    r.negative_square = r.negative * r.negative;
+    return r;
+}
+
+/// The warped moments of one depth z of the map.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Error: of each value, relative, (2 c + 4) 2^-p.
+inline exponential_variance_moments exponential_variance_encode(float z, exponential_variance_settings settings)
+{
+    return exponential_variance_warp(clamp_or_high(z, -1.0f, 1.0f), settings);
+}
+
+/// Cantelli's bound with the minimum variance carried through the warp's derivative at the receiver: |c warped|.
+/// Squares of a warped depth near 0 would be denormal, slow and inexact. Where receiver and mean are below 1 everything
+/// is scaled by 2^50, exactly. A larger mean needs no scale, and its square could overflow.
+inline float exponential_variance_side(variance_moments moments, float warped, float exponent, float minimum_variance)
+{
+    float scale = gnomon_select(gnomon_max(gnomon_abs(warped), gnomon_abs(moments.mean)) < 1.0f, 1125899906842624.0f,
+                                1.0f);
+    moments.mean = moments.mean * scale;
+    moments.square = moments.square * (scale * scale);
+    float slope = exponent * (warped * scale);
+    return cantelli_lower(moments, warped * scale, minimum_variance * (slope * slope));
+}
+
+/// Shadow intensity in [0, 1] at depth z_f, never above percentage-closer filtering but for rounding.
+/// Domain: any z_f, limited to [-1, 1]; exponents of at least 0, minimum_variance as of cantelli_lower. An exponent of
+/// 0, or one so large that squares overflow, takes the bound of its own warp away. A negative one turns the order of
+/// depths around.
+/// NaN: a NaN receiver gives 0, lit; a NaN moment or exponent takes the bound of its own warp away, which leaves the
+/// other's.
+/// Error: that of cantelli_lower for the warped depths, with r = (2 c + 8) 2^-p, the larger of both.
+/// Source: Lauritzen & McCool 2008; Peters 2017, Sec. 2.2
+inline float exponential_variance_intensity(exponential_variance_moments filtered, float z_f,
+                                            exponential_variance_settings settings)
+{
+    variance_moments positive;
+    positive.mean = filtered.positive;
+    positive.square = filtered.positive_square;
+    variance_moments negative;
+    negative.mean = filtered.negative;
+    negative.square = filtered.negative_square;
+    exponential_variance_moments receiver = exponential_variance_warp(clamp_or_nan(z_f, -1.0f, 1.0f), settings);
+    return gnomon_max(
+        exponential_variance_side(positive, receiver.positive, settings.positive_exponent, settings.minimum_variance),
+        exponential_variance_side(negative, receiver.negative, settings.negative_exponent, settings.minimum_variance));
+}
+
+} // namespace gnomon
+
+#endif
+
+// filters/layered_variance.h ------------------------------------------------------------------------------------------
+// Layered variance shadow maps (Lauritzen & McCool 2008, "Layered variance shadow maps", section 3): depth is cut into
+// layers, and each has a variance shadow map of the depth clamped to it and stretched to [-1, 1]. Clamping keeps the
+// order of depths, so that every layer bounds the shadow intensity from below, and the largest bound holds. Depths in
+// front of a layer are clamped to its front: only occluders and receivers that share a layer leak light.
+//
+//     state = layered_variance_begin(z_f);
+//     state = layered_variance_add(state, filtered, settings);      for every layer, or just for the receiver's own
+//     intensity = layered_variance_end(state);
+#ifndef GNOMON_FILTERS_LAYERED_VARIANCE_H
+#define GNOMON_FILTERS_LAYERED_VARIANCE_H
+
+namespace gnomon {
+
+/// A layer holds depths within 1 / scale of its centre; the minimum variance is that of the stretched depth.
+struct layered_variance_settings { float centre, scale, minimum_variance; };
+
+/// The layer's own depth of a depth z, in [-1, 1].
+/// Domain: any z; scale at least 0. For 0 the layer tells no depths apart; an infinite scale is a shadow test at the
+/// centre. A negative scale turns the order of depths around.
+/// NaN: NaN.
+inline float layered_variance_depth(float z, layered_variance_settings settings)
+{
+    return clamp_or_nan((z - settings.centre) * settings.scale, -1.0f, 1.0f);
+}
+
+/// The layer's moments of one depth z.
+/// Domain: any z.
+/// NaN: the far end of the layer, which shadows nothing.
+inline variance_moments layered_variance_encode(float z, layered_variance_settings settings)
+{
+    // Clamp once, not by layered_variance_depth and then by variance_encode: clang 14 drops the second clamp, and a
+    // NaN would stay a NaN.
+    variance_moments r;
+    r.mean = clamp_or_high((z - settings.centre) * settings.scale, -1.0f, 1.0f);
+    r.square = r.mean * r.mean;
+    return r;
+}
+
+/// The receiver's depth, and the largest bound so far.
+struct layered_variance { float receiver, intensity; };
+
+/// The state before the first layer.
+/// Domain: any z_f; beyond the far plane as on it.
+/// NaN: lit.
+inline layered_variance layered_variance_begin(float z_f)
+{
+    layered_variance r;
+    r.receiver = gnomon_min(1.0f, z_f);
+    r.intensity = 0.0f;
+    return r;
+}
+
+/// The state after one more layer with its filtered moments.
+/// NaN: a layer with a NaN moment, centre or scale bounds nothing.
+inline layered_variance layered_variance_add(layered_variance state, variance_moments filtered,
+                                             layered_variance_settings settings)
+{
+    float receiver = layered_variance_depth(state.receiver, settings);
+    state.intensity = gnomon_max(state.intensity, cantelli_lower(filtered, receiver, settings.minimum_variance));
+    return state;
+}
+
+/// Shadow intensity in [0, 1], never above percentage-closer filtering but for rounding.
+/// NaN: 0, lit.
+/// Error: that of cantelli_lower for the layers' own depths, with r = 8 2^-p, the largest of all.
+/// Source: Lauritzen & McCool 2008, Sec. 3
+inline float layered_variance_end(layered_variance state) { return saturate_or_zero(state.intensity); }
+
+} // namespace gnomon
+
+#endif
+
+// filters/percentage_closer.h -----------------------------------------------------------------------------------------
+// Percentage-closer filtering (Reeves, Salesin & Cook 1987; Peters et al. 2017, 2.2): the shadow intensity is the
+// weight of the shadow-map depths in front of the receiver, Z(z < z_f) itself. This filter is exact, cannot be filtered
+// beforehand, and is what every other filter here estimates.
+//
+//     state = percentage_closer_begin(z_f);
+//     state = percentage_closer_add(state, z, weight);      for every texel of the filter region, weights summing to 1
+//     intensity = percentage_closer_end(state);
+#ifndef GNOMON_FILTERS_PERCENTAGE_CLOSER_H
+#define GNOMON_FILTERS_PERCENTAGE_CLOSER_H
+
+namespace gnomon {
+
+/// The receiver's depth, and the weight in front of the receiver so far.
+struct percentage_closer { float receiver, shadowed; };
+
+/// The state before the first texel. Subtract a depth bias from z_f first (filters/depth_bias.h).
+/// Domain: any z_f; beyond the far plane as on it, so that a map cleared to the far plane shadows nothing.
+/// NaN: lit.
+inline percentage_closer percentage_closer_begin(float z_f)
+{
+    percentage_closer r;
+    r.receiver = gnomon_min(1.0f, z_f);
+    r.shadowed = 0.0f;
+    return r;
+}
+
+/// The state after one more texel of depth z with its filter weight.
+/// Domain: any z.
+/// NaN: a texel of depth NaN casts no shadow; a weight of NaN before the receiver makes everything lit.
+inline percentage_closer percentage_closer_add(percentage_closer state, float z, float weight)
+{
+    state.shadowed = state.shadowed + gnomon_select(z < state.receiver, weight, 0.0f);
+    return state;
+}
+
+/// Shadow intensity in [0, 1], also where the weights do not sum to 1.
+/// NaN: 0, lit.
+/// Error: that of the sum of weights.
+/// Source: Reeves, Salesin & Cook 1987
+inline float percentage_closer_end(percentage_closer state) { return saturate_or_zero(state.shadowed); }
+
+} // namespace gnomon
+
+#endif
+
+// moments/affine.h ----------------------------------------------------------------------------------------------------
+// Moments of depth in another range: a cascade, a cube face or a cached map with planes of its own. Signed depth in one
+// range is an affine function of signed depth in another, and so the moments of one follow from those of the other
+// (Peters et al. 2017, Eq. 2). Thus moments of two cascades can be mixed, and one reconstruction serves for both.
+//
+//     change = depth_change_from_planes(near_distance, far_distance, target_near, target_far);
+//     b = moments4_affine(b, change);                 moments of depths z are now moments of z scale + offset
+//
+// Change to a range that contains the other. Then |scale| + |offset| <= 1, depths stay in [-1, 1], and what rounding
+// did to moments does not grow: an error of at most e in every moment stays at most e. Towards a narrower range errors
+// grow by (|scale| + |offset|)^j, and depths leave [-1, 1]: convert the receiver's depth instead, which costs no
+// precision.
+//
+// Honest bounds need the error of raw moments, which for 4 x 16 UNORM is larger than that of channels: the constant
+// bias of affine4_unorm16_weight covers one rounding of each mixed map.
+#ifndef GNOMON_MOMENTS_AFFINE_H
+#define GNOMON_MOMENTS_AFFINE_H
+
+namespace gnomon {
+
+/// The function z scale + offset, from signed depth in one range to signed depth in another.
+struct depth_change { float scale, offset; };
+
+/// The change from signed depth between two planes, at near_distance and far_distance from the light, to signed depth
+/// between two others, at target_near and target_far. All distances are measured along the same axis, in any unit.
+/// Domain: near_distance < far_distance, target_near < target_far.
+/// NaN: NaN.
+/// Error: 4 2^-p of the largest distance over target_far - target_near.
+inline depth_change depth_change_from_planes(float near_distance, float far_distance, float target_near,
+                                             float target_far)
+{
+    float extent = target_far - target_near;
+    depth_change r;
+    r.scale = (far_distance - near_distance) / extent;
+    r.offset = ((near_distance - target_near) + (far_distance - target_far)) / extent;
+    return r;
+}
+
+/// Signed depth z in the other range.
+/// NaN: NaN.
+/// Error: two roundings.
+inline float depth_affine(float z, depth_change change) { return z * change.scale + change.offset; }
+
+} // namespace gnomon
+
+#endif
+
+// moments/affine.h, four moments --------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_AFFINE_4
+#define GNOMON_MOMENTS_AFFINE_4
+
+namespace gnomon {
+
+// (1/3 + sqrt 3) / (2 65535) / r, where r = 0.17678 is the distance of the bias vector (0, 0.375, 0, 0.375) to the
+// boundary of the vectors of moments, and the error of theta4_inverse and moments4_affine in float.
+constant constexpr float affine4_unorm16_weight = 9.6e-5f;
+
+/// The moments of z scale + offset, where b are the four moments of z.
+/// Domain: |scale| + |offset| <= 1 for the error.
+/// NaN: NaN.
+/// Error: 6 2^-p, absolute.
+/// Source: Peters 2017, Eq. 2
+inline moments4 moments4_affine(moments4 b, depth_change change)
+{
+    float s = change.scale;
+    float o = change.offset;
+    float s2 = s * s;
+    float c1 = s * b.b1;
+    float c2 = s2 * b.b2;
+    float c3 = s2 * s * b.b3;
+    moments4 r;
+    r.b1 = c1 + o;
+    r.b2 = c2 + o * (2.0f * c1 + o);
+    r.b3 = c3 + o * (3.0f * c2 + o * (3.0f * c1 + o));
+    r.b4 = s2 * s2 * b.b4 + o * (4.0f * c3 + o * (6.0f * c2 + o * (4.0f * c1 + o)));
+    return r;
+}
+
+} // namespace gnomon
+
+#endif
+
+// moments/affine.h, six moments ---------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_AFFINE_6
+#define GNOMON_MOMENTS_AFFINE_6
+
+namespace gnomon {
+
+/// The moments of z scale + offset, where b are the six moments of z.
+/// Domain: |scale| + |offset| <= 1 for the error.
+/// NaN: NaN.
+/// Error: 9 2^-p, absolute.
+inline moments6 moments6_affine(moments6 b, depth_change change)
+{
+    float s = change.scale;
+    float o = change.offset;
+    float s2 = s * s;
+    float c1 = s * b.b1;
+    float c2 = s2 * b.b2;
+    float c3 = s2 * s * b.b3;
+    float c4 = s2 * s2 * b.b4;
+    float c5 = s2 * s2 * s * b.b5;
+    moments6 r;
+    r.b1 = c1 + o;
+    r.b2 = c2 + o * (2.0f * c1 + o);
+    r.b3 = c3 + o * (3.0f * c2 + o * (3.0f * c1 + o));
+    r.b4 = c4 + o * (4.0f * c3 + o * (6.0f * c2 + o * (4.0f * c1 + o)));
+    r.b5 = c5 + o * (5.0f * c4 + o * (10.0f * c3 + o * (10.0f * c2 + o * (5.0f * c1 + o))));
+    r.b6 = s2 * s2 * s2 * b.b6 + o *
+           (6.0f * c5 + o * (15.0f * c4 + o * (20.0f * c3 + o * (15.0f * c2 + o * (6.0f * c1 + o)))));
+    return r;
+}
+
+} // namespace gnomon
+
+#endif
+
+// moments/bias.h, four moments ----------------------------------------------------------------------------------------
+// Biasing: rounding in storage can turn moments into numbers that belong to no distribution, so they are moved inwards
+// (Peters et al. 2017, Sec. 2.5).
+//
+// Let storage move the stored vector b by e, at most delta in each channel, and let r be the distance in the maximum
+// norm from b* to the boundary of the valid vectors. Interpolation by alpha gives
+//     (1 - alpha) (b + e) + alpha b* = (1 - alpha) b + alpha (b* + e (1 - alpha) / alpha),
+// whose last term is valid from alpha = delta / (delta + r) on. The result has the moments of the mixture (1 - alpha) Z
+// + alpha Z', so intensities exceed Z(z < z_f) by at most alpha. n roundings need n delta. The weight alpha is
+// therefore a property of the format and of the number of roundings, not a setting.
+//
+// The vectors b* below have the largest r and are computed by tests/derivations. Beside them stand the paper's vectors,
+// which have the largest Euclidean distance. Odd entries are 0 by symmetry.
+//
+// A bias is applied in one of two ways:
+//   interpolated    moments4_add_bias, then hankel4_from_moments, as in the paper: for UNORM and half floats
+//   kept apart      hankel4_constant_bias, the same mixture with 100 times less rounding error: for floats
+// Certificates (certified4.h) leak less than a constant bias and never darken a lit surface. A bias that depends on the
+// moments leaks less still, but darkens lit surfaces by up to 0.79 (docs/decisions/2-bias.md).
+#ifndef GNOMON_MOMENTS_BIAS_4
+#define GNOMON_MOMENTS_BIAS_4
+
+namespace gnomon {
+
+// Four moments without transform: r = 0.10147; the paper's vector has 0.10090.
+constant constexpr float bias4_raw_b2 = 0.41397147664677789f;
+constant constexpr float bias4_raw_b4 = 0.41397147664677789f;
+constant constexpr float bias4_raw_paper_b2 = 0.375f;
+constant constexpr float bias4_raw_paper_b4 = 0.375f;
+
+// Four moments after the sparse transform (quantization.h): r = 0.21652; the paper's vector has 0.20490.
+constant constexpr float bias4_theta_b2 = 0.66391434671237689f;
+constant constexpr float bias4_theta_b4 = 0.66391434671237689f;
+constant constexpr float bias4_theta_paper_b2 = 0.628f;
+constant constexpr float bias4_theta_paper_b4 = 0.628f;
+
+/// The biased moments (1 - alpha) b + alpha b*, where b* = (0, bias2, 0, bias4).
+/// Domain: alpha in [0, 1]. 0 is no bias; 1 leaves b* alone. Elsewhere the results are no moments, and intensities from
+/// them are in [0, 1].
+/// NaN: NaN, lit.
+/// Source: Peters 2017, Sec. 2.5
+inline moments4 moments4_add_bias(moments4 b, float bias2, float bias4, float alpha)
+{
+    float keep = 1.0f - alpha;
+    b.b1 = keep * b.b1;
+    b.b2 = keep * b.b2 + alpha * bias2;
+    b.b3 = keep * b.b3;
+    b.b4 = keep * b.b4 + alpha * bias4;
+    return b;
+}
+
+} // namespace gnomon
+
+#endif
+
+// moments/bias.h, six moments -----------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_BIAS_6
+#define GNOMON_MOMENTS_BIAS_6
+
+namespace gnomon {
+
+// Six moments without transform: r = 0.01629; the paper uses the vector for the transform here, which has 0.01180.
+constant constexpr float bias6_raw_b2 = 0.42015374983242804f;
+constant constexpr float bias6_raw_b4 = 0.2876068288776971f;
+constant constexpr float bias6_raw_b6 = 0.25730795870391842f;
+
+// Six moments after the sparse transform: r = 0.14575; the paper's vector has 0.13990.
+constant constexpr float bias6_theta_b2 = 0.61284694380550628f;
+constant constexpr float bias6_theta_b4 = 0.52469968779048582f;
+constant constexpr float bias6_theta_b6 = 0.50463026403505464f;
+constant constexpr float bias6_paper_b2 = 0.5566f;
+constant constexpr float bias6_paper_b4 = 0.489f;
+constant constexpr float bias6_paper_b6 = 0.47869382f;
+
+/// The biased moments (1 - alpha) b + alpha b*, where b* = (0, bias2, 0, bias4, 0, bias6).
+/// Domain: alpha in [0, 1]. 0 is no bias; 1 leaves b* alone. Elsewhere the results are no moments, and intensities from
+/// them are in [0, 1].
+/// NaN: NaN, lit.
+/// Source: Peters 2017, Sec. 2.5; Peters 2017, Sec. 5.4.3
+inline moments6 moments6_add_bias(moments6 b, float bias2, float bias4, float bias6, float alpha)
+{
+    float keep = 1.0f - alpha;
+    b.b1 = keep * b.b1;
+    b.b2 = keep * b.b2 + alpha * bias2;
+    b.b3 = keep * b.b3;
+    b.b4 = keep * b.b4 + alpha * bias4;
+    b.b5 = keep * b.b5;
+    b.b6 = keep * b.b6 + alpha * bias6;
+    return b;
+}
+
+} // namespace gnomon
+
+#endif
+
+// moments/bounds.h ----------------------------------------------------------------------------------------------------
+// The shadow intensity that is shown, from bounds on a depth distribution (Peters et al. 2017, Sec. 2.6 and 5.3).
+#ifndef GNOMON_MOMENTS_BOUNDS_H
+#define GNOMON_MOMENTS_BOUNDS_H
+
+namespace gnomon {
+
+/// Bounds on the shadow intensity: lower <= Z(z < z_f) and Z(z <= z_f) <= upper = lower + weight, where weight is the
+/// largest probability of depth z_f itself. All are in [0, 1], and 0 if a moment or the receiver's depth was NaN.
+struct hamburger_bounds { float lower, upper, weight; };
+
+/// Shadow intensity lower + (1 - overestimation) weight, in [0, 1]. overestimation is the paper's beta, which
+/// multiplies visibility: 1 never darkens a lit surface; 1/2 halves the worst error and suits single scattering.
+/// Domain: overestimation in [0, 1], clamped.
+/// NaN: an overestimation of NaN counts as 0; NaN bounds give 0, lit.
+/// Source: Peters 2017, Sec. 5.3.1
+inline float bounds_intensity(hamburger_bounds bounds, float overestimation)
+{
+    return saturate_or_zero(bounds.lower + (1.0f - saturate_or_zero(overestimation)) * bounds.weight);
+}
+
+/// Over-darkened intensity min(1, intensity / strength), which removes light leaking of up to 1 - strength. The paper
+/// uses a strength of 0.98.
+/// Domain: strength in (0, 1]. For 0 the result is 1 where intensity is above 0; for a negative one 0; beyond 1 shadows
+/// are lighter.
+/// NaN: 0, lit.
+/// Source: Annen 2007; Peters 2017, Sec. 2.6
+inline float over_darken(float intensity, float strength) { return saturate_or_zero(intensity / strength); }
+
+} // namespace gnomon
+
+#endif
+
+// moments/covariance.h ------------------------------------------------------------------------------------------------
+// Covariances of powers of depth, b_(i+j) - b_i b_j, as double words. Over a single surface nearly all digits cancel,
+// and the remaining ones decide the shadow. The factored Hankel matrices of four and of six moments start from them.
+#ifndef GNOMON_MOMENTS_COVARIANCE_H
+#define GNOMON_MOMENTS_COVARIANCE_H
+
+namespace gnomon {
+
+/// The covariance (b_ij + e_ij) - (b_i + e_i) (b_j + e_j) after a small change e of the moments, such as a bias, from
+/// c = b_ij - b_i b_j. The change goes into the low word: added to the moments it would be rounded away.
+inline double_word covariance_add_bias(double_word c, float b_i, float b_j, float e_ij, float e_i, float e_j)
+{
+    c.low = c.low + (e_ij - (b_i * e_j + e_i * (b_j + e_j)));
+    return c;
+}
+
+} // namespace gnomon
+
+#endif
+
+// moments/hankel4.h ---------------------------------------------------------------------------------------------------
+// The Hankel matrix of four moments, factored: the part of the work that all receivers of one filter region share
+// (Peters et al. 2017, Alg. 1, steps 1 and 2 without the right-hand side).
+//
+//     B = | 1  b1 b2 |      The factorization L D L^T has the pivots 1, D_1 = E[P_1^2] and D_2 = E[P_2^2], where
+//         | b1 b2 b3 |      P_1 = z - b1 and P_2 = P_1^2 - g P_1 - D_1 are the monic orthogonal polynomials of the
+//         | b2 b3 b4 |      distribution.
+//
+// After the first step of elimination the covariances of (z, z^2) remain: V = var z = D_1, L = cov(z, z^2) and
+// M = var z^2, and D_1 D_2 = V M - L^2. All three cancel, so they are computed from exact products. A bias (bias.h) is
+// added to the covariances, as double words, because added to the moments it would be rounded away. hamburger4.h
+// divides later, and uses G = g V = E[P_1^3] = L - 2 b1 V in place of L.
+#ifndef GNOMON_MOMENTS_HANKEL4_H
+#define GNOMON_MOMENTS_HANKEL4_H
+
+namespace gnomon {
+
+/// The factored matrix: mean b1, variance D_1, third central moment G, determinant D_1 D_2. Variance and determinant
+/// are positive for any moments in [-2^30, 2^30]; larger moments can overflow.
+/// NaN: a NaN among the moments stays NaN.
+struct hankel4 { float mean, variance, third, determinant; };
+
+/// The factored matrix from the mean, V, L and V M - L^2. Pivots below the floor are raised to the floor, so that
+/// indefinite moments still name a distribution.
+/// NaN: stays NaN, as the second argument of gnomon_max (portable.h).
+inline hankel4 hankel4_make(float mean, float variance, float covariance, float determinant)
+{
+    hankel4 h;
+    h.mean = mean;
+    h.variance = gnomon_max(gnomon_pivot_floor, variance);
+    h.third = covariance - (mean + mean) * h.variance;
+    h.determinant = gnomon_max(gnomon_pivot_floor * h.variance, determinant);
+    return h;
+}
+
+/// The factored matrix of moments b, in plain arithmetic: for double, and for biased moments from 16-bit storage, whose
+/// own errors are larger than those of the arithmetic.
+/// NaN: stays NaN.
+/// Source: Peters 2017, Alg. 1
+inline hankel4 hankel4_from_moments(moments4 b)
+{
+    float v = b.b2 - b.b1 * b.b1;
+    float l = b.b3 - b.b1 * b.b2;
+    float m = b.b4 - b.b2 * b.b2;
+    return hankel4_make(b.b1, v, l, v * m - l * l);
+}
+
+/// The covariances V, L and M of (z, z^2).
+struct covariances4 { double_word v, l, m; };
+
+/// The covariances without loss by cancellation. Jensen's inequality orders the terms of V and M, but not those of L.
+inline covariances4 covariances4_from_moments(moments4 b)
+{
+    covariances4 c;
+    c.v = subtract_product_ordered(b.b2, b.b1, b.b1);
+    c.l = subtract_product(b.b3, b.b1, b.b2);
+    c.m = subtract_product_ordered(b.b4, b.b2, b.b2);
+    return c;
+}
+
+/// The factored matrix of the mixture (1 - alpha) Z + alpha Z*, where Z has the moments b and Z* is symmetric with
+/// second and fourth moments bias2 and bias4.
+/// Domain: alpha in [0, 1), and at least n delta / (n delta + r) for moments that are off by n roundings (bias.h). With
+/// a smaller alpha pivots may be at the floor, and bounds are not reliable.
+/// NaN: stays NaN.
+/// Source: Peters 2017, Sec. 2.5; Peters 2017, Alg. 1
+inline hankel4 hankel4_constant_bias(moments4 b, float bias2, float bias4, float alpha)
+{
+    moments4 e;
+    e.b1 = -1.0f * alpha * b.b1;
+    e.b2 = alpha * (bias2 - b.b2);
+    e.b3 = -1.0f * alpha * b.b3;
+    e.b4 = alpha * (bias4 - b.b4);
+    covariances4 c = covariances4_from_moments(b);
+    double_word v = covariance_add_bias(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
+    double_word l = covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
+    double_word m = covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
+    return hankel4_make(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
+}
+
+} // namespace gnomon
+
+#endif
+
+// moments/channels.h --------------------------------------------------------------------------------------------------
+// The channels of a shadow map's texel, as a texture unit returns them: filtered or not, still behind the transform of
+// the storage format. Types of their own, so that channels never pass for moments, nor moments for channels.
+#ifndef GNOMON_MOMENTS_CHANNELS_H
+#define GNOMON_MOMENTS_CHANNELS_H
+
+namespace gnomon {
+
+struct channels1 { float c1; };
+
+struct channels2 { float c1, c2; };
+
+} // namespace gnomon
+
+#endif
+
+// moments/channels.h, four moments ------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_CHANNELS_4
+#define GNOMON_MOMENTS_CHANNELS_4
+
+namespace gnomon {
+
+struct channels4 { float c1, c2, c3, c4; };
+
+} // namespace gnomon
+
+#endif
+
+// moments/channels.h, six moments -------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_CHANNELS_6
+#define GNOMON_MOMENTS_CHANNELS_6
+
+namespace gnomon {
+
+struct channels6 { float c1, c2, c3, c4, c5, c6; };
+
+} // namespace gnomon
+
+#endif
+
+// moments/quantization.h, four moments --------------------------------------------------------------------------------
+// The sparse quantization transforms (Peters et al. 2017, Sec. 2.4 and 5.4.3): affine maps of the moments to channels
+// in [0, 1], for storage as UNORM. Odd and even moments are transformed separately. The transforms spread the codes of
+// the format as evenly as possible over the moments of depth distributions.
+//
+// Each channel is a polynomial in z that touches 0 and 1 on [-1, 1], and the determinant of the transform is the
+// largest possible. The gain in entropy over storing the moments themselves is 4.21 bits for four moments and 12.51
+// bits for six. tests/derivations computes the entries to full precision. The paper's entries for six moments are
+// slightly off the optimum: up to 5e-3 away, and the channels exceed [0, 1] by 6e-9.
+#ifndef GNOMON_MOMENTS_QUANTIZATION_4
+#define GNOMON_MOMENTS_QUANTIZATION_4
+
+namespace gnomon {
+
+/// The moments that a format without transform holds as they are.
+inline moments4 moments4_from_channels(channels4 c)
+{
+    moments4 b;
+    b.b1 = c.c1;
+    b.b2 = c.c2;
+    b.b3 = c.c3;
+    b.b4 = c.c4;
+    return b;
+}
+
+/// The moments b as the channels of a format without transform.
+inline channels4 channels4_from_moments(moments4 b)
+{
+    channels4 c;
+    c.c1 = b.b1;
+    c.c2 = b.b2;
+    c.c3 = b.b3;
+    c.c4 = b.b4;
+    return c;
+}
+
+constant constexpr float theta4_31 = 0.8660254037844386f;   // sqrt(3) / 2
+constant constexpr float theta4_33 = -0.38490017945975052f; // -2 sqrt(3) / 9
+constant constexpr float theta4_inverse11 = -0.33333333333333331f;
+constant constexpr float theta4_inverse13 = 1.7320508075688772f;
+constant constexpr float theta4_inverse33 = 1.299038105676658f;
+
+/// Theta_4*: the four channels, in [0, 1], of four moments of signed depth.
+/// Source: Peters 2017, Eq. 3
+inline channels4 theta4(moments4 b)
+{
+    channels4 c;
+    c.c1 = 1.5f * b.b1 - 2.0f * b.b3 + 0.5f;
+    c.c2 = 4.0f * (b.b2 - b.b4);
+    c.c3 = theta4_31 * b.b1 + theta4_33 * b.b3 + 0.5f;
+    c.c4 = 0.5f * (b.b2 + b.b4);
+    return c;
+}
+
+/// The four moments of channels c: the inverse of theta4.
+/// Source: Peters 2017, Eq. 3
+inline moments4 theta4_inverse(channels4 c)
+{
+    float c1 = c.c1 - 0.5f;
+    float c3 = c.c3 - 0.5f;
+    moments4 b;
+    b.b1 = theta4_inverse11 * c1 + theta4_inverse13 * c3;
+    b.b2 = 0.125f * c.c2 + c.c4;
+    b.b3 = theta4_inverse33 * c3 - 0.75f * c1;
+    b.b4 = c.c4 - 0.125f * c.c2;
+    return b;
+}
+
+/// The biased moments (1 - alpha) b + alpha (0, bias, 0, bias), where b are the moments of channels c: theta4_inverse
+/// and moments4_add_bias in one, with four products less.
+/// Domain: alpha in [0, 1], as of moments4_add_bias.
+/// NaN: NaN, lit.
+/// Source: Peters 2017, Eq. 3; Peters 2017, Sec. 2.5
+inline moments4 theta4_inverse_add_bias(channels4 c, float bias, float alpha)
+{
+    float keep = 1.0f - alpha;
+    float c1 = c.c1 - 0.5f;
+    float c3 = c.c3 - 0.5f;
+    float c2 = (0.125f * keep) * c.c2;
+    float c4 = keep * c.c4 + alpha * bias;
+    moments4 b;
+    b.b1 = (keep * theta4_inverse11) * c1 + (keep * theta4_inverse13) * c3;
+    b.b2 = c4 + c2;
+    b.b3 = (keep * theta4_inverse33) * c3 - (0.75f * keep) * c1;
+    b.b4 = c4 - c2;
+    return b;
+}
+
+} // namespace gnomon
+
+#endif
+
+// moments/quantization.h, six moments ---------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_QUANTIZATION_6
+#define GNOMON_MOMENTS_QUANTIZATION_6
+
+namespace gnomon {
+
+/// The moments that a format without transform holds as they are.
+inline moments6 moments6_from_channels(channels6 c)
+{
+    moments6 b;
+    b.b1 = c.c1;
+    b.b2 = c.c2;
+    b.b3 = c.c3;
+    b.b4 = c.c4;
+    b.b5 = c.c5;
+    b.b6 = c.c6;
+    return b;
+}
+
+/// The moments b as the channels of a format without transform.
+inline channels6 channels6_from_moments(moments6 b)
+{
+    channels6 c;
+    c.c1 = b.b1;
+    c.c2 = b.b2;
+    c.c3 = b.b3;
+    c.c4 = b.b4;
+    c.c5 = b.b5;
+    c.c6 = b.b6;
+    return c;
+}
+
+// Rows 2 and 3 for the odd moments. Row 1 is T_5(z) / 2, with Chebyshev polynomials T_n.
+constant constexpr float theta6_21 = -1.8745771666290014f;
+constant constexpr float theta6_23 = 4.204664766466248f;
+constant constexpr float theta6_25 = -1.8300875998372463f;
+constant constexpr float theta6_31 = 1.2643431422063351f;
+constant constexpr float theta6_33 = -1.4716161665593888f;
+constant constexpr float theta6_35 = 0.70727302435305361f;
+// Row 3 for the even moments: -sqrt(3)/3, 8 sqrt(3)/3, -16 sqrt(3)/9 and the offset 1/2 - 5 sqrt(3)/18. Rows 1 and 2
+// are 4 z^2 (1 - z^2) and T_3(z)^2.
+constant constexpr float theta6_62 = -0.57735026918962573f;
+constant constexpr float theta6_64 = 4.6188021535170058f;
+constant constexpr float theta6_66 = -3.0792014356780042f;
+constant constexpr float theta6_60 = 0.018874775675311862f;
+constant constexpr float theta6_inverse11 = -0.02841260648183782f;
+constant constexpr float theta6_inverse12 = 0.47582541301272185f;
+constant constexpr float theta6_inverse13 = 1.552587193469116f;
+constant constexpr float theta6_inverse31 = 0.10002244957859331f;
+constant constexpr float theta6_inverse32 = 0.84496560893955308f;
+constant constexpr float theta6_inverse33 = 1.0550119414818537f;
+constant constexpr float theta6_inverse51 = 0.25890700149881596f;
+constant constexpr float theta6_inverse52 = 0.90751156960796575f;
+constant constexpr float theta6_inverse53 = 0.83358142889321829f;
+constant constexpr float theta6_inverse_sixth = 0.16666666666666666f;
+constant constexpr float theta6_inverse23 = 0.8660254037844386f;
+constant constexpr float theta6_inverse63 = 0.81189881604791125f;
+
+/// Theta_6*: the six channels, in [0, 1], of six moments of signed depth, three from the odd and three from
+/// the even moments.
+/// Source: Peters 2017, Sec. 5.4.3
+inline channels6 theta6(moments6 b)
+{
+    channels6 c;
+    c.c1 = 2.5f * b.b1 - 10.0f * b.b3 + 8.0f * b.b5 + 0.5f;
+    c.c2 = theta6_21 * b.b1 + theta6_23 * b.b3 + theta6_25 * b.b5 + 0.5f;
+    c.c3 = theta6_31 * b.b1 + theta6_33 * b.b3 + theta6_35 * b.b5 + 0.5f;
+    c.c4 = 4.0f * (b.b2 - b.b4);
+    c.c5 = 9.0f * b.b2 - 24.0f * b.b4 + 16.0f * b.b6;
+    c.c6 = theta6_62 * b.b2 + theta6_64 * b.b4 + theta6_66 * b.b6 + theta6_60;
+    return c;
+}
+
+/// The six moments of channels c: the inverse of theta6.
+/// Source: Peters 2017, Sec. 5.4.3
+inline moments6 theta6_inverse(channels6 c)
+{
+    float c1 = c.c1 - 0.5f;
+    float c2 = c.c2 - 0.5f;
+    float c3 = c.c3 - 0.5f;
+    float c5 = theta6_inverse_sixth * c.c5;
+    float c6 = c.c6 - theta6_60;
+    moments6 b;
+    b.b1 = theta6_inverse11 * c1 + theta6_inverse12 * c2 + theta6_inverse13 * c3;
+    b.b3 = theta6_inverse31 * c1 + theta6_inverse32 * c2 + theta6_inverse33 * c3;
+    b.b5 = theta6_inverse51 * c1 + theta6_inverse52 * c2 + theta6_inverse53 * c3;
+    b.b2 = c5 + theta6_inverse23 * c6;
+    b.b4 = (c5 + theta6_inverse23 * c6) - 0.25f * c.c4;
+    b.b6 = (0.21875f * c.c5 + theta6_inverse63 * c6) - 0.375f * c.c4;
+    return b;
+}
+
+} // namespace gnomon
+
+#endif
+
+// moments/certified4.h ------------------------------------------------------------------------------------------------
+// Shadow intensity from four stored moments, certified: never above Z(z < z_f), for any errors of storage within
+// the stated noise.
+//
+// A quartic p with p <= 1 before z_f and p <= 0 from z_f on has E[p] <= Z(z < z_f) for every distribution Z. Storage
+// moves channel k by at most noise_k, so E[p] is at least its value from the stored channels minus
+// sum_k noise_k |p_k|, where p_k is the coefficient at channel k. That bound holds for every such p. A p with its nodes
+// at those of the biased moments (hamburger4.h) is nearly the best (docs/decisions/2-bias.md).
+//
+// In y = z - z_f, and in the notation of hamburger4.h, the two nodes beside z_f are the roots of a y^2 + b y + w with
+//     a = Q V,    b = u N + Q (2 V u - G),    w = V N + u^2 N + Q^2,    r^2 = b^2 - 4 a w.
+// Of the nodes before z_f the nearer one is at y = -1 / c with c = (b + r) / (2 w). The certificate is
+//     Q < 0, one node on either side:    p = -(1 + d + k y)^2 (2 (c - k) y + c (c - 2 k) y^2)
+//     Q >= 0 and b > 0, both before:     p = 1 - (1 + c y)^2 (1 + g y)^2
+//     otherwise, none before:            no p, and the bound is 0
+// with d = b / (2 r) - 1/2, k = c d and g = (b - r) / (2 w). Both p are 1 at the nodes before z_f, and 0 at z_f and at
+// the nodes behind. Any other c >= 0, d in [-1, 0] and g >= 0 give a valid p as well, so rounding in the nodes costs
+// only some leaking.
+#ifndef GNOMON_MOMENTS_CERTIFIED4_H
+#define GNOMON_MOMENTS_CERTIFIED4_H
+
+namespace gnomon {
+
+/// The polynomial p(z) = top - (s0 + s1 z + s2 z^2 + s3 z^3 + s4 z^4). top is 0 or 1, or -2^100 if
+/// nothing is certified.
+struct certificate4 { float top, s0, s1, s2, s3, s4; };
+
+constant constexpr float certificate4_nothing = -1267650600228229401496703205376.0f; // -2^100
+
+/// The certificate p = n0 - (t0 + t1 y)^2 (n0 + 2 n1 y + n2 y^2), y = z - z_f, as a polynomial in z.
+inline certificate4 certificate4_about(float z_f, float n0, float t0, float t1, float n1, float n2)
+{
+    float nz = n2 * z_f;
+    float ns = (n1 + n1) - nz;
+    float k0 = n0 - ns * z_f;
+    float k1 = ns - nz;
+    float m = t0 - t1 * z_f;
+    float m0 = m * m;
+    float m1 = m * (t1 + t1);
+    float m2 = t1 * t1;
+    certificate4 p;
+    p.top = n0;
+    p.s0 = m0 * k0;
+    p.s1 = m0 * k1 + m1 * k0;
+    p.s2 = m0 * n2 + (m1 * k1 + m2 * k0);
+    p.s3 = m1 * n2 + m2 * k1;
+    p.s4 = m2 * n2;
+    return p;
+}
+
+/// The certificate for a receiver at z_f, from the matrix of biased moments of 16-bit storage. Neither quotient waits
+/// for the square root. b + r and b - r may cancel, which is harmless since the bias keeps the nodes far apart.
+/// Domain: z_f in [-1, 1]; h positive definite.
+inline certificate4 certificate4_make(hankel4 h, float z_f)
+{
+    float u = z_f - h.mean;
+    float vu = h.variance * u;
+    float slope = vu - h.third;
+    float q = slope * u - h.variance * h.variance;
+    float un = u * h.determinant;
+    float w = h.variance * h.determinant + (u * un + q * q);
+    float w2 = w + w;
+    float a = q * h.variance;
+    float b = un + q * (vu + slope);
+    float square = b * b - (a + a) * w2;
+    float inverse = 1.0f / w2;
+    float ratio = b / (square + square);
+    float r = gnomon_sqrt(gnomon_max(0.0f, square));
+    float c = (b + r) * inverse;
+    float g = (b - r) * inverse;
+    float d = ratio * r - 0.5f;
+    float k = c * d;
+    bool between = q < 0.0f;
+    float n0 = gnomon_select(between, 0.0f, 1.0f);
+    float n1 = gnomon_select(between, c - k, g);
+    float n2 = gnomon_select(between, c, g) * gnomon_select(between, (c - k) - k, g);
+    float t0 = gnomon_select(between, 1.0f + d, 1.0f);
+    float t1 = gnomon_select(between, k, c);
+    certificate4 p = certificate4_about(z_f, n0, t0, t1, n1, n2);
+    p.top = gnomon_select(between || (0.0f < b), n0, certificate4_nothing);
+    return p;
+}
+
+/// The least possible value of E[p], given channels c of theta4 that are each off by at most noise. The coefficients of
+/// p at the channels are the transpose of theta4_inverse times those at the moments.
+inline float certificate4_theta_mean(certificate4 p, channels4 c, float noise)
+{
+    float third = 0.75f * p.s3;
+    float p1 = theta4_inverse11 * p.s1 - third;
+    float p2 = 0.125f * (p.s2 - p.s4);
+    float p3 = theta4_inverse13 * (p.s1 + third);
+    float p4 = p.s2 + p.s4;
+    float mean = (p.s0 + (p2 * c.c2 + p4 * c.c4)) + (p1 * (c.c1 - 0.5f) + p3 * (c.c3 - 0.5f));
+    float doubt = noise * ((gnomon_abs(p1) + gnomon_abs(p2)) + (gnomon_abs(p3) + gnomon_abs(p4)));
+    return p.top - (mean + doubt);
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels c of theta4 that are each off by at
+/// most noise. h is the matrix of their moments with a bias.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+inline float certified4_theta_lower(hankel4 h, channels4 c, float noise, float z_f)
+{
+    certificate4 p = certificate4_make(h, clamp_or_nan(z_f, -1.0f, 1.0f));
+    return saturate_or_zero(certificate4_theta_mean(p, c, noise));
+}
+
+constant constexpr float certified4_scale = 137438953472.0f; // 2^37
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
+/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. Float
+/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
+/// the node before z_f, or 1 minus the weight of z_f. The contribution of the bias is then subtracted. 0 if rounding
+/// left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+inline float certified4_constant_bias_lower(hankel4 h, moments4 noise, float bias2, float bias4, float alpha, float z_f)
+{
+    float z = clamp_or_nan(z_f, -1.0f, 1.0f);
+    float u = z - h.mean;
+    float vu = h.variance * u;
+    float slope = vu - h.third;
+    float q = slope * u - h.variance * h.variance;
+    // The power of two is a factor of a, b and w, which otherwise underflow for a single depth.
+    float s = certified4_scale * q;
+    float n = certified4_scale * h.determinant;
+    float un = u * n;
+    float e = u * un + q * s;
+    float w = h.variance * n + e;
+    float w2 = w + w;
+    float a = s * h.variance;
+    float a2 = a + a;
+    float b = un + s * (vu + slope);
+    float r = gnomon_sqrt(gnomon_max(0.0f, b * b - a2 * w2));
+    bool between = q < 0.0f;
+    bool positive = 0.0f < b;
+    // Each quotient in the form that does not cancel.
+    float outer = r + gnomon_abs(b);
+    float c = gnomon_select(positive, outer, -2.0f * a) / gnomon_select(positive, w2, outer);
+    float inverse = 1.0f / gnomon_select(between, r + r, outer);
+    float g = a2 * inverse; // k if one node is on either side
+    float n0 = gnomon_select(between, 0.0f, 1.0f);
+    float n1 = gnomon_select(between, c - g, g);
+    float n2 = gnomon_select(between, c, g) * gnomon_select(between, (c - g) - g, g);
+    float t0 = gnomon_select(between, 0.5f + b * inverse, 1.0f);
+    float t1 = gnomon_select(between, g, c);
+    certificate4 p = certificate4_about(z, n0, t0, t1, n1, n2);
+    float share = gnomon_select(between, 0.5f * (e * (r + b)) - w * (a * u), e);
+    float mean = share / (w * gnomon_select(between, r, 1.0f));
+    float added = alpha * ((p.top - p.s0) - (bias2 * p.s2 + bias4 * p.s4));
+    float doubt = (noise.b1 * gnomon_abs(p.s1) + noise.b2 * gnomon_abs(p.s2)) +
+                  (noise.b3 * gnomon_abs(p.s3) + noise.b4 * gnomon_abs(p.s4));
+    bool known = (between || positive) && (gnomon_pivot_floor * h.variance < h.determinant);
+    return gnomon_select(known, saturate_or_zero(mean - (added + doubt)), 0.0f);
+}
+
+/// The largest error of each moment of b after one rounding to float: 2 delta |b_j|, but at most delta.
+inline moments4 moments4_rounding(moments4 b, float delta)
+{
+    moments4 e;
+    e.b1 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b1));
+    e.b2 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b2));
+    e.b3 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b3));
+    e.b4 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b4));
+    return e;
+}
+
+/// The largest error of each filtered moment of b after roundings before the filter, which the moments of |z| bound.
+/// For the third, E |z|^3 <= (b2 + b4) / 2.
+inline moments4 moments4_rounding_filtered(moments4 b, float delta)
+{
+    moments4 e;
+    e.b1 = delta;
+    e.b2 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b2));
+    e.b3 = gnomon_min(delta, delta * gnomon_abs(b.b2 + b.b4));
+    e.b4 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b4));
+    return e;
+}
+
+} // namespace gnomon
+
+#endif
+
+// numerics/quadratic.h ------------------------------------------------------------------------------------------------
+// Roots of a x^2 + 2 b x + c without cancellation. The sum b + sign(b) sqrt(b^2 - a c) has terms of one sign and gives
+// one root; the product of the roots, c / a, gives the other.
+#ifndef GNOMON_NUMERICS_QUADRATIC_H
+#define GNOMON_NUMERICS_QUADRATIC_H
+
+namespace gnomon {
+
+/// The two roots, in no particular order.
+struct quadratic_result { float first, second; };
+
+/// Both roots of a x^2 + 2 b x + c; for complex roots, their common real part twice. One root is infinite if a is 0.
+/// Domain: b^2 and a c neither overflow nor underflow.
+/// NaN: a NaN gives at least one NaN root; a = b = c = 0 gives two.
+/// Error: 4 ulp where a c <= b^2 / 2, by as many roundings.
+inline quadratic_result quadratic_roots(float a, float b, float c)
+{
+    float r = gnomon_sqrt(gnomon_max(b * b - a * c, 0.0f));
+    float t = gnomon_select(b > 0.0f, -(b + r), r - b);
+    quadratic_result x;
+    x.first = t / a;
+    x.second = c / t;
+    return x;
+}
+
+} // namespace gnomon
+
+#endif
+
+// moments/hamburger4.h ------------------------------------------------------------------------------------------------
+// Shadow intensity from four moments: sharp bounds on Z(z < z_f) over all depth distributions Z with these moments
+// (the Hamburger moment problem; Peters et al. 2017, Eq. 1 and Alg. 1), without solving for all nodes and weights.
+//
+// The Christoffel-Darboux kernel K(x, y) = sum_k P_k(x) P_k(y) / D_k of the factored Hankel matrix (hankel4.h)
+// gives the canonical distribution with a node at z_f: the other two nodes are the roots of K(z_f, .), and a node
+// at z has the weight w(z) = 1 / K(z, z). The number of nodes above z_f is the number of sign changes in
+// P_0(z_f), P_1(z_f), P_2(z_f):
+//     no node above:      lower = 1 - w_f
+//     both nodes above:   lower = 0
+//     one node above:     lower = w(smaller root)
+// and upper = lower + w_f. Let x = z - mean, u = z_f - mean, V = D_1, N = D_1 D_2, W = V N and
+// Q(x) = V P_2 = (V x - G) x - V^2. Then
+//     w(z) = W / (W + x^2 N + Q(x)^2)
+//     K(z_f, .) = 0:    a x^2 + 2 b x + c = 0,    a = Q V,    2 b = u N - Q G,    c = W - Q V^2,    Q = Q(u)
+// If one root lies on each side, Q < 0, so r^2 = b^2 - a c is a sum of positive terms. The two nodes beside z_f have
+// the weight E / (W + E) together, E = u^2 N + Q^2, and their mean balances z_f about the mean of all, which gives the
+// weight of the smaller one without its root:
+//     w(smaller root) = (E (r + b) - W u a) / (2 r (W + E))
+// The whole takes one division and one square root.
+#ifndef GNOMON_MOMENTS_HAMBURGER4_H
+#define GNOMON_MOMENTS_HAMBURGER4_H
+
+namespace gnomon {
+
+/// The canonical distribution: depth0 at the receiver and depth1 <= depth2. The weights are in [0, 1] and sum to 1.
+struct distribution3 { float depth0, depth1, depth2, weight0, weight1, weight2; };
+
+constant constexpr float hamburger4_scale = 72057594037927936.0f;     // 2^56
+constant constexpr float hamburger4_lower_scale = 281474976710656.0f; // 2^48
+
+/// The polynomial Q(x) = V P_2(mean + x).
+inline float hamburger4_q(hankel4 h, float x) { return (h.variance * x - h.third) * x - h.variance * h.variance; }
+
+/// The weight of the node at mean + x, where q = Q(x).
+inline float hamburger4_weight(hankel4 h, float x, float q)
+{
+    float w = h.variance * h.determinant;
+    return w / (w + (x * x * h.determinant + q * q));
+}
+
+/// The quadratic a x^2 + 2 b x + c.
+struct hamburger4_quadratic { float a, b, c; };
+
+/// The quadratic whose roots x are the other two nodes minus the mean, for u = z_f - mean and q = Q(u).
+inline hamburger4_quadratic hamburger4_other_nodes(hankel4 h, float u, float q)
+{
+    // The power of two keeps the discriminant of a single depth, as small as 2^-139, from underflowing.
+    float n = h.determinant * hamburger4_scale;
+    float s = q * hamburger4_scale;
+    hamburger4_quadratic r;
+    r.a = s * h.variance;
+    r.b = 0.5f * (u * n - s * h.third);
+    r.c = h.variance * (n - r.a);
+    return r;
+}
+
+/// Lower bound and weight of the receiver as fractions: lower = share / total, w_f = receiver / whole.
+struct hamburger4_fractions { float share, total, receiver, whole; };
+
+/// Lower bound and weight of the receiver at z_f, clamped to [-1, 1], before division and clamping.
+inline hamburger4_fractions hamburger4_fractions_at(hankel4 h, float z_f)
+{
+    float u = clamp_or_nan(z_f, -1.0f, 1.0f) - h.mean;
+    float q = hamburger4_q(h, u);
+    // The power of two is a factor of every term. The terms of a single depth would underflow otherwise.
+    float s = hamburger4_lower_scale * q;
+    float n = hamburger4_lower_scale * h.determinant;
+    float un = u * n;
+    float a = s * h.variance;
+    float b = 0.5f * (un - s * h.third);
+    float r = gnomon_sqrt(b * b - a * (h.variance * (n - a)));
+    float e = u * un + q * s;
+    hamburger4_fractions f;
+    f.receiver = h.variance * n;
+    f.whole = f.receiver + e;
+    bool between = q < 0.0f;
+    // Elsewhere u is never 0 and the quotient is e / whole with the sign of u: a negative lower bound is clamped to 0.
+    f.share = gnomon_select(between, e * (r + b) - f.receiver * (u * a), e * u);
+    f.total = gnomon_select(between, r + r, gnomon_abs(u)) * f.whole;
+    return f;
+}
+
+/// Lower bound on the shadow intensity at z_f, in [0, 1]. Surfaces should show this bound, since it never darkens
+/// a lit surface.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit, for a NaN in h or z_f.
+/// Error: against the moment problem solved in 120 digits (tests/moments/hamburger_oracle.cpp),
+///     error, double, no bias, three depths and more: p99 1e-13, p99.9 2e-12
+///     error, float, hankel4_constant_bias at 3e-7: p99 3e-5, p99.9 1e-4, max 5e-4
+/// and against the kernel in double, with maxima found by climbing (tests/moments/honest_four.cpp),
+///     error, float, hankel4_from_float: p99 3e-5, p99.9 1e-4, max 5e-4
+///     error, float, hankel4_from_float_filtered: p99 2e-5, p99.9 5e-5, max 1e-4
+///     error, float, hankel4_from_half: p99 3e-5, p99.9 1e-4, max 2e-3
+///     error, float, hankel4_from_half_filtered: p99 1e-5, p99.9 3e-5, max 3e-4
+///     error, float, hankel4_from_unorm16: p99 4e-4, p99.9 2e-3, max 5e-2
+///     error, float, hankel4_from_unorm16_filtered: p99 2e-4, p99.9 6e-4, max 4e-3
+/// Source: Peters 2017, Eq. 1; Peters 2017, Alg. 1
+inline float hamburger4_lower(hankel4 h, float z_f)
+{
+    hamburger4_fractions f = hamburger4_fractions_at(h, z_f);
+    return saturate_or_zero(f.share / f.total);
+}
+
+/// Both bounds on the shadow intensity at z_f and the weight of the receiver, for one division more than
+/// the lower bound.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit, for a NaN in h or z_f.
+/// Error: as for hamburger4_lower.
+/// Source: Peters 2017, Alg. 1; Peters 2017, Sec. 5.3
+inline hamburger_bounds hamburger4_bounds(hankel4 h, float z_f)
+{
+    hamburger4_fractions f = hamburger4_fractions_at(h, z_f);
+    hamburger_bounds r;
+    r.lower = saturate_or_zero(f.share / f.total);
+    r.weight = gnomon_min(saturate_or_zero(f.receiver / f.whole), 1.0f - r.lower);
+    r.upper = r.lower + r.weight;
+    return r;
+}
+
+/// The canonical distribution with a node at z_f. The other two depths are finite, at most 1024 from the mean, where a
+/// node that would be at infinity has no weight.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: a single depth at the far plane.
+/// Source: Peters 2017, Alg. 1
+inline distribution3 hamburger4_distribution(hankel4 h, float z_f)
+{
+    float z = clamp_or_nan(z_f, -1.0f, 1.0f);
+    float u = z - h.mean;
+    float q = hamburger4_q(h, u);
+    hamburger4_quadratic p = hamburger4_other_nodes(h, u, q);
+    quadratic_result x = quadratic_roots(p.a, p.b, p.c);
+    float x1 = clamp_or_nan(x.first, -1024.0f, 1024.0f);
+    float x2 = clamp_or_nan(x.second, -1024.0f, 1024.0f);
+    float w0 = hamburger4_weight(h, u, q);
+    float w1 = hamburger4_weight(h, x1, hamburger4_q(h, x1));
+    float w2 = hamburger4_weight(h, x2, hamburger4_q(h, x2));
+    float sum = w0 + (w1 + w2);
+    bool swapped = x2 < x1;
+    bool known = sum > 0.0f; // false for NaN
+    distribution3 d;
+    d.depth0 = gnomon_select(known, z, 1.0f);
+    d.depth1 = gnomon_select(known, h.mean + gnomon_select(swapped, x2, x1), 1.0f);
+    d.depth2 = gnomon_select(known, h.mean + gnomon_select(swapped, x1, x2), 1.0f);
+    d.weight1 = gnomon_select(known, gnomon_select(swapped, w2, w1) / sum, 0.0f);
+    d.weight2 = gnomon_select(known, gnomon_select(swapped, w1, w2) / sum, 0.0f);
+    d.weight0 = saturate_or_zero(1.0f - (d.weight1 + d.weight2));
+    return d;
+}
+
+} // namespace gnomon
+
+#endif
+
+// numerics/cubic.h ----------------------------------------------------------------------------------------------------
+// The largest root of a cubic t^3 + b t^2 + c t + d whose three roots are real.
+//
+// Viete's trigonometric solution gives the start: the largest root is the mean of the roots plus a multiple of
+// cos(1/3 arccos x). With q = cos(1/2 arccos x) = sqrt((1 + x) / 2) that cosine is cos(2/3 arccos q), here a polynomial
+// in q, so a square root replaces the trigonometry. Halley's iteration on the cubic then removes the error of the
+// start: one step in float; in double two steps, after a quadratic has corrected roots near 0.
+#ifndef GNOMON_NUMERICS_CUBIC_H
+#define GNOMON_NUMERICS_CUBIC_H
+
+namespace gnomon {
+
+// cos(2/3 arccos q) for q in [0, 1], interpolated at Chebyshev nodes: absolute error 1e-5.
+constant constexpr float cubic_cosine0 = 0.50000938f;
+constant constexpr float cubic_cosine1 = 0.57684887f;
+constant constexpr float cubic_cosine2 = -0.10666892f;
+constant constexpr float cubic_cosine3 = 0.03862587f;
+constant constexpr float cubic_cosine4 = -0.00882245f;
+constant constexpr float cubic_minus_third = -0.33333333333333331f;
+
+/// The result of a Halley step as a fraction, whose denominator is positive.
+struct cubic_step { float numerator, denominator; };
+
+/// The result of a step of Halley's iteration from t on t^3 + b t^2 + c t + d, before division; t at a multiple root.
+inline cubic_step cubic_halley_step(float b, float c, float d, float t)
+{
+    float tb = t + b;
+    float f = tb * (t * t) + (c * t + d);
+    float s = (tb + (tb + t)) * t + c;
+    float r = (t + t) + tb;
+    float whole = s * s - f * r; // positive except at a multiple root
+    bool simple = whole > 0.0f;
+    cubic_step x;
+    x.numerator = gnomon_select(simple, t * whole - f * s, t);
+    x.denominator = gnomon_select(simple, whole, 1.0f);
+    return x;
+}
+
+/// The result of a step of Halley's iteration from t on t^3 + b t^2 + c t + d.
+inline float cubic_halley(float b, float c, float d, float t)
+{
+    cubic_step x = cubic_halley_step(b, c, d, t);
+    return x.numerator / x.denominator;
+}
+
+/// The largest root of t^3 + b t^2 + c t + d, in closed form.
+/// Error: 1e-5 of the distance to the other two roots.
+inline float cubic_start(float b, float c, float d)
+{
+    float mean = cubic_minus_third * b;
+    float mean2 = mean * mean;
+    float spread2 = gnomon_max(mean2 + cubic_minus_third * c, 0.0f);
+    float spread = gnomon_sqrt(spread2);
+    float g = mean * ((mean2 + mean2) - c) - d; // the cubic's value at the mean, negated
+    float inverse = 1.0f / spread2;
+    float cosine = (g * inverse) * (spread * inverse);
+    float q2 = gnomon_min(gnomon_max(0.5f + 0.25f * cosine, 0.0f), 1.0f);
+    float q = gnomon_sqrt(q2);
+    float start = (cubic_cosine0 + q * cubic_cosine1) + q2 * ((cubic_cosine2 + q * cubic_cosine3) + q2 * cubic_cosine4);
+    return mean + (spread + spread) * start;
+}
+
+/// The positive root of t^3 + b t^2 + c t + d as a fraction.
+/// Domain: as for cubic_largest_root.
+/// Error: as for cubic_largest_root.
+inline cubic_step cubic_positive_root(float b, float c, float d)
+{
+    float t = cubic_start(b, c, d);
+    return cubic_halley_step(b, c, d, t);
+}
+
+/// The positive root t of f(t) = t^3 + b t^2 + c t + d.
+/// Domain: three real roots, the other two negative and at most 2^9 times as far from 0 as t in float, 2^40 in double.
+/// Beyond that ratio one step does not suffice in float.
+/// Error: 8 u (t^3 + |b| t^2 + |c| t + |d|) / |f'(t)|, as if the value of f had 8 roundings of u = 2^-p.
+inline float cubic_largest_root(float b, float c, float d)
+{
+    cubic_step x = cubic_positive_root(b, c, d);
+    return x.numerator / x.denominator;
+}
+
+} // namespace gnomon
+
+#endif
+
+// moments/hankel6.h ---------------------------------------------------------------------------------------------------
+// The Hankel matrix of six moments, factored: the part of the work that all receivers of one filter region share
+// (Peters et al. 2017, Alg. 1, steps 1 and 2 without the right-hand side, for m = 6; Sec. 5.4).
+//
+// A step of elimination leaves the covariances c_ij = b_(i+j) - b_i b_j of (z, z^2, z^3). The next, without divisions
+// (Bareiss 1968), leaves s_22 = c_11 c_22 - c_12^2, s_23 and s_33, and the last t = s_22 s_33 - s_23^2. The
+// factorization L D L^T has the pivots D_1 = c_11, D_2 = s_22 / c_11 and D_3 = t / (c_11 s_22), and l21 = c_12 / c_11
+// and l32 = s_23 / s_22 below the diagonal. With u = z - b1, the monic orthogonal polynomials of the distribution, for
+// which D_k = E[P_k^2], follow a three-term recurrence (Gautschi 2004, Sec. 1.3):
+//     P_1 = u,    P_2 = (u - (l21 - 2 b1)) P_1 - D_1,    P_3 = (u - (l32 - l21 - b1)) P_2 - (D_2 / D_1) P_1
+// Every difference of moments cancels, so all are computed from exact products. A bias (bias.h) is added to the
+// covariances, as double words that are kept until a pivot is complete, because added to the moments it would
+// be rounded away.
+//
+// hamburger6.h needs D_3 K(z, z) = D_3 + (D_3 / D_1) P_1^2 + (D_3 / D_2) P_2^2 + P_3^2, whose weights are stored. The
+// only quotients are 1 / D_1 and 1 / s_22, and neither waits for t.
+#ifndef GNOMON_MOMENTS_HANKEL6_H
+#define GNOMON_MOMENTS_HANKEL6_H
+
+namespace gnomon {
+
+/// The factored matrix. The recurrence has mean b1, variance D_1, the shifts of u in P_2 and P_3, and ratio D_2 / D_1.
+/// The weights of 1, P_1^2 and P_2^2 in D_3 K(z, z) are whole = D_3, first = D_3 / D_1 and second = D_3 / D_2. Pivots
+/// are positive for any moments.
+/// NaN: a NaN among the moments stays NaN.
+struct hankel6 { float mean, variance, shift2, shift3, ratio, whole, first, second; };
+
+/// The factored matrix from the mean, c_11, c_12, s_22, s_23 and t. Pivots below the floor are raised to the floor, so
+/// that indefinite moments still name a distribution.
+/// NaN: stays NaN, as the second argument of gnomon_max (portable.h).
+inline hankel6 hankel6_make(float mean, float c11, float c12, float s22, float s23, float t)
+{
+    hankel6 h;
+    h.mean = mean;
+    h.variance = gnomon_max(gnomon_pivot_floor, c11);
+    float inverse1 = 1.0f / h.variance;
+    float s = gnomon_max(gnomon_pivot_floor * h.variance, s22);
+    float inverse_s = 1.0f / s;
+    float l21 = c12 * inverse1;
+    h.shift2 = l21 - (mean + mean);
+    h.shift3 = (s23 * inverse_s - l21) - mean;
+    h.ratio = (s * inverse1) * inverse1;
+    h.whole = gnomon_max(gnomon_pivot_floor, (t * inverse_s) * inverse1);
+    h.first = h.whole * inverse1;
+    h.second = h.whole * (h.variance * inverse_s);
+    return h;
+}
+
+/// The covariances of (z, z^2, z^3).
+struct covariances6 { double_word c11, c12, c13, c22, c23, c33; };
+
+/// The covariances without loss by cancellation. Hoelder's inequality orders the terms of those with an even i + j.
+inline covariances6 covariances6_from_moments(moments6 b)
+{
+    covariances6 c;
+    c.c11 = subtract_product_ordered(b.b2, b.b1, b.b1);
+    c.c12 = subtract_product(b.b3, b.b1, b.b2);
+    c.c13 = subtract_product_ordered(b.b4, b.b1, b.b3);
+    c.c22 = subtract_product_ordered(b.b4, b.b2, b.b2);
+    c.c23 = subtract_product(b.b5, b.b2, b.b3);
+    c.c33 = subtract_product_ordered(b.b6, b.b3, b.b3);
+    return c;
+}
+
+/// a b - c d as a double word, for factors whose low words may be as large as the high ones.
+/// Domain: a b >= |c d| for the high words.
+/// Error: in float 2^-45 of both products of the high words, and 2^-21 of the contributions of the low words.
+inline double_word hankel6_minor(double_word a, double_word b, double_word c, double_word d)
+{
+    double_word p = two_product(a.high, b.high);
+    double_word q = two_product(c.high, d.high);
+    double_word r = two_difference_ordered(p.high, q.high);
+    float up = a.high * b.low + a.low * (b.high + b.low);
+    float down = c.high * d.low + c.low * (d.high + d.low);
+    r.low = r.low + ((p.low - q.low) + (up - down));
+    return r;
+}
+
+/// The factored matrix from the mean and the covariances, by elimination.
+inline hankel6 hankel6_factor(float mean, covariances6 c)
+{
+    double_word s22 = hankel6_minor(c.c11, c.c22, c.c12, c.c12);
+    double_word s23 = double_word_minor(c.c11, c.c23, c.c12, c.c13);
+    double_word s33 = hankel6_minor(c.c11, c.c33, c.c13, c.c13);
+    return hankel6_make(mean, c.c11.high + c.c11.low, c.c12.high + c.c12.low, s22.high + s22.low, s23.high + s23.low,
+                        double_word_determinant(s22, s23, s33));
+}
+
+/// The factored matrix of the mixture (1 - alpha) Z + alpha Z*, where Z has the moments b and Z* is symmetric with even
+/// moments bias2, bias4 and bias6. The covariances of the mixture, divided by 1 - alpha, are the sum of those of Z,
+/// alpha / (1 - alpha) times those of Z*, and alpha times the products of the differences of the means.
+/// Domain: alpha in [0, 1), and at least n delta / (n delta + r) for moments that are off by n roundings (bias.h). With
+/// a smaller alpha pivots may be at the floor, and bounds are not reliable.
+/// NaN: stays NaN.
+/// Source: Peters 2017, Sec. 2.5; Peters 2017, Sec. 5.4.3
+inline hankel6 hankel6_constant_bias(moments6 b, float bias2, float bias4, float bias6, float alpha)
+{
+    float keep = 1.0f - alpha;
+    float odds = alpha / keep;
+    float d2 = b.b2 - bias2;
+    float e1 = alpha * b.b1;
+    float e2 = alpha * d2;
+    float e3 = alpha * b.b3;
+    covariances6 c = covariances6_from_moments(b);
+    c.c11.low = c.c11.low + (e1 * b.b1 + odds * bias2);
+    c.c12.low = c.c12.low + e1 * d2;
+    c.c13.low = c.c13.low + (e1 * b.b3 + odds * bias4);
+    c.c22.low = c.c22.low + (e2 * d2 + odds * (bias4 - bias2 * bias2));
+    c.c23.low = c.c23.low + e2 * b.b3;
+    c.c33.low = c.c33.low + (e3 * b.b3 + odds * bias6);
+    hankel6 h = hankel6_factor(b.b1 - e1, c);
+    h.variance = keep * h.variance;
+    h.whole = keep * h.whole;
+    return h;
+}
+
+/// The factored matrix of moments b, in plain arithmetic: for double, and for biased moments from 10-bit and 16-bit
+/// storage, whose own errors are larger than those of the arithmetic.
+/// NaN: stays NaN.
+/// Source: Peters 2017, Alg. 1
+inline hankel6 hankel6_from_moments(moments6 b)
+{
+    float c11 = b.b2 - b.b1 * b.b1;
+    float c12 = b.b3 - b.b1 * b.b2;
+    float c13 = b.b4 - b.b1 * b.b3;
+    float s22 = c11 * (b.b4 - b.b2 * b.b2) - c12 * c12;
+    float s23 = c11 * (b.b5 - b.b2 * b.b3) - c12 * c13;
+    float s33 = c11 * (b.b6 - b.b3 * b.b3) - c13 * c13;
+    return hankel6_make(b.b1, c11, c12, s22, s23, s22 * s33 - s23 * s23);
+}
+
+} // namespace gnomon
+
+#endif
+
+// moments/hamburger6.h ------------------------------------------------------------------------------------------------
+// Shadow intensity from six moments, by the method of hamburger4.h (Peters et al. 2017, Sec. 5.4 and Alg. 1). Surface
+// shadows need four moments only. Six serve where many surfaces lie behind one another, as in single scattering.
+//
+// With K(x, y) = sum_k P_k(x) P_k(y) / D_k and w(z) = 1 / K(z, z), the number a of nodes above z_f is the number of
+// sign changes in P_0(z_f), ..., P_3(z_f):
+//     a = 0:  lower = 1 - w_f                        a = 2:  lower = w(smallest root)
+//     a = 1:  lower = 1 - w_f - w(largest root)      a = 3:  lower = 0
+// At most one root is needed, and that root is alone on its side of z_f. In t = 1 / (z - z_f) it is the only one of its
+// sign among the roots of
+//     k0 t^3 + k1 t^2 + k2 t + k3,      k0 = K(z_f, z_f) >= 1,      k_j = (d/dz)^j K(z_f, z) / j! at z_f.
+// After a change of sign it is the largest of three real roots, which cubic.h finds.
+#ifndef GNOMON_MOMENTS_HAMBURGER6_H
+#define GNOMON_MOMENTS_HAMBURGER6_H
+
+namespace gnomon {
+
+/// The canonical distribution: depth0 at the receiver and depth1 <= depth2 <= depth3. The weights are in [0, 1] and
+/// sum to 1.
+struct distribution4 { float depth0, depth1, depth2, depth3, weight0, weight1, weight2, weight3; };
+
+/// The orthogonal polynomials P_1, P_2 and P_3 at one depth.
+struct polynomials6 { float p1, p2, p3; };
+
+/// P_1, P_2 and P_3 at the depth mean + u.
+inline polynomials6 hamburger6_polynomials(hankel6 h, float u)
+{
+    polynomials6 p;
+    p.p1 = u;
+    p.p2 = (u - h.shift2) * u - h.variance;
+    p.p3 = (u - h.shift3) * p.p2 - h.ratio * u;
+    return p;
+}
+
+/// D_3 K(z, z), at least D_3, from the polynomials at z. A node at z has the weight h.whole divided by the result.
+inline float hamburger6_kernel(hankel6 h, polynomials6 p)
+{
+    return (h.whole + h.first * (p.p1 * p.p1)) + (h.second * (p.p2 * p.p2) + p.p3 * p.p3);
+}
+
+/// The derivatives P_2', P_3' and P_3'' / 2 at one depth.
+struct derivatives6 { float slope2, slope3, bend3; };
+
+/// The derivatives at the depth of p, from the recurrence: P_2' = 2 u - shift2, P_3' = P_2 + v P_2' - ratio and
+/// P_3'' / 2 = P_2' + v with v = u - shift3.
+inline derivatives6 hamburger6_derivatives(hankel6 h, polynomials6 p)
+{
+    float v = p.p1 - h.shift3;
+    derivatives6 d;
+    d.slope2 = (p.p1 + p.p1) - h.shift2;
+    d.slope3 = (p.p2 + v * d.slope2) - h.ratio;
+    d.bend3 = d.slope2 + v;
+    return d;
+}
+
+/// P_1, P_2 and P_3 at a depth that is farther by distance_, from p and its derivatives d by Taylor's formula, which is
+/// exact for polynomials. The distance of a node close to z_f would be rounded away in its depth. In float that decides
+/// whether a lit surface is darkened.
+inline polynomials6 hamburger6_polynomials_shift(polynomials6 p, derivatives6 d, float distance_)
+{
+    p.p1 = p.p1 + distance_;
+    p.p2 = p.p2 + distance_ * (d.slope2 + distance_);
+    p.p3 = p.p3 + distance_ * (d.slope3 + distance_ * (d.bend3 + distance_));
+    return p;
+}
+
+/// The cubic t^3 + b t^2 + c t + d.
+struct hamburger6_cubic { float b, c, d; };
+
+/// The cubic whose roots are side / (z - z_f) for the other nodes z, from polynomials p and derivatives d at z_f, with
+/// inverse = 1 / (D_3 K(z_f, z_f)) and side = 1 or -1.
+inline hamburger6_cubic hamburger6_other_nodes(hankel6 h, polynomials6 p, derivatives6 d, float inverse, float side)
+{
+    float q2 = h.second * p.p2;
+    hamburger6_cubic r;
+    r.b = inverse * (side * (h.first * p.p1 + (d.slope2 * q2 + d.slope3 * p.p3)));
+    r.c = inverse * (q2 + d.bend3 * p.p3);
+    r.d = inverse * (side * p.p3);
+    return r;
+}
+
+/// The distance 1 / t of a node from z_f, clamped to 1024, where a node that would be at infinity has no weight.
+inline float hamburger6_distance(float t)
+{
+    float least = 0.0009765625f;
+    float away = gnomon_select(t < 0.0f, gnomon_min(t, -least), gnomon_max(t, least));
+    return 1.0f / away;
+}
+
+/// Both bounds on the shadow intensity at z_f and the weight of the receiver.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit, for a NaN in h or z_f.
+/// Error: against the moment problem solved in 120 digits (tests/moments/hamburger_oracle.cpp),
+///     error, double, no bias, four depths and more: p99 1e-14, p99.9 4e-14
+///     error, float, hankel6_constant_bias at 5e-6: p99 2e-5, p99.9 5e-5, max 2e-4
+/// and against the kernel in double,
+///     error, float, hankel6_from_float: p99 2e-5, p99.9 5e-5, max 2e-4
+///     error, float, hankel6_from_float_filtered: p99 1e-5, p99.9 3e-5, max 1e-4
+///     error, float, hankel6_from_unorm16: p99 8e-4, p99.9 3e-3, max 4e-2
+///     error, float, hankel6_from_unorm16_filtered: p99 5e-4, p99.9 2e-3, max 2e-2
+///     error, float, hankel6_from_unorm10: p99 3e-5, p99.9 9e-5, max 8e-4
+///     error, float, hankel6_from_unorm10_filtered: p99 2e-5, p99.9 5e-5, max 3e-4
+/// Maxima are found by climbing and stated with a margin. Without a bias there is no maximum: if D_3 is at the floor,
+/// moments rounded in double cannot resolve distances below 2^-32.
+/// Source: Peters 2017, Alg. 1; Peters 2017, Sec. 5.4
+inline hamburger_bounds hamburger6_bounds(hankel6 h, float z_f)
+{
+    polynomials6 p = hamburger6_polynomials(h, clamp_or_nan(z_f, -1.0f, 1.0f) - h.mean);
+    float inverse = 1.0f / hamburger6_kernel(h, p);
+    float w_f = h.whole * inverse;
+    bool positive1 = p.p1 > 0.0f;
+    bool positive2 = p.p2 > 0.0f;
+    bool positive3 = p.p3 > 0.0f;
+    bool all_below = positive1 && positive2 && positive3;
+    bool all_above = (!positive1) && positive2 && (!positive3);
+    bool outside = all_below || all_above;
+    float lower = gnomon_select(all_below, 1.0f - w_f, 0.0f);
+    if (gnomon_any(!outside)) {
+        // P_3 > 0: two nodes above z_f and the lone one below. Else the lone one is above.
+        float side = gnomon_select(positive3, -1.0f, 1.0f);
+        derivatives6 d = hamburger6_derivatives(h, p);
+        hamburger6_cubic n = hamburger6_other_nodes(h, p, d, inverse, side);
+        cubic_step t = cubic_positive_root(n.b, n.c, n.d);
+        // Clamped to 1024, where a node that would be at infinity has no weight.
+        float distance_ = (side * t.denominator) / gnomon_max(t.numerator, 0.0009765625f * t.denominator);
+        float w = h.whole / hamburger6_kernel(h, hamburger6_polynomials_shift(p, d, distance_));
+        lower = gnomon_select(outside, lower, gnomon_select(positive3, w, (1.0f - w_f) - w));
+    }
+    hamburger_bounds r;
+    r.lower = saturate_or_zero(lower);
+    r.weight = gnomon_min(saturate_or_zero(w_f), 1.0f - r.lower);
+    r.upper = r.lower + r.weight;
+    return r;
+}
+
+/// Lower bound on the shadow intensity at z_f, in [0, 1]. Surfaces should show this bound, since it never darkens
+/// a lit surface.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit, for a NaN in h or z_f.
+/// Error: as for hamburger6_bounds.
+/// Source: Peters 2017, Eq. 1; Peters 2017, Alg. 1
+inline float hamburger6_lower(hankel6 h, float z_f) { return hamburger6_bounds(h, z_f).lower; }
+
+/// The canonical distribution with a node at z_f. The other three depths are finite, at most 1026 from z_f, where a
+/// node that would be at infinity has no weight.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: a single depth at the far plane.
+/// Source: Peters 2017, Alg. 1; Peters 2017, Sec. 5.4
+inline distribution4 hamburger6_distribution(hankel6 h, float z_f)
+{
+    polynomials6 p = hamburger6_polynomials(h, clamp_or_nan(z_f, -1.0f, 1.0f) - h.mean);
+    float inverse = 1.0f / hamburger6_kernel(h, p);
+    float side = gnomon_select(p.p3 > 0.0f, -1.0f, 1.0f);
+    hamburger6_cubic n = hamburger6_other_nodes(h, p, hamburger6_derivatives(h, p), inverse, side);
+    // The largest root. Division by it leaves a quadratic for the other two, which Halley's iteration refines.
+    float t1 = cubic_largest_root(n.b, n.c, n.d);
+    // The division starts at the end that does not cancel: at the highest power for a small root, else at the lowest.
+    bool large = (t1 * t1) * t1 > -n.d;
+    float backward = -n.d / t1;
+    float forward = n.b + t1;
+    float b = 0.5f * gnomon_select(large, (backward - n.c) / t1, forward);
+    float c = gnomon_select(large, backward, n.c + t1 * forward);
+    quadratic_result q = quadratic_roots(1.0f, b, c);
+    float t2 = cubic_halley(n.b, n.c, n.d, q.first);
+    float t3 = cubic_halley(n.b, n.c, n.d, q.second);
+    float x1 = p.p1 + side * hamburger6_distance(t1);
+    float x2 = p.p1 + side * hamburger6_distance(t2);
+    float x3 = p.p1 + side * hamburger6_distance(t3);
+    float low = gnomon_min(x2, x3);
+    float high = gnomon_max(x2, x3);
+    float y1 = gnomon_min(x1, low);
+    float y2 = gnomon_max(gnomon_min(x1, high), low);
+    float y3 = gnomon_max(x1, high);
+    float w0 = h.whole * inverse;
+    float w1 = h.whole / hamburger6_kernel(h, hamburger6_polynomials(h, y1));
+    float w2 = h.whole / hamburger6_kernel(h, hamburger6_polynomials(h, y2));
+    float w3 = h.whole / hamburger6_kernel(h, hamburger6_polynomials(h, y3));
+    float sum = (w0 + w1) + (w2 + w3);
+    bool known = sum > 0.0f; // false for NaN
+    distribution4 d;
+    d.depth0 = gnomon_select(known, h.mean + p.p1, 1.0f);
+    d.depth1 = gnomon_select(known, h.mean + y1, 1.0f);
+    d.depth2 = gnomon_select(known, h.mean + y2, 1.0f);
+    d.depth3 = gnomon_select(known, h.mean + y3, 1.0f);
+    d.weight1 = gnomon_select(known, w1 / sum, 0.0f);
+    d.weight2 = gnomon_select(known, w2 / sum, 0.0f);
+    d.weight3 = gnomon_select(known, w3 / sum, 0.0f);
+    d.weight0 = saturate_or_zero(1.0f - (d.weight1 + (d.weight2 + d.weight3)));
+    return d;
+}
+
+} // namespace gnomon
+
+#endif
+
+// moments/two_point.h -------------------------------------------------------------------------------------------------
+// A depth distribution of two depths from three moments (Peters et al. 2017, Alg. 2, Sec. 5.2 and App. B), which is the
+// limit of Alg. 1 for a prescribed depth at infinity.
+//
+// Around the mean m = b1, with V = b2 - b1^2 and G = E[(z - m)^3] / V, the two depths are m + x1 and m + x2, where x1
+// and x2 are the roots of x^2 - G x - V. The weights follow from w1 x1 + w2 x2 = 0. The roots have opposite signs, so
+// that nothing cancels after V and G.
+#ifndef GNOMON_MOMENTS_TWO_POINT_H
+#define GNOMON_MOMENTS_TWO_POINT_H
+
+namespace gnomon {
+
+/// Two depths, depth1 <= depth2, and their weights, which are in [0, 1] and sum to 1.
+struct distribution2 { float depth1, depth2, weight1, weight2; };
+
+constant constexpr float two_point_least_variance = 1.1920928955078125e-7f; // 2^-23
+
+/// The distribution of two depths with the moments b1, b2 and b3; a single depth b1 if the variance is at most
+/// least_variance. That should be the largest variance by rounding of a single depth: two_point_least_variance for
+/// moments stored as floats.
+/// Domain: moments of depths in [-1, 1]. For moments of no such distribution depths may lie outside, but in [-8193,
+/// 8193]: depths more than 2^13 apart are replaced by the single depth b1, clamped to [-1, 1].
+/// NaN: a single depth at the far plane.
+/// Source: Peters 2017, Alg. 2
+inline distribution2 two_point_distribution(float b1, float b2, float b3, float least_variance)
+{
+    double_word v = subtract_product_ordered(b2, b1, b1);
+    double_word c = subtract_product(b3, b1, b2);
+    float mean = clamp_or_nan(b1, -1.0f, 1.0f);
+    float variance = v.high + v.low;
+    bool single = !(variance > gnomon_max(least_variance, gnomon_pivot_floor));
+    float g = clamp_or_nan((c.high + c.low) / variance - 2.0f * mean, -4096.0f, 4096.0f);
+    float root = 0.5f * (gnomon_abs(g) + gnomon_sqrt(g * g + 4.0f * variance));
+    float far_side = gnomon_select(g < 0.0f, -root, root);
+    float near_side = -variance / far_side;
+    float x1 = gnomon_min(far_side, near_side);
+    float x2 = gnomon_max(far_side, near_side);
+    float any_nan = variance + (c.high + c.low);
+    bool known = any_nan == any_nan;
+    bool two = known && (!single) && (x2 - x1 > 0.0f) && (x2 - x1 < 8192.0f);
+    float centre = gnomon_select(known, mean, 1.0f);
+    distribution2 d;
+    d.depth1 = gnomon_select(two, mean + x1, centre);
+    d.depth2 = gnomon_select(two, mean + x2, centre);
+    d.weight2 = gnomon_select(two, saturate_or_zero(-x1 / (x2 - x1)), 0.0f);
+    d.weight1 = 1.0f - d.weight2;
+    return d;
+}
+
+} // namespace gnomon
+
+#endif
+
+// motion/range/range_cover.h ------------------------------------------------------------------------------------------
+// Texels that one surface covers for the whole shutter, in front of everything else: the coverage map of Hong & Oh
+// ("Efficient motion blurred shadows using a temporal shadow map", 2017). All other ranges of such a texel are occluded
+// at all times and need not be stored. A cover is a range from 0 to 1 with the id of its surface. A texel without a
+// cover has an empty range with the id -1.
+//
+// The paper needs three passes (comparators/three_pass_cover.h) and leaves a single pass for future work. These kernels
+// take one pass over ranges, in any order:
+//
+//     state = range_cover_begin(1);              state = range_cover_add(state, r);            for all r
+//     cover = range_cover_end(state);
+//
+// Ranges for which range_cover_occludes returns 1 may be left out of the list. The cover stays in the list, or a
+// look-up tests it first:
+//
+//     answer = range_cover_answer(cover, t, z, id, bias);   if answer.decided is 0, test the list
+#ifndef GNOMON_MOTION_RANGE_RANGE_COVER_H
+#define GNOMON_MOTION_RANGE_RANGE_COVER_H
+
+namespace gnomon {
+
+/// The best cover so far, and the nearest depth of all other ranges.
+struct range_cover
+{
+    depth_time_range best;
+    float front, far_plane;
+};
+
+/// The answer of a cover for one receiver: shadow intensity, 0 or 1, and decided, which is 1 if that is the answer of
+/// the whole texel and 0 if the list has to be tested.
+struct cover_answer { float intensity, decided; };
+
+constant constexpr float cover_margin = 0.0000019073486328125f; // 2^-19, 32 2^-p in float
+
+/// Begin without a range. Covers must not lie behind far_plane, which is 1.
+inline range_cover range_cover_begin(float far_plane)
+{
+    range_cover state;
+    state.best = range_empty(-1.0f);
+    state.front = far_plane;
+    state.far_plane = far_plane;
+    return state;
+}
+
+/// Add one range, as a whole: cut it into pieces (moving_depth_piece) only after it is known not to be the cover. The
+/// best of the ranges from 0 to 1 is the one with the least farthest depth; if any range is in front of all others,
+/// this one is. Ties go to the nearer end, then to the lesser id. All other ranges count as others, whatever their ids.
+/// A range whose times are out of order adds nothing.
+/// Domain: a cover needs depths within [-far_plane, far_plane] and an id of at least 0.
+/// NaN: a range with a NaN adds nothing.
+inline range_cover range_cover_add(range_cover state, depth_time_range r)
+{
+    float near_depth = gnomon_min(r.z0, r.z1);
+    float far_depth = gnomon_max(r.z0, r.z1);
+    float best_near = gnomon_min(state.best.z0, state.best.z1);
+    float best_far = gnomon_max(state.best.z0, state.best.z1);
+    bool some = r.t0 <= r.t1 && r.z0 == r.z0 && r.z1 == r.z1;
+    bool within = gnomon_abs(r.z0) <= state.far_plane && gnomon_abs(r.z1) <= state.far_plane;
+    bool full = some && r.t0 <= 0.0f && 1.0f <= r.t1 && within && 0.0f <= r.id;
+    bool first = state.best.id < 0.0f;
+    bool tie = far_depth == best_far;
+    bool tie_wins = near_depth < best_near || (near_depth == best_near && r.id < state.best.id);
+    bool better = full && (first || far_depth < best_far || (tie && tie_wins));
+
+    float other = gnomon_select(better, gnomon_select(first, state.far_plane, best_near), near_depth);
+    state.front = gnomon_select(some && other < state.front, other, state.front);
+    state.best = range_select(better, r, state.best);
+    return state;
+}
+
+/// The cover, or an empty range with the id -1: the best range if no other one is ever nearer than its farther end.
+/// Source: Hong & Oh 2017
+inline depth_time_range range_cover_end(range_cover state)
+{
+    bool covers = gnomon_max(state.best.z0, state.best.z1) <= state.front;
+    return range_select(covers, state.best, range_empty(-1.0f));
+}
+
+/// 1 where r may be left out of a list that keeps the cover: r is never nearer than the cover's farther end, or shadows
+/// nothing. A receiver behind r is then behind the cover at all times, and shadowed by the cover, in spite of the
+/// rounding of range_depth: the margin outweighs that rounding, and keeps a level cover from occluding itself. So a
+/// receiver gets the answer of all ranges, unless it has the cover's id and the cover is in front of it by more than
+/// its bias (see range_list.h for ids).
+/// Domain: depths in [-1, 1], times in [0, 1].
+inline float range_cover_occludes(depth_time_range cover, depth_time_range r)
+{
+    bool some = r.t0 <= r.t1 && r.z0 == r.z0 && r.z1 == r.z1;
+    float behind = gnomon_max(cover.z0, cover.z1) + cover_margin;
+    bool hidden = 0.0f <= cover.id && behind <= gnomon_min(r.z0, r.z1);
+    return gnomon_select(hidden || !some, 1.0f, 0.0f);
+}
+
+/// Shadow test at time t and depth z on the surface with the given id. Where decided, the answer is that of all ranges
+/// of the texel, bit for bit. The receiver is shadowed where z is more than the bias behind the cover and the cover has
+/// another id. The receiver is lit where z is within the bias, less 2^-19, of the cover's farther end, since nothing
+/// else is in front of the cover. Between the two, and without a cover, the answer is undecided. The paper compares no
+/// depths: its test shadows a neighbouring triangle that lies in front of the cover, but falls into the cover's texel
+/// by the map's resolution.
+/// Domain: times in [0, 1], depths in [-1, 1], bias in [0, 1].
+inline cover_answer range_cover_answer(depth_time_range cover, float t, float z, float id, float bias)
+{
+    cover_answer r;
+    r.intensity = range_intensity(cover, t, z, id, bias);
+    float behind = gnomon_max(cover.z0, cover.z1) + bias;
+    bool lit = z + cover_margin <= behind;
+    r.decided = gnomon_select(0.0f <= cover.id && (lit || 0.0f < r.intensity), 1.0f, 0.0f);
+    return r;
+}
+
+} // namespace gnomon
+
+#endif
+
+// motion/range/range_merge.h ------------------------------------------------------------------------------------------
+// A range that replaces two, for full lists of few ranges (the compression of Gribel et al. 2010). It lasts from the
+// begin of the earlier range to the end of the later one, and its depth line is in front of both, so that all that was
+// shadowed stays shadowed. To find the two most similar ranges, Gribel et al. weight the gap between them and their
+// differences in depth, slope and duration. Here a single measure without weights covers all of these: the area of the
+// plane of time and depth that becomes shadowed although no range was in front of it. Up to a factor, this is the
+// expected error for a receiver of unknown depth. The time for which a surface becomes shadowed by its own range is
+// added, since a range of two surfaces has the id of neither.
+#ifndef GNOMON_MOTION_RANGE_RANGE_MERGE_H
+#define GNOMON_MOTION_RANGE_RANGE_MERGE_H
+
+namespace gnomon {
+
+/// The range that replaces two; gap, the time between the two that it fills; shift, the largest distance by which it is
+/// in front of both; and the total cost.
+struct range_pair
+{
+    depth_time_range merged;
+    float gap, shift, cost;
+};
+
+constant constexpr float range_merge_margin = 0.000003814697265625f; // 2^-18, exact
+
+/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
+/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
+/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
+/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
+/// the result is the other one, unchanged.
+inline depth_time_range range_merge(depth_time_range a, depth_time_range b)
+{
+    depth_time_range hull;
+    hull.t0 = gnomon_min(a.t0, b.t0);
+    hull.t1 = gnomon_max(a.t1, b.t1);
+    float nearer0 = gnomon_min(a.z0, b.z0);
+    float nearer1 = gnomon_min(a.z1, b.z1);
+    hull.z0 = gnomon_select(a.t0 < b.t0, a.z0, gnomon_select(b.t0 < a.t0, b.z0, nearer0));
+    hull.z1 = gnomon_select(b.t1 < a.t1, a.z1, gnomon_select(a.t1 < b.t1, b.z1, nearer1));
+    hull.id = gnomon_select(a.id == b.id, a.id, range_mixed);
+
+    float back = gnomon_max(gnomon_max(range_depth(hull, a.t0) - a.z0, range_depth(hull, a.t1) - a.z1),
+                            gnomon_max(range_depth(hull, b.t0) - b.z0, range_depth(hull, b.t1) - b.z1));
+    back = gnomon_max(back, 0.0f);
+    float size = gnomon_max(gnomon_max(gnomon_abs(a.z0), gnomon_abs(a.z1)),
+                            gnomon_max(gnomon_abs(b.z0), gnomon_abs(b.z1)));
+    float margin = size * range_merge_margin;
+    float level = gnomon_min(nearer0, nearer1);
+    float sloped0 = hull.z0 - back;
+    float sloped1 = hull.z1 - back;
+    bool slopes = level + level < sloped0 + sloped1 && gnomon_abs(sloped0) + gnomon_abs(sloped1) < range_far;
+    hull.z0 = gnomon_select(slopes, sloped0, level) - margin;
+    hull.z1 = gnomon_select(slopes, sloped1, level) - margin;
+
+    bool some_a = a.t0 < a.t1;
+    bool some_b = b.t0 < b.t1;
+    return range_select(some_a && some_b, hull, range_select(some_a, a, b));
+}
+
+/// Area between the range and the far plane, in time and depth.
+inline float range_area(depth_time_range r) { return range_duration(r) * (1.0f - 0.5f * (r.z0 + r.z1)); }
+
+/// Largest distance of an end of r behind the range `nearer`, 0 if none is behind or r is empty.
+inline float range_distance(depth_time_range r, depth_time_range nearer)
+{
+    float distance0 = r.z0 - range_depth(nearer, r.t0);
+    float distance1 = r.z1 - range_depth(nearer, r.t1);
+    return gnomon_select(r.t0 < r.t1, gnomon_max(gnomon_max(distance0, distance1), 0.0f), 0.0f);
+}
+
+/// The merge of a and b, with its costs. The cost is the area behind the merged range that was behind neither a nor b,
+/// plus the time for which a surface loses its id. If one range is empty, there is nothing to merge: the cost is -1,
+/// gap and shift are 0.
+/// Error: gap and shift are exact except for rounding.
+inline range_pair range_pair_make(depth_time_range a, depth_time_range b)
+{
+    range_pair p;
+    p.merged = range_merge(a, b);
+    bool some = a.t0 < a.t1 && b.t0 < b.t1;
+    float gap = gnomon_max(a.t0, b.t0) - gnomon_min(a.t1, b.t1);
+    p.gap = gnomon_select(some, gnomon_max(gap, 0.0f), 0.0f);
+    // Ignore the parts that the other range occludes: they were in shadow already.
+    float shift = gnomon_max(range_distance(range_trim(a, b), p.merged), range_distance(range_trim(b, a), p.merged));
+    p.shift = gnomon_select(some, shift, 0.0f);
+
+    // The area behind both is that behind the farther range, at (a + b + |a - b|) / 2. The mean of |x| from x0 to x1
+    // is:
+    depth_time_range near_a = range_clip_to(a, b);
+    depth_time_range near_b = range_clip_to(b, a);
+    float x0 = near_a.z0 - near_b.z0;
+    float x1 = near_a.z1 - near_b.z1;
+    float sum = gnomon_abs(x0) + gnomon_abs(x1);
+    float apart = 0.5f * ((x0 * x0 + x1 * x1) + (gnomon_abs(x0 * x1) + x0 * x1)) / sum;
+    apart = gnomon_select(0.0f < sum, apart, 0.0f);
+    float middle = 0.25f * ((near_a.z0 + near_a.z1) + (near_b.z0 + near_b.z1));
+    float both = range_duration(near_a) * (1.0f - (middle + 0.5f * apart));
+    float area = range_area(p.merged) - ((range_area(a) + range_area(b)) - both);
+    float own_a = gnomon_select(a.id == p.merged.id, 0.0f, range_duration(a));
+    float own_b = gnomon_select(b.id == p.merged.id, 0.0f, range_duration(b));
+    p.cost = gnomon_select(some, gnomon_max(area, 0.0f) + (own_a + own_b), -1.0f);
+    return p;
+}
+
+/// r alone, at a cost above that of any pair: the start of a search for the cheapest pair.
+inline range_pair range_pair_empty(depth_time_range r)
+{
+    range_pair p;
+    p.merged = r;
+    p.gap = 0.0f;
+    p.shift = 0.0f;
+    p.cost = range_far * range_far;
+    return p;
+}
+
+/// The pair with the lower cost; a if the costs are equal.
+inline range_pair range_pair_cheaper(range_pair a, range_pair b)
+{
+    bool cheaper = b.cost < a.cost;
+    range_pair p;
+    p.merged = range_select(cheaper, b.merged, a.merged);
+    p.gap = gnomon_select(cheaper, b.gap, a.gap);
+    p.shift = gnomon_select(cheaper, b.shift, a.shift);
+    p.cost = gnomon_select(cheaper, b.cost, a.cost);
+    return p;
+}
+
+} // namespace gnomon
+
+#endif
+
+// motion/range/range_list.h -------------------------------------------------------------------------------------------
+// Lists of a few depth-time ranges, one list for a texel: the surfaces that pass the texel while the shutter is open
+// (Gribel et al. 2010; Hong & Oh 2017), and the lower envelope of the list, which is visible from the light at each
+// time (the resolve of Palmer 2011, 2.4).
+//
+//     list = range_list_make(range);                  list = range_list_insert(list, range) for every other range
+//     intensity = range_list_intensity(list, t, z, id, bias);    shadow test at one time
+//     resolved = range_list_resolve(list);                       lower envelope, for receivers in closed form
+//     for (t = 0; t < 1; t = span.t1) span = range_list_front(list, t);    the same, span by span
+//
+// A list stores inserted ranges unchanged and drops those that another range provably occludes (range_occludes). Until
+// the list overflows, neither its contents nor its resolved form depend on the order of insertion or on rounding. On
+// overflow it first drops ranges that several others jointly occlude. If there is still no room, it merges the two most
+// similar ranges into one in front of both (range_merge.h): shadows stay, and the shadow that merging adds is counted.
+//
+// Occluded ranges are dropped regardless of their ids. So a receiver gets the answer of all ranges, unless a range of
+// its own id lies in front of it by more than its bias: that range does not shadow the receiver, and ranges that it
+// occluded are no longer in the list. Hence one id should be a surface none of whose points is ever behind another: a
+// triangle, a plane, the lit side of a convex part. With one id for a whole object, its far sides lose the shadows that
+// other objects cast on them.
+//
+// The capacity is GNOMON_RANGE_CAPACITY, if defined before inclusion, else 8. In C++ the capacity is a template
+// parameter with this default.
+#ifndef GNOMON_MOTION_RANGE_RANGE_LIST_H
+#define GNOMON_MOTION_RANGE_RANGE_LIST_H
+
+namespace gnomon {
+
+#ifndef GNOMON_RANGE_CAPACITY
+#define GNOMON_RANGE_CAPACITY 8
+#endif
+
+/// Ranges in the order of range_less, with empty ranges between them, and upper bounds of the cost of merging: except
+/// for a total time of time_added, wherever the list has a range, some inserted range was there, too, at most
+/// depth_added behind it.
+struct range_list
+{
+    depth_time_range ranges[GNOMON_RANGE_CAPACITY];
+    float time_added, depth_added;
+};
+
+/// r in the canonical form of a list. An empty range if r is empty, leaves [0, 1], has a NaN, or has a depth beyond
+/// 2^60.
+inline depth_time_range range_canonical(depth_time_range r)
+{
+    r.id = gnomon_max(r.id, range_mixed);
+    bool known = gnomon_abs(r.z0) + gnomon_abs(r.z1) < range_far;
+    return range_keep_if(0.0f <= r.t0 && r.t0 < r.t1 && r.t1 <= 1.0f && known, r);
+}
+
+/// r moved towards the light, or away from it where side is 1 instead of -1. The distance exceeds the accumulated
+/// rounding of up to 18 cuts: 2^-16, since depths at the cuts are rounded, plus the change of depth within a time of
+/// 2^-21, since times are rounded. For two ranges together that rounding is 268 2^-p of depth and 4 2^-p of time.
+inline depth_time_range range_offset(depth_time_range r, float side)
+{
+    float change = gnomon_abs(r.z1 - r.z0);
+    float brief = gnomon_min(change * 0.000000476837158203125f / (r.t1 - r.t0), change);
+    float by = side * (0.0000152587890625f + brief);
+    r.z0 = r.z0 + by;
+    r.z1 = r.z1 + by;
+    return r;
+}
+
+/// Add the cost of a merge to the list's counts.
+inline range_list range_list_count_merge(range_list list, range_pair p)
+{
+    list.time_added = saturate_or_zero(list.time_added + p.gap);
+    list.depth_added = gnomon_max(list.depth_added + p.shift, 0.0f);
+    return list;
+}
+
+/// Insert r at its place in the order, into a list that has an empty range (see range_list_insert).
+inline range_list range_list_place(range_list list, depth_time_range r)
+{
+    for (int i = 0; i + 1 < GNOMON_RANGE_CAPACITY; ++i) { // the first empty one goes to the end
+        depth_time_range s = list.ranges[i];
+        depth_time_range next = list.ranges[i + 1];
+        bool empty = s.t1 <= s.t0 && r.t0 < r.t1;
+        list.ranges[i] = range_select(empty, next, s);
+        list.ranges[i + 1] = range_select(empty, s, next);
+    }
+    for (int k = 0; k + 1 < GNOMON_RANGE_CAPACITY; ++k) {
+        depth_time_range s = list.ranges[k];
+        bool here = s.t0 < s.t1 && range_less(r, s);
+        list.ranges[k] = range_select(here, r, s);
+        r = range_select(here, s, r);
+    }
+    depth_time_range last = list.ranges[GNOMON_RANGE_CAPACITY - 1];
+    list.ranges[GNOMON_RANGE_CAPACITY - 1] = range_select(r.t0 < r.t1, r, last);
+    return list;
+}
+
+/// Insert r, clipped to times in [0, 1]. Without an overflow the ranges of the list do not depend on the order of
+/// insertion, bit for bit, except for the sign of a zero. With an overflow they do, but at no time is the front farther
+/// than that of all inserted ranges. That holds strictly, for exact depth lines, however steep and brief the ranges
+/// are.
+/// Domain: times in [0, 1], depths in [-1, 1], a capacity of at most 16.
+/// NaN: a range with a NaN, or with a depth beyond 2^60, is not inserted.
+/// Source: Gribel 2010; Hong & Oh 2017
+inline range_list range_list_insert(range_list list, depth_time_range r)
+{
+    r = range_canonical(range_clip(r, 0.0f, 1.0f));
+    list = range_list_count_merge(list, range_pair_empty(r)); // counts that are NaN become 0
+    float room = 0.0f;
+    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) {
+        depth_time_range s = range_canonical(list.ranges[i]);
+        r = range_keep_if(!range_occludes(s, r), r);
+        s = range_keep_if(!range_occludes(r, s), s);
+        list.ranges[i] = s;
+        room = gnomon_select(s.t0 < s.t1, room, 1.0f);
+    }
+    bool full = r.t0 < r.t1 && room < 1.0f;
+    if (gnomon_any(full)) {
+        // Drop ranges that the others jointly occlude, even if the range were a margin nearer and the others a margin
+        // farther.
+        range_list occluders = list;
+        for (int h = 0; h < GNOMON_RANGE_CAPACITY; ++h) occluders.ranges[h] = range_offset(list.ranges[h], 1.0f);
+        depth_time_range farther = range_offset(r, 1.0f);
+        for (int j = 0; j < GNOMON_RANGE_CAPACITY; ++j) {
+            depth_time_range s = range_trim(range_offset(list.ranges[j], -1.0f), farther);
+            for (int k = 0; k < GNOMON_RANGE_CAPACITY; ++k) s = range_trim(s, occluders.ranges[k]);
+            bool seen = !full || s.t0 < s.t1;
+            list.ranges[j] = range_keep_if(seen, list.ranges[j]);
+            occluders.ranges[j] = range_keep_if(seen, occluders.ranges[j]);
+        }
+        depth_time_range left = range_offset(r, -1.0f);
+        for (int m = 0; m < GNOMON_RANGE_CAPACITY; ++m) left = range_trim(left, occluders.ranges[m]);
+        r = range_keep_if(!full || left.t0 < left.t1, r);
+
+        // Find the most similar pair; r has place -1. If there is room now, one range of the pair is empty.
+        range_pair best = range_pair_empty(r);
+        float first = -1.0f;
+        float second = -1.0f;
+        float place = 0.0f;
+        for (int a = 0; a < GNOMON_RANGE_CAPACITY; ++a) {
+            depth_time_range other = r;
+            float other_place = -1.0f;
+            for (int b = 0; b <= a; ++b) {
+                range_pair pair = range_pair_make(list.ranges[a], other);
+                first = gnomon_select(pair.cost < best.cost, place, first);
+                second = gnomon_select(pair.cost < best.cost, other_place, second);
+                best = range_pair_cheaper(best, pair);
+                other = list.ranges[b];
+                other_place = other_place + 1.0f;
+            }
+            place = place + 1.0f;
+        }
+        place = 0.0f;
+        for (int n = 0; n < GNOMON_RANGE_CAPACITY; ++n) {
+            bool merged = full && (place == first || place == second);
+            list.ranges[n] = range_keep_if(!merged, list.ranges[n]);
+            place = place + 1.0f;
+        }
+        r = range_keep_if(!(full && second < 0.0f), r);
+        best.merged = range_keep_if(full, best.merged);
+        best.gap = gnomon_select(full, best.gap, 0.0f);
+        best.shift = gnomon_select(full, best.shift, 0.0f);
+        list = range_list_place(range_list_count_merge(list, best), best.merged);
+    }
+    return range_list_place(list, r);
+}
+
+/// The list of one range; an empty list if the range is empty.
+inline range_list range_list_make(depth_time_range r)
+{
+    range_list list;
+    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) list.ranges[i] = range_keep_if(r.t0 < r.t0, r);
+    list.time_added = 0.0f;
+    list.depth_added = 0.0f;
+    return range_list_insert(list, r);
+}
+
+/// Span of the lower envelope from time t on: the range in front just after t, until it ends or another range passes in
+/// front. If no range lasts just after t, the span has the id range_nothing, the depth of the far plane, and lasts
+/// until the next begin. The span ends after t unless t is 1. From 0 to 1 there are at most (N + 1) (N + 2) / 2 spans,
+/// N the capacity, since each ends at a begin, an end or a crossing. A t outside of [0, 1] is clamped.
+/// NaN: t is then 0.
+inline depth_time_range range_list_front(range_list list, float t)
+{
+    float begin = saturate_or_zero(t);
+    depth_time_range front = range_keep_if(begin < begin, list.ranges[0]);
+    float unchanged = 1.0f; // until when all comparisons of this loop come out the same
+    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) {
+        depth_time_range r = range_canonical(list.ranges[i]);
+        depth_time_range ahead = range_visible_part(r, front);
+        bool during = r.t0 <= begin && begin < r.t1;
+        bool alone = front.t1 <= front.t0;
+        bool nearer = ahead.t0 <= begin && begin < ahead.t1;
+        float change = gnomon_select(begin < ahead.t0, ahead.t0, gnomon_select(nearer, ahead.t1, 1.0f));
+        change = gnomon_min(change, gnomon_min(front.t1, r.t1));
+        unchanged = gnomon_select(during && !alone, gnomon_min(unchanged, change), unchanged);
+        front = range_select(nearer || (during && alone), r, front);
+    }
+    bool some = front.t0 < front.t1;
+    float end = gnomon_select(some, front.t1, 1.0f);
+    for (int k = 0; k < GNOMON_RANGE_CAPACITY; ++k) {
+        depth_time_range r = range_canonical(list.ranges[k]);
+        depth_time_range ahead = range_visible_part(r, front);
+        float next = gnomon_select(some, ahead.t0, r.t0);
+        end = gnomon_select(begin < next, gnomon_min(end, next), end);
+        // Rounding may put each of three ranges that meet in front of the next. The tie lasts as long as all
+        // comparisons do.
+        bool circle = ahead.t0 <= begin && begin < ahead.t1;
+        end = gnomon_select(circle, gnomon_min(end, unchanged), end);
+    }
+    depth_time_range span = range_clip(front, begin, end);
+    span.t0 = begin;
+    span.t1 = end;
+    return span;
+}
+
+/// Append r, which begins after all ranges of the list, disjoint and in order of time. If there is no room, merge two
+/// neighbours.
+inline range_list range_list_append(range_list list, depth_time_range r)
+{
+    // The last range and r are neighbours, too. Places count from the end; of all pairs one with an empty range is
+    // merged first.
+    range_pair best = range_pair_empty(r);
+    float at = 0.0f;
+    float place = 0.0f;
+    depth_time_range next = r;
+    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) {
+        depth_time_range s = list.ranges[GNOMON_RANGE_CAPACITY - 1 - i];
+        range_pair pair = range_pair_make(s, next);
+        at = gnomon_select(pair.cost < best.cost, place, at);
+        best = range_pair_cheaper(best, pair);
+        next = s;
+        place = place + 1.0f;
+    }
+    place = 0.0f;
+    next = r;
+    for (int k = 0; k < GNOMON_RANGE_CAPACITY; ++k) {
+        depth_time_range s = list.ranges[GNOMON_RANGE_CAPACITY - 1 - k];
+        depth_time_range here = range_select(place == at, best.merged, s);
+        list.ranges[GNOMON_RANGE_CAPACITY - 1 - k] = range_select(place < at, next, here);
+        next = s;
+        place = place + 1.0f;
+    }
+    return range_list_count_merge(list, best);
+}
+
+/// The lower envelope of the list: disjoint ranges in order of time, which static_receiver.h adds up. Ranges that do
+/// not fit are merged with a neighbour, and counted. Empty ranges come first.
+/// Source: Palmer 2011, Sec. 2.4
+inline range_list range_list_resolve(range_list list)
+{
+    float t = 0.0f;
+    range_list resolved = list;
+    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) resolved.ranges[i] = range_keep_if(t < t, list.ranges[i]);
+    for (int k = 0; k < (GNOMON_RANGE_CAPACITY + 1) * (GNOMON_RANGE_CAPACITY + 2) / 2; ++k) {
+        if (gnomon_any(t < 1.0f)) {
+            depth_time_range span = range_list_front(list, t);
+            bool some = range_nothing < span.id;
+            resolved = range_list_append(resolved, range_keep_if(some, span));
+            t = span.t1;
+        }
+    }
+    return resolved;
+}
+
+/// Shadow intensity, 0 or 1, at time t and depth z on the surface with the given id (see range_intensity).
+/// NaN: 0, lit.
+inline float range_list_intensity(range_list list, float t, float z, float id, float bias)
+{
+    float intensity = 0.0f;
+    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) intensity = gnomon_max(intensity,
+                                                                           range_intensity(list.ranges[i], t, z, id,
+                                                                                           bias));
+    return intensity;
+}
+
+} // namespace gnomon
+
+#endif
+
+// motion/range/range_summary.h ----------------------------------------------------------------------------------------
+// A summary of a resolved list in four numbers: nearest and farthest depth, occluded time, id. Most receivers need
+// nothing more. They are in front of all ranges of a texel, or behind all of them, above all where backdrops are left
+// out (passes/range/backdrop.hpp).
+//
+//     summary = range_summary_begin(-1);   summary = range_summary_add(summary, range);   for every range of the texel
+#ifndef GNOMON_MOTION_RANGE_RANGE_SUMMARY_H
+#define GNOMON_MOTION_RANGE_RANGE_SUMMARY_H
+
+namespace gnomon {
+
+/// Nearest and farthest depth of a list; shadowed, the share of a shutter that is open from 0 to 1 for which its ranges
+/// shadow a receiver behind all of them; and their id: range_mixed if there are several, range_nothing if no receiver
+/// can be behind ranges of its own id.
+struct range_summary { float nearest, farthest, shadowed, id; };
+
+/// Begin without a range. The near plane is -1: a receiver must lie behind that depth to be behind all ranges.
+inline range_summary range_summary_begin(float near_plane)
+{
+    range_summary summary;
+    summary.nearest = range_far;
+    summary.farthest = near_plane;
+    summary.shadowed = 0.0f;
+    summary.id = range_nothing;
+    return summary;
+}
+
+/// Add one range that is disjoint in time from those before. An empty range, which no receiver can see, adds nothing.
+/// NaN: a range with a NaN adds nothing.
+inline range_summary range_summary_add(range_summary summary, depth_time_range r)
+{
+    bool some = r.t0 < r.t1 && r.z0 == r.z0 && r.z1 == r.z1;
+    bool first = summary.id == range_nothing;
+    float nearest = gnomon_min(summary.nearest, gnomon_min(r.z0, r.z1));
+    float farthest = gnomon_max(summary.farthest, gnomon_max(r.z0, r.z1));
+    float share = saturate_or_zero(r.t1) - saturate_or_zero(r.t0);
+    float id = gnomon_select(first || summary.id == r.id, r.id, range_mixed);
+    summary.nearest = gnomon_select(some, nearest, summary.nearest);
+    summary.farthest = gnomon_select(some, farthest, summary.farthest);
+    summary.shadowed = gnomon_select(some, summary.shadowed + share, summary.shadowed);
+    summary.id = gnomon_select(some, id, summary.id);
+    return summary;
+}
+
+/// True if r, the next range of a resolved list, belongs to the second layer behind `front`, the last range that did
+/// not. A range of the second layer lasts only while front lasts. Ranges in front that overlap by rounding do not
+/// match.
+inline bool range_is_second_layer(depth_time_range front, depth_time_range r)
+{
+    return front.t0 <= r.t0 && r.t0 < front.t1 && r.t1 <= front.t1;
+}
+
+} // namespace gnomon
+
+#endif
+
+// motion/receiver/facing.h --------------------------------------------------------------------------------------------
+// Times at which a turning surface faces the light (Palmer 2011, 2.3.2, (2.5) and (2.6)). The normal n and the
+// direction d from the surface to the light are both linear in time from shutter open to shutter close. The surface
+// faces the light while
+//     f(t) = (n0 (1 - t) + n1 t) . (d0 (1 - t) + d1 t) >= 0
+// The Bernstein coefficients of f are n0 . d0, (n0 . d1 + n1 . d0) / 2 and n1 . d1, so f is an edge function of
+// coverage_intervals.h. moving_edge_inside(facing_function(n, d), 1) returns the facing times: from begin to end except
+// for one gap, hence up to two intervals. Outside of them the surface is dark, with or without casters; inside,
+// receiver_path_clip returns the part of the receiver's path.
+//
+// d is linear if the point and the light both move along straight lines. The normal of a triangle is quadratic in time;
+// as in the thesis, a line replaces it here. Only the sign of f matters, so n and d need not be normalised, as long as
+// each is scaled alike at both ends.
+#ifndef GNOMON_MOTION_RECEIVER_FACING_H
+#define GNOMON_MOTION_RECEIVER_FACING_H
+
+namespace gnomon {
+
+/// A vector at shutter open and at shutter close.
+struct moving_vector { float x0, y0, z0, x1, y1, z1; };
+
+/// The facing function f as an edge function, for moving_edge_inside with facing 1.
+/// Domain: beyond moving_edge_limit f is 0 at all times, so the surface counts as facing the light.
+/// NaN: f is 0 at all times, too.
+/// Error: 4 2^-p |n| |d| for a coefficient, with the larger lengths of both ends; the facing times are exact for
+/// coefficients that differ by 20 2^-p |n| |d|.
+/// Source: Palmer 2011, Eq. 2.5; Palmer 2011, Eq. 2.6
+inline moving_edge facing_function(moving_vector n, moving_vector d)
+{
+    float n0_d1 = (n.x0 * d.x1 + n.y0 * d.y1) + n.z0 * d.z1;
+    float n1_d0 = (n.x1 * d.x0 + n.y1 * d.y0) + n.z1 * d.z0;
+    moving_edge f;
+    f.e0 = (n.x0 * d.x0 + n.y0 * d.y0) + n.z0 * d.z0;
+    f.e1 = 0.5f * (n0_d1 + n1_d0);
+    f.e2 = (n.x1 * d.x1 + n.y1 * d.y1) + n.z1 * d.z1;
+    bool known = moving_edge_size(f) < moving_edge_limit;
+    f.e0 = gnomon_select(known, f.e0, 0.0f);
+    f.e1 = gnomon_select(known, f.e1, 0.0f);
+    f.e2 = gnomon_select(known, f.e2, 0.0f);
+    return f;
+}
+
+} // namespace gnomon
+
+#endif
+
+// numerics/texel_filter.h ---------------------------------------------------------------------------------------------
+// Texels of a shadow map along one axis: the texel that holds a position, and the weights of the K + 1 texels that K
+// adjacent bilinear look-ups read, which are those of a filter K texels wide with linear ends.
+#ifndef GNOMON_NUMERICS_TEXEL_FILTER_H
+#define GNOMON_NUMERICS_TEXEL_FILTER_H
+
+namespace gnomon {
+
+constant constexpr float texel_limit = 65536.0f; // no map is larger: all positions beyond share one texel
+
+/// The texel that holds position x: the largest whole number not above x, clamped to [-65536, 65536].
+/// NaN: 65536.
+inline float texel_below(float x)
+{
+    float limit = texel_limit;
+    float inside = gnomon_max(gnomon_min(x, limit), -1.0f * limit);
+    float whole = nearest_integer(inside);
+    return whole - gnomon_select(inside < whole, 1.0f, 0.0f);
+}
+
+/// The weight of texel i, 0 to K, in the mean of K = look_ups adjacent bilinear look-ups along one axis. u is the
+/// distance of the first look-up from the centre of texel 0. In [0, 1].
+/// Domain: u in [0, 1], clamped; look_ups at least 1. Elsewhere a number in [0, 1].
+/// NaN: u counts as 0; 0 for look_ups.
+/// Error: the K + 1 weights sum to 1 within K + 2 roundings.
+inline float texel_weight(float u, float i, float look_ups)
+{
+    float share = saturate_or_zero(u);
+    share = gnomon_select(i < 1.0f, 1.0f - share, gnomon_select(i < look_ups, 1.0f, share));
+    return saturate_or_zero(share / look_ups);
+}
+
+} // namespace gnomon
+
+#endif
+
+// motion/receiver/shutter.h -------------------------------------------------------------------------------------------
+// Shutter responses: the share of the exposure's light that a shutter has let in by time t. The light that a receiver
+// loses between two times is the difference of the shares (Palmer 2011, (2.1), with the response w(t) integrated in
+// advance).
+//
+// Three responses: a box, which opens and closes at once; a tent, which is wide open halfway; and eight equal parts of
+// the exposure with any weights, such as those of a camera's measured shutter.
+//
+// The ends of an exposure may be given in either order. An exposure of no length shows a single time (see
+// shutter_exposure_make, which receivers begin with).
+#ifndef GNOMON_MOTION_RECEIVER_SHUTTER_H
+#define GNOMON_MOTION_RECEIVER_SHUTTER_H
+
+namespace gnomon {
+
+/// Fraction of the exposure's light in each eighth, in order; the sum is 1 (see shutter_weights_make).
+struct shutter_weights { float w0, w1, w2, w3, w4, w5, w6, w7; };
+
+/// Times at which a shutter opens and closes.
+struct shutter_exposure { float begin, end; };
+
+constant constexpr float shutter_weight_limit = 1152921504606846976.0f; // 2^60: eight of them have a sum in float
+
+/// The exposure between two times, given in either order. An exposure shorter than 2^-20 lasts 2^-20 from its begin on,
+/// or until shutter close if it would end later: a range that covers that time shadows the receiver entirely.
+/// NaN: a NaN stays NaN.
+inline shutter_exposure shutter_exposure_make(float a, float b)
+{
+    float least = 0.00000095367431640625f;
+    bool swapped = b < a;
+    float open = gnomon_select(swapped, b, a);
+    float close = gnomon_select(swapped, a, b);
+    bool brief = close - open < least;
+    float early = gnomon_select(open <= 1.0f, gnomon_min(open, 1.0f - least), open);
+    shutter_exposure r;
+    r.begin = gnomon_select(brief, early, open);
+    r.end = gnomon_select(brief, early + least, close);
+    return r;
+}
+
+/// Time at which the given share of the time from begin to end has passed. The share must lie between 0 and 1,
+/// exclusively: llvmpipe makes 0 of a product with 0, of NaN * 0, too.
+/// Domain: 0 < share < 1.
+/// Error: 3 2^-p max(|begin|, |end|).
+inline float shutter_time(float begin, float end, float share) { return begin * (1.0f - share) + end * share; }
+
+/// Share of the exposure's light that a shutter which opens and closes at once has let in by time t, in [0, 1]. If
+/// begin == end the share is 0 up to that time and 1 after it.
+/// Domain: begin <= end.
+/// NaN: 0.
+/// Source: Palmer 2011, Eq. 2.1
+inline float shutter_box(float t, float begin, float end) { return saturate_or_zero((t - begin) / (end - begin)); }
+
+/// Share of the exposure's light that a shutter which opens and closes evenly, wide open halfway, has let in by time t,
+/// in [0, 1].
+/// Domain: begin <= end.
+/// NaN: 0.
+/// Source: Palmer 2011, Eq. 2.1
+inline float shutter_tent(float t, float begin, float end)
+{
+    float x = shutter_box(t, begin, end);
+    float left = 1.0f - x;
+    return gnomon_select(x < 0.5f, 2.0f * (x * x), 1.0f - 2.0f * (left * left));
+}
+
+/// A weight limited to [0, 2^60].
+/// NaN: 0.
+inline float shutter_weight(float w) { return gnomon_select(0.0f < w, gnomon_min(w, shutter_weight_limit), 0.0f); }
+
+/// Fraction of the sum that is this weight, 1/8 if the sum is 0. In [0, 1], also where division is not correctly
+/// rounded.
+inline float shutter_share(float weight, float sum)
+{
+    return gnomon_select(0.0f < sum, saturate_or_zero(weight / sum), 0.125f);
+}
+
+/// Eight weights scaled to sum to 1. Negative weights count as 0; if no weight is left, all are equal, as for a box.
+/// Call once for a shutter, not for each range.
+/// NaN: a NaN weight counts as 0.
+inline shutter_weights shutter_weights_make(shutter_weights weights)
+{
+    shutter_weights w;
+    w.w0 = shutter_weight(weights.w0);
+    w.w1 = shutter_weight(weights.w1);
+    w.w2 = shutter_weight(weights.w2);
+    w.w3 = shutter_weight(weights.w3);
+    w.w4 = shutter_weight(weights.w4);
+    w.w5 = shutter_weight(weights.w5);
+    w.w6 = shutter_weight(weights.w6);
+    w.w7 = shutter_weight(weights.w7);
+    float sum = ((w.w0 + w.w1) + (w.w2 + w.w3)) + ((w.w4 + w.w5) + (w.w6 + w.w7));
+    w.w0 = shutter_share(w.w0, sum);
+    w.w1 = shutter_share(w.w1, sum);
+    w.w2 = shutter_share(w.w2, sum);
+    w.w3 = shutter_share(w.w3, sum);
+    w.w4 = shutter_share(w.w4, sum);
+    w.w5 = shutter_share(w.w5, sum);
+    w.w6 = shutter_share(w.w6, sum);
+    w.w7 = shutter_share(w.w7, sum);
+    return w;
+}
+
+/// Share of the exposure's light that a shutter with the weights w has let in by time t. Each eighth lets in its weight
+/// evenly. In [0, 1] for any weights, from shutter_weights_make or not, and exactly 1 from the end of the exposure on.
+/// Domain: begin <= end.
+/// Error: 16 2^-p.
+/// Source: Palmer 2011, Eq. 2.1
+inline float shutter_piecewise(float t, float begin, float end, shutter_weights w)
+{
+    float x = 8.0f * shutter_box(t, begin, end);
+    float early = (w.w0 * saturate_or_zero(x) + w.w1 * saturate_or_zero(x - 1.0f)) +
+                  (w.w2 * saturate_or_zero(x - 2.0f) + w.w3 * saturate_or_zero(x - 3.0f));
+    float late = (w.w4 * saturate_or_zero(x - 4.0f) + w.w5 * saturate_or_zero(x - 5.0f)) +
+                 (w.w6 * saturate_or_zero(x - 6.0f) + w.w7 * saturate_or_zero(x - 7.0f));
+    return gnomon_select(x < 8.0f, saturate_or_zero(early + late), 1.0f);
+}
+
+} // namespace gnomon
+
+#endif
+
+// motion/receiver/static_receiver.h -----------------------------------------------------------------------------------
+// The shadow on a static receiver while the shutter is open, in closed form. Every range in front of the receiver
+// occludes it for a time that is known in closed form, and the shutter (shutter.h) turns that time into a share of the
+// light: exact, where stochastic shadow maps take samples. Ranges must not overlap in time, as in a resolved list; else
+// the overlap counts twice. (Hong & Oh's shadow test, integrated over time; Palmer 2011, chapter 4.)
+//
+//     state = static_receiver_begin(z_f, id, begin, end);
+//     for every range of the texel:
+//         hidden = static_receiver_occluding_part(state, range);
+//         share0 = shutter_box(hidden.t0, state.begin, state.end);   and share1 at hidden.t1; or shutter_tent,
+//                                                                    shutter_piecewise
+//         state = static_receiver_add(state, receiver_lost_light(hidden, id, share0, share1));
+//     intensity = static_receiver_end(state);
+//
+// Percentage-closer filtering of K x K bilinear look-ups around texel position (x, y) reads K + 1 texels along either
+// axis. With x - K / 2 = column + u, column a whole number and u in [0, 1), and y alike, set the weight of texel
+// (column + i, row + j), i and j from 0 to K, before its ranges:
+//     state = static_receiver_set_weight(state, texel_weight(u, i, K) * texel_weight(v, j, K));
+//
+// A list may have a second layer (passes/range/resolve.hpp), for receivers whose own range is in front:
+//     front = range_empty(range_nothing);
+//     for every range of the texel, in order:
+//         if range_is_second_layer(front, range), leave range out unless front.id == id; else front = range
+//
+// A receiver behind all ranges of a texel, or in front of all, needs no list, only its summary (range_summary.h):
+//     if (receiver_is_in_front(z_f, summary) > 0) nothing is added
+//     if (static_receiver_is_behind(state, summary) > 0) state = static_receiver_add(state, summary.shadowed);
+#ifndef GNOMON_MOTION_RECEIVER_STATIC_RECEIVER_H
+#define GNOMON_MOTION_RECEIVER_STATIC_RECEIVER_H
+
+namespace gnomon {
+
+/// Depth and id of the receiver, the times at which the shutter opens and closes, the weight of the ranges to come, and
+/// the share of the light that is lost so far.
+struct static_receiver { float depth, id, begin, end, weight, shadowed; };
+
+/// Begin without a range, for any depth z_f, less the depth bias if one is needed. The exposure lasts from begin to
+/// end, as of shutter_exposure_make.
+inline static_receiver static_receiver_begin(float z_f, float id, float begin, float end)
+{
+    shutter_exposure open = shutter_exposure_make(begin, end);
+    static_receiver r;
+    r.depth = z_f;
+    r.id = id;
+    r.begin = open.begin;
+    r.end = open.end;
+    r.weight = 1.0f;
+    r.shadowed = 0.0f;
+    return r;
+}
+
+/// Set the weight of the ranges to come, in [0, 1]. The weights of all texels sum to 1.
+inline static_receiver static_receiver_set_weight(static_receiver state, float weight)
+{
+    state.weight = saturate_or_zero(weight);
+    return state;
+}
+
+/// The part of r that occludes the receiver while the shutter is open, possibly empty.
+/// Error: that of range_occluding_part.
+inline depth_time_range static_receiver_occluding_part(static_receiver state, depth_time_range r)
+{
+    depth_time_range level;
+    level.t0 = state.begin;
+    level.t1 = state.end;
+    level.z0 = state.depth;
+    level.z1 = state.depth;
+    level.id = state.id;
+    return range_occluding_part(r, level, state.begin, state.end);
+}
+
+/// Share of the light that a receiver with the given id loses while `hidden` occludes it, in [0, 1]. The shutter has
+/// let in the shares share0 and share1 of the exposure's light at the begin and at the end of hidden. A range of the
+/// receiver's own id occludes nothing.
+/// NaN: 0.
+inline float receiver_lost_light(depth_time_range hidden, float id, float share0, float share1)
+{
+    return gnomon_select(hidden.id == id, 0.0f, saturate_or_zero(share1 - share0));
+}
+
+/// Add the share of the light that is lost to one range, or to all ranges of a texel (summary.shadowed).
+inline static_receiver static_receiver_add(static_receiver state, float lost)
+{
+    state.shadowed = state.shadowed + state.weight * lost;
+    return state;
+}
+
+/// 1 if no range is in front of depth z_f, else 0. z_f is the depth of a receiver, or the farther end of its path.
+inline float receiver_is_in_front(float z_f, range_summary summary)
+{
+    return gnomon_select(z_f <= summary.nearest, 1.0f, 0.0f);
+}
+
+/// 1 if the summary decides: the receiver is behind all ranges, its exposure is the whole shutter interval, and none of
+/// the ranges can be its own; else 0.
+inline float static_receiver_is_behind(static_receiver state, range_summary summary)
+{
+    bool whole = state.begin <= 0.0f && 1.0f <= state.end;
+    bool own = summary.id == range_mixed || summary.id == state.id;
+    return gnomon_select(whole && summary.farthest < state.depth && !own, 1.0f, 0.0f);
+}
+
+/// Shadow intensity in [0, 1] over the whole exposure.
+/// NaN: a range with a NaN adds nothing, and a receiver with one is lit.
+/// Error: for each range its weight times the largest response (1 for a box, 2 for a tent, 8 times the largest weight
+/// of a piecewise one), times 32 2^-p and the time for which the range is within 26 z 2^-p of the receiver
+/// (range_occluding_part) over the duration of the exposure; 4 2^-p for each range of a summary.
+/// Source: Hong & Oh 2018, Sec. 5; Palmer 2011, Sec. 4
+inline float static_receiver_end(static_receiver state) { return saturate_or_zero(state.shadowed); }
+
+} // namespace gnomon
+
+#endif
+
+// motion/receiver/receiver_path.h -------------------------------------------------------------------------------------
+// The path of a receiver through the light's clip space while a pixel sees it, and its shadow by samples in time
+// (Palmer 2011, 2.3.2 and 4.1).
+//
+// The receiver's point and the light move along straight lines, and the light does not turn, so x, y and w are linear
+// in time. The point on the map, (x / w, y / w), moves along a straight line, too; w is 1 for an orthographic light.
+// Depth is linear in view distance, hence linear in time: depth and time are those of a range.
+//
+//     n = receiver_sample_count(path, most);
+//     state = sampled_receiver_begin(n);
+//     for k from 0 to n - 1: t = receiver_sample_time(path, k, n, jitter); in the texel at receiver_path_at(path, t),
+//     the largest range_intensity(range, t, range_depth(path.depth, t), path.depth.id, bias) of all ranges, then
+//         state = sampled_receiver_add(state, largest);     or the mean of several texels by their weights
+//     intensity = sampled_receiver_end(state);
+#ifndef GNOMON_MOTION_RECEIVER_RECEIVER_PATH_H
+#define GNOMON_MOTION_RECEIVER_RECEIVER_PATH_H
+
+namespace gnomon {
+
+/// Times, depths and id as a range; homogeneous positions at the times t0 and t1, where x / w and y / w are in texels,
+/// texel centres at +0.5.
+struct receiver_path
+{
+    depth_time_range depth;
+    float x0, y0, w0, x1, y1, w1;
+};
+
+/// A position in texels, texel centres at +0.5.
+struct texel_position { float x, y; };
+
+constant constexpr float receiver_sample_limit = 1048576.0f; // 2^20
+
+/// Position on the map at time t, held constant before the path begins and after it ends.
+/// Domain: w > 0 at both ends.
+/// Error: 8 2^-p times the largest |x| where w is 1; in perspective that times (1 + the larger w over the smaller w).
+inline texel_position receiver_path_at(receiver_path path, float t)
+{
+    float passed = range_elapsed(path.depth, t);
+    float left = 1.0f - passed;
+    float w = path.w0 * left + path.w1 * passed;
+    texel_position r;
+    r.x = (path.x0 * left + path.x1 * passed) / w;
+    r.y = (path.y0 * left + path.y1 * passed) / w;
+    return r;
+}
+
+/// The path shifted by dx and dy texels on the map.
+inline receiver_path receiver_path_shift(receiver_path path, float dx, float dy)
+{
+    path.x0 = path.x0 + dx * path.w0;
+    path.y0 = path.y0 + dy * path.w0;
+    path.x1 = path.x1 + dx * path.w1;
+    path.y1 = path.y1 + dy * path.w1;
+    return path;
+}
+
+/// The part of the path between the times begin and end, such as those at which the receiver faces the light
+/// (facing.h).
+inline receiver_path receiver_path_clip(receiver_path path, float begin, float end)
+{
+    float passed0 = range_elapsed(path.depth, begin);
+    float passed1 = range_elapsed(path.depth, end);
+    float left0 = 1.0f - passed0;
+    float left1 = 1.0f - passed1;
+    receiver_path c;
+    c.depth = range_clip(path.depth, begin, end);
+    c.x0 = path.x0 * left0 + path.x1 * passed0;
+    c.y0 = path.y0 * left0 + path.y1 * passed0;
+    c.w0 = path.w0 * left0 + path.w1 * passed0;
+    c.x1 = path.x0 * left1 + path.x1 * passed1;
+    c.y1 = path.y0 * left1 + path.y1 * passed1;
+    c.w1 = path.w0 * left1 + path.w1 * passed1;
+    return c;
+}
+
+/// Length of the path on the map, in texels.
+/// Domain: w > 0 at both ends.
+/// Error: 4 2^-p times the largest |x| + |y|.
+inline float receiver_path_length(receiver_path path)
+{
+    float dx = path.x1 / path.w1 - path.x0 / path.w0;
+    float dy = path.y1 / path.w1 - path.y0 / path.w0;
+    return gnomon_sqrt(dx * dx + dy * dy);
+}
+
+/// Number of samples for a path: max(2 length, 5), rounded up, at most `most`. A whole number.
+/// Domain: most is a whole number from 5 to 2^20, and is clamped to that.
+/// NaN: a NaN counts as 5.
+/// Source: Palmer 2011, Sec. 4.1
+inline float receiver_sample_count(receiver_path path, float most)
+{
+    float wanted = gnomon_max(2.0f * receiver_path_length(path), 5.0f); // a NaN becomes 5
+    float limit = gnomon_min(gnomon_max(most, 5.0f), receiver_sample_limit);
+    float count = gnomon_min(wanted, limit);
+    float whole = nearest_integer(count);
+    return whole + gnomon_select(whole < count, 1.0f, 0.0f);
+}
+
+/// Time of sample k of n, k from 0, stratified: at `jitter`, in [0, 1), of the k-th of n equal parts of the time. A
+/// jitter of 0.5 is the middle of the part.
+inline float receiver_sample_time(receiver_path path, float k, float n, float jitter)
+{
+    float passed = saturate_or_zero((k + jitter) / n);
+    return path.depth.t0 * (1.0f - passed) + path.depth.t1 * passed;
+}
+
+/// Number of samples, and the sum of their shadow intensities so far.
+struct sampled_receiver { float samples, shadowed; };
+
+/// Begin with the number of samples to come.
+inline sampled_receiver sampled_receiver_begin(float samples)
+{
+    sampled_receiver r;
+    r.samples = samples;
+    r.shadowed = 0.0f;
+    return r;
+}
+
+/// Add one sample by its shadow intensity in [0, 1].
+/// NaN: the sample is lit.
+inline sampled_receiver sampled_receiver_add(sampled_receiver state, float intensity)
+{
+    state.shadowed = state.shadowed + saturate_or_zero(intensity);
+    return state;
+}
+
+/// Shadow intensity in [0, 1]: the mean of all samples.
+/// Error: that of sampling: up to 1 / n for each time at which the shadow comes or goes, half of that with samples in
+/// the middle.
+/// Source: Palmer 2011, Sec. 4.1
+inline float sampled_receiver_end(sampled_receiver state) { return saturate_or_zero(state.shadowed / state.samples); }
+
+} // namespace gnomon
+
+#endif
+
+// motion/receiver/texel_sweep.h ---------------------------------------------------------------------------------------
+// The texels that a moving receiver passes, in order, and the time that it spends in each (for the analytical dynamic
+// receivers that Palmer 2011, chapter 5, leaves as future work; the traversal is that of Amanatides & Woo 1987, in time
+// and in perspective).
+//
+// The path crosses the texel border x = c where x(t) - c w(t) = 0, which is linear in time, also in perspective. The
+// share of the path's time at the crossing is
+//     s = (x0 - c w0) / ((x0 - c w0) - (x1 - c w1))
+// While w > 0, x / w is monotonic, so the path crosses the borders between its first and its last column one after the
+// other, and those of rows alike. The earlier of the next two crossings is the next step. Texels come from counting
+// steps, times from the borders. Where rounding makes two times equal, their steps come in either order, and the texel
+// between them lasts no time.
+//
+//     sweep = texel_sweep_begin(path);
+//     for each range of texel (sweep.column, sweep.row): use the part from sweep.t_begin to sweep.t_end
+//     while (sweep.t_end < sweep.t_last) { sweep = texel_sweep_next(sweep); and the same again }
+//
+// For any path the times are contiguous from t0 to t1, bit for bit, and the loop ends after at most |last column -
+// first column| + |last row - first row| + 1 texels.
+//
+// texel_sweep_over leaves out the parts of the path that are beside the map or behind the light. In homogeneous
+// coordinates the map's borders are edges that the path crosses at one time each, also where w changes its sign.
+#ifndef GNOMON_MOTION_RECEIVER_TEXEL_SWEEP_H
+#define GNOMON_MOTION_RECEIVER_TEXEL_SWEEP_H
+
+namespace gnomon {
+
+/// The current texel and the times at which the path enters and leaves it; the last texel and the time at which the
+/// sweep ends; the shares of the path's time at which it crosses the next borders.
+struct texel_sweep
+{
+    receiver_path path;
+    float column, row, t_begin, t_end, last_column, last_row, t_last, across_column, across_row;
+};
+
+constant constexpr float texel_path_limit = 1152921504606846976.0f; // 2^60: positions that are numbers
+constant constexpr float texel_border_none = 2.0f;                  // after the end of the path
+
+/// Share of the path's time, in [0, 1], at which one coordinate leaves a texel towards the last texel; 2 in the last
+/// texel.
+/// Error: 4 2^-p (|x0| + |c| w0 + |x1| + |c| w1) over the distance from x0 - c w0 to x1 - c w1, and 2 2^-p.
+inline float texel_border_share(float x0, float w0, float x1, float w1, float texel, float last)
+{
+    float border = texel + gnomon_select(texel < last, 1.0f, 0.0f);
+    float distance0 = x0 - gnomon_product(border, w0);
+    float distance1 = x1 - gnomon_product(border, w1);
+    return gnomon_select(texel == last, texel_border_none, saturate_or_zero(distance0 / (distance0 - distance1)));
+}
+
+/// End the texel's time at the next border, or at the end of the sweep.
+inline texel_sweep texel_sweep_set_times(texel_sweep sweep)
+{
+    float passed = gnomon_min(sweep.across_column, sweep.across_row);
+    float t = sweep.path.depth.t0 * (1.0f - passed) + sweep.path.depth.t1 * passed;
+    t = gnomon_min(gnomon_max(t, sweep.t_begin), sweep.t_last); // never back; a NaN lasts no time
+    sweep.t_end = gnomon_select(passed <= 1.0f, t, sweep.t_last);
+    return sweep;
+}
+
+/// Find the first crossings of borders.
+inline texel_sweep texel_sweep_start(texel_sweep sweep)
+{
+    receiver_path p = sweep.path;
+    sweep.across_column = texel_border_share(p.x0, p.w0, p.x1, p.w1, sweep.column, sweep.last_column);
+    sweep.across_row = texel_border_share(p.y0, p.w0, p.y1, p.w1, sweep.row, sweep.last_row);
+    return texel_sweep_set_times(sweep);
+}
+
+/// The first texel of a path, for the whole of its time.
+/// Domain: for positions beyond 2^60, w <= 0 at an end, or times out of order, the sweep has one texel for the whole
+/// time: that of the path's first end, or (65536, 65536), off every map, if that position is unknown, too.
+/// NaN: as outside of the domain.
+inline texel_sweep texel_sweep_begin(receiver_path path)
+{
+    float x0 = path.x0 / path.w0;
+    float y0 = path.y0 / path.w0;
+    float x1 = path.x1 / path.w1;
+    float y1 = path.y1 / path.w1;
+    float size = (gnomon_abs(x0) + gnomon_abs(y0)) + (gnomon_abs(x1) + gnomon_abs(y1));
+    bool known = 0.0f < path.w0 && 0.0f < path.w1 && size < texel_path_limit;
+    texel_sweep sweep;
+    sweep.path = path;
+    sweep.column = texel_below(x0);
+    sweep.row = texel_below(y0);
+    sweep.t_begin = path.depth.t0;
+    sweep.last_column = gnomon_select(known, texel_below(x1), sweep.column);
+    sweep.last_row = gnomon_select(known, texel_below(y1), sweep.row);
+    sweep.t_last = path.depth.t1;
+    return texel_sweep_start(sweep);
+}
+
+/// Shares of the path's time, in [0, 1], at which the path is over the texels from (left, top) to before (right,
+/// bottom), and w >= 0.
+/// Domain: empty for positions that differ by 2^60 or more.
+/// NaN: empty.
+/// Error: 4 2^-p (|x0| + |c| w0 + |x1| + |c| w1) over the distance from x0 - c w0 to x1 - c w1, for the border x = c
+/// that is crossed; rows alike.
+inline linear_interval receiver_path_over(receiver_path p, float left, float top, float right, float bottom)
+{
+    linear_interval a = linear_edge_inside(p.x0 - gnomon_product(left, p.w0), p.x1 - gnomon_product(left, p.w1));
+    linear_interval b = linear_edge_inside(p.y0 - gnomon_product(top, p.w0), p.y1 - gnomon_product(top, p.w1));
+    linear_interval c = linear_edge_inside(gnomon_product(right, p.w0) - p.x0, gnomon_product(right, p.w1) - p.x1);
+    linear_interval d = linear_edge_inside(gnomon_product(bottom, p.w0) - p.y0, gnomon_product(bottom, p.w1) - p.y1);
+    linear_interval before_light = linear_edge_inside(p.w0, p.w1);
+    a.begin = gnomon_max(gnomon_max(gnomon_max(a.begin, b.begin), gnomon_max(c.begin, d.begin)), before_light.begin);
+    a.end = gnomon_min(gnomon_min(gnomon_min(a.end, b.end), gnomon_min(c.end, d.end)), before_light.end);
+    return a;
+}
+
+/// Column or row of a position, limited to low - 1, before the first, and high, after the last.
+inline float texel_clamp(float x, float low, float high)
+{
+    return gnomon_min(gnomon_max(texel_below(x), low - 1.0f), high);
+}
+
+/// The first of the texels from (left, top) to before (right, bottom) that the path is over; (right, bottom) for no
+/// time if there is none. The times are those of texel_sweep_begin for these texels. If w <= 0 at one end, the sweep
+/// covers the time at which w > 0.
+/// Domain: borders are whole numbers within +-65536.
+inline texel_sweep texel_sweep_over(receiver_path path, float left, float top, float right, float bottom)
+{
+    linear_interval shares = receiver_path_over(path, left, top, right, bottom);
+    bool some = shares.begin < shares.end;
+    float passed0 = gnomon_select(some, shares.begin, 0.0f);
+    float passed1 = gnomon_select(some, shares.end, 0.0f);
+    float left0 = 1.0f - passed0;
+    float left1 = 1.0f - passed1;
+    float w0 = path.w0 * left0 + path.w1 * passed0;
+    float w1 = path.w0 * left1 + path.w1 * passed1;
+    texel_sweep sweep;
+    sweep.path = path;
+    sweep.column = texel_clamp((path.x0 * left0 + path.x1 * passed0) / w0, left, right);
+    sweep.row = texel_clamp((path.y0 * left0 + path.y1 * passed0) / w0, top, bottom);
+    sweep.last_column = texel_clamp((path.x0 * left1 + path.x1 * passed1) / w1, left, right);
+    sweep.last_row = texel_clamp((path.y0 * left1 + path.y1 * passed1) / w1, top, bottom);
+    sweep.column = gnomon_select(some, sweep.column, right);
+    sweep.row = gnomon_select(some, sweep.row, bottom);
+    sweep.last_column = gnomon_select(some, sweep.last_column, right);
+    sweep.last_row = gnomon_select(some, sweep.last_row, bottom);
+    sweep.t_begin = path.depth.t0 * left0 + path.depth.t1 * passed0;
+    sweep.t_last = path.depth.t0 * left1 + path.depth.t1 * passed1;
+    return texel_sweep_start(sweep);
+}
+
+/// The next texel: a neighbour along either axis. After the last texel that texel again, for no time.
+/// Source: Amanatides & Woo 1987
+inline texel_sweep texel_sweep_next(texel_sweep sweep)
+{
+    bool sideways = sweep.across_column <= sweep.across_row && sweep.across_column <= 1.0f;
+    bool along = sweep.across_row < sweep.across_column && sweep.across_row <= 1.0f;
+    float step_column = gnomon_select(sweep.column < sweep.last_column, 1.0f, -1.0f);
+    float step_row = gnomon_select(sweep.row < sweep.last_row, 1.0f, -1.0f);
+    sweep.column = sweep.column + gnomon_select(sideways, step_column, 0.0f);
+    sweep.row = sweep.row + gnomon_select(along, step_row, 0.0f);
+    // Only the axis that stepped has a new border.
+    float x0 = gnomon_select(sideways, sweep.path.x0, sweep.path.y0);
+    float x1 = gnomon_select(sideways, sweep.path.x1, sweep.path.y1);
+    float texel = gnomon_select(sideways, sweep.column, sweep.row);
+    float last = gnomon_select(sideways, sweep.last_column, sweep.last_row);
+    float passed = texel_border_share(x0, sweep.path.w0, x1, sweep.path.w1, texel, last);
+    sweep.across_column = gnomon_select(sideways, passed, sweep.across_column);
+    sweep.across_row = gnomon_select(sideways, sweep.across_row, passed);
+    sweep.t_begin = sweep.t_end;
+    return texel_sweep_set_times(sweep);
+}
+
+} // namespace gnomon
+
+#endif
+
+// motion/receiver/moving_receiver.h -----------------------------------------------------------------------------------
+// The shadow on a moving receiver while the shutter is open, in closed form: the Analytical Dynamic Receivers that
+// Palmer 2011 leaves as future work (chapter 5). A texel sweep (texel_sweep.h) finds the texels that the receiver
+// passes and the times that it spends in each. In each texel, a range of the resolved list is in front of the
+// receiver's depth line for a time in closed form, as in static_receiver.h, which is the case of one texel and a level
+// line. Exact except for rounding, where Palmer takes 2 samples for each texel.
+//
+//     state = moving_receiver_begin(path, begin, end);
+//     for each texel of a texel sweep of the path: state = moving_receiver_texel(state, sweep);
+//         for every range of the texel:
+//             hidden = moving_receiver_occluding_part(state, range);
+//             share0 = shutter_box(hidden.t0, state.begin, state.end);   and share1 at hidden.t1; or shutter_tent,
+//                                                                        shutter_piecewise
+//             state = moving_receiver_add(state, receiver_lost_light(hidden, path.depth.id, share0, share1));
+//     intensity = moving_receiver_end(state);
+//
+// With filtering, the weight of a texel changes along the path. Between the centres of texels the bilinear weights of
+// the receiver's position are products of two functions that are linear in time, and the response of a shutter is
+// piecewise linear. So the light lost to a range is the integral of a product of three lines. Percentage-closer
+// filtering of K x K bilinear look-ups (K = 1 is bilinear filtering alone):
+//     for each texel of a texel sweep of receiver_path_shift(path, -K / 2, -K / 2), i and j from 0 to K:
+//         state = moving_receiver_tap(state, sweep, i, j, K);
+//         for every range of texel (column + i, row + j):
+//             hidden = moving_receiver_occluding_part(state, range);
+//             lost = moving_receiver_filtered_light(state, hidden, state.begin, state.end, 1, 0);   for a box; for a
+//                 tent the sum for two halves of the exposure, for a piecewise shutter that for eight parts
+//             state = moving_receiver_add(state, lost);
+// The result is the mean of K x K receivers with bilinear filtering, each on the path shifted by whole texels.
+#ifndef GNOMON_MOTION_RECEIVER_MOVING_RECEIVER_H
+#define GNOMON_MOTION_RECEIVER_MOVING_RECEIVER_H
+
+namespace gnomon {
+
+/// The receiver's depth line; the times at which the shutter opens and closes; the times at which the receiver enters
+/// and leaves the current texel; the texel's weights along both axes at these two times; and the share of the light
+/// that is lost so far.
+struct moving_receiver
+{
+    depth_time_range depth;
+    float begin, end, t0, t1, u0, v0, u1, v1, shadowed;
+};
+
+/// Begin without a texel. The exposure lasts from begin to end, as of shutter_exposure_make. A depth bias, if one is
+/// needed, is subtracted from both depths of the path first. A path that lasts for a part of the exposure loses light
+/// only in that part: divide the result by the shutter's share of that part.
+inline moving_receiver moving_receiver_begin(receiver_path path, float begin, float end)
+{
+    shutter_exposure open = shutter_exposure_make(begin, end);
+    moving_receiver r;
+    r.depth = path.depth;
+    r.begin = open.begin;
+    r.end = open.end;
+    r.t0 = path.depth.t0;
+    r.t1 = path.depth.t1;
+    r.u0 = 1.0f;
+    r.v0 = 1.0f;
+    r.u1 = 1.0f;
+    r.v1 = 1.0f;
+    r.shadowed = 0.0f;
+    return r;
+}
+
+/// Begin the ranges of the sweep's texel.
+inline moving_receiver moving_receiver_texel(moving_receiver state, texel_sweep sweep)
+{
+    state.t0 = sweep.t_begin;
+    state.t1 = sweep.t_end;
+    return state;
+}
+
+/// Begin the ranges of texel (column + i, row + j) of the (K + 1) x (K + 1) texels around a cell between texel centres,
+/// with the sweep of a path shifted by -K / 2. look_ups is K.
+/// Error: weights are linear in time in a cell, which in perspective is a chord: if w changes r-fold in the cell, its
+/// error is (sqrt(r) - 1) / (sqrt(r) + 1) of the change of u and v in the cell.
+inline moving_receiver moving_receiver_tap(moving_receiver state, texel_sweep sweep, float i, float j, float look_ups)
+{
+    texel_position enters = receiver_path_at(sweep.path, sweep.t_begin);
+    texel_position leaves = receiver_path_at(sweep.path, sweep.t_end);
+    state.t0 = sweep.t_begin;
+    state.t1 = sweep.t_end;
+    state.u0 = texel_weight(enters.x - sweep.column, i, look_ups);
+    state.v0 = texel_weight(enters.y - sweep.row, j, look_ups);
+    state.u1 = texel_weight(leaves.x - sweep.column, i, look_ups);
+    state.v1 = texel_weight(leaves.y - sweep.row, j, look_ups);
+    return state;
+}
+
+/// The part of r that occludes the receiver in the current texel, possibly empty.
+/// Error: that of range_occluding_part.
+inline depth_time_range moving_receiver_occluding_part(moving_receiver state, depth_time_range r)
+{
+    return range_occluding_part(r, state.depth, state.t0, state.t1);
+}
+
+/// Add the share of the light that is lost to one range.
+inline moving_receiver moving_receiver_add(moving_receiver state, float lost)
+{
+    state.shadowed = state.shadowed + lost;
+    return state;
+}
+
+constant constexpr float receiver_twelfth = 0.083333333333333333333f; // Dawn divides by 12 like this, too
+
+/// Share of the light that the receiver loses while `hidden` occludes it, weighted as of moving_receiver_tap, in a part
+/// of the exposure in which the shutter's response is a line: response + slope x at the share x of the exposure, from
+/// time start to time stop. Add up the results for all parts: response 1 for a box; slope 4, then response 4 and slope
+/// -4 for the two halves of a tent; response 8 w.w0, ..., 8 w.w7 for the eighths of a piecewise shutter. With P and Q
+/// lines from a to b, the mean of P Q is (2 P_a Q_a + P_a Q_b + P_b Q_a + 2 P_b Q_b) / 6, and the mean of three lines
+/// is similar; nothing cancels.
+/// Error: that of moving_receiver_end.
+inline float moving_receiver_filtered_light(moving_receiver state, depth_time_range hidden, float start, float stop,
+                                            float response, float slope)
+{
+    float a = gnomon_max(hidden.t0, start);
+    float b = gnomon_min(hidden.t1, stop);
+    bool some = a < b;
+    float lost = 0.0f;
+    if (gnomon_any(some)) {
+        float share_a = shutter_box(a, state.begin, state.end);
+        float share_b = shutter_box(b, state.begin, state.end);
+        float passed_a = saturate_or_zero((a - state.t0) / (state.t1 - state.t0));
+        float passed_b = saturate_or_zero((b - state.t0) / (state.t1 - state.t0));
+        float u_a = state.u0 * (1.0f - passed_a) + state.u1 * passed_a;
+        float v_a = state.v0 * (1.0f - passed_a) + state.v1 * passed_a;
+        float u_b = state.u0 * (1.0f - passed_b) + state.u1 * passed_b;
+        float v_b = state.v0 * (1.0f - passed_b) + state.v1 * passed_b;
+        float aa = u_a * v_a;
+        float ab = u_a * v_b + u_b * v_a;
+        float bb = u_b * v_b;
+        float twelvefold = (response + slope * share_a) * (3.0f * aa + ab + bb) + (response + slope * share_b) *
+                           (aa + ab + 3.0f * bb);
+        float share = receiver_lost_light(hidden, state.depth.id, share_a, share_b);
+        lost = gnomon_select(some, share * twelvefold * receiver_twelfth, lost);
+    }
+    return lost;
+}
+
+/// Shadow intensity in [0, 1] over the whole exposure.
+/// NaN: a range with a NaN adds nothing, and a receiver with one is lit.
+/// Error: for each range that of static_receiver_end, filtered with 97 2^-p instead of 32; and that of the times at
+/// which the path enters and leaves texels (texel_border_share), or of weights (receiver_path_at, and
+/// moving_receiver_tap in perspective).
+/// Source: Palmer 2011, Sec. 5
+inline float moving_receiver_end(moving_receiver state) { return saturate_or_zero(state.shadowed); }
+
+} // namespace gnomon
+
+#endif
+
+// motion/triangle/triangle_setup.h ------------------------------------------------------------------------------------
+// The edge functions of a moving triangle over many samples: coverage and depth for all texels of a rasterizer's tile,
+// and for whole blocks of texels at once.
+//
+// The edge function of moving_triangle.h, (p_i - s w_i) x (p_j - s w_j) for a sample s, is the homogeneous line through
+// p_i and p_j applied to (s_x, s_y, 1). So each of its three Bernstein coefficients is affine in the sample:
+//     e(s) = c + x s_x + y s_y,   (x, y, c) = (X_i, Y_i, W_i) x (X_j, Y_j, W_j)
+// Nine numbers for each edge serve a whole tile. Over a block of samples a coefficient is at most its value at the
+// middle plus |x| and |y| times half of the block's extents. Bernstein polynomials are not negative, so the edge
+// function is at all times at most the one with these bounds as coefficients. So moving_coverage of such edges contains
+// all times at which the triangle covers any sample of the block: one kernel shades and culls, in space and in time.
+//
+//     setup = triangle_setup_make(triangle, origin_x, origin_y);                 once for a tile
+//     blocks = triangle_setup_around(setup, h_x, h_y, facing);
+//     times = moving_coverage(triangle_setup_edges(blocks, s_x, s_y), facing);   none: skip the block
+//     times = moving_coverage(triangle_setup_edges(setup, s_x, s_y), facing);
+//
+// Vertices with equal motions have edge functions that are linear in time: the cross product of their motions, e0 - 2
+// e1 + e2, vanishes. Then two planes serve for an edge, and a quotient for its time. Decide for each edge alone whether
+// it is linear enough, so that both triangles at the edge decide alike and no crack opens:
+//
+//     linear = moving_edge_nonlinearity(b, c) <= tolerance, and so on for the other edges
+//     times = linear_coverage(triangle_setup_edges_linear(setup, s_x, s_y))
+//
+// Depth that is linear in view distance is measured from that of vertex c:
+//     z(t) = z_c(t) + N(t) / D(t),   N = e_a (z_a - z_c) + e_b (z_b - z_c),   D = e_a + e_b + e_c
+// N is a cubic whose four Bernstein coefficients are affine in the sample, too, and D follows from the edge functions.
+// This takes a third of the operations of the vertices' mean (moving_triangle.h), and nothing large cancels.
+//
+//     depths = depth_setup_make(setup, triangle);   once for a tile
+//     curve = moving_depth_curve(depths, edges, s_x, s_y);
+//     z = depth_curve_at(curve, t);   linear_depth_at, if edges and depths are linear
+//
+// Lines approximate depth where they are near enough, else lines of pieces, as for moving_depth_line:
+//
+//     line = depth_curve_line(curve, begin, end);   if (line.deviation <= tolerance), else
+//     for (passed = 0; passed < 1; passed = piece.passed)
+//         piece = depth_curve_piece(curve, begin, end, passed, tolerance);
+#ifndef GNOMON_MOTION_TRIANGLE_TRIANGLE_SETUP_H
+#define GNOMON_MOTION_TRIANGLE_TRIANGLE_SETUP_H
+
+namespace gnomon {
+
+/// An affine function of the sample: c + x s_x + y s_y.
+struct sample_plane { float x, y, c; };
+
+/// Bernstein coefficients of an edge function, as affine functions of the sample.
+struct edge_equation { sample_plane e0, e1, e2; };
+
+/// The edge equations opposite to the vertices a, b, c of a triangle.
+struct triangle_setup { edge_equation a, b, c; };
+
+/// Bernstein coefficients of N as affine functions of the sample, the middle ones times 3; z_c at shutter open and
+/// close; the least and the largest depth of all vertices, in [-1, 1].
+struct depth_setup
+{
+    sample_plane n0, n1, n2, n3;
+    float z0, z1, least, most;
+};
+
+/// Depth at one sample: the coefficients of N, the coefficients of D with the middle one times 2, and the rest as in
+/// depth_setup.
+struct depth_curve { float n0, n1, n2, n3, d0, d1, d2, z0, z1, least, most; };
+
+/// Homogeneous line through two points of the plane.
+inline sample_plane homogeneous_line(float a_x, float a_y, float a_w, float b_x, float b_y, float b_w)
+{
+    sample_plane r;
+    r.x = sheared_cross(a_y, a_w, b_y, b_w);
+    r.y = sheared_cross(a_w, a_x, b_w, b_x);
+    r.c = sheared_cross(a_x, a_y, b_x, b_y);
+    return r;
+}
+
+/// Edge equation from a to b. Exchanging a and b negates it bit for bit.
+inline edge_equation edge_equation_make(moving_vertex a, moving_vertex b)
+{
+    sample_plane early = homogeneous_line(a.x0, a.y0, a.w0, b.x1, b.y1, b.w1);
+    sample_plane late = homogeneous_line(a.x1, a.y1, a.w1, b.x0, b.y0, b.w0);
+    edge_equation f;
+    f.e0 = homogeneous_line(a.x0, a.y0, a.w0, b.x0, b.y0, b.w0);
+    f.e1.x = 0.5f * (early.x + late.x);
+    f.e1.y = 0.5f * (early.y + late.y);
+    f.e1.c = 0.5f * (early.c + late.c);
+    f.e2 = homogeneous_line(a.x1, a.y1, a.w1, b.x1, b.y1, b.w1);
+    return f;
+}
+
+/// The vertex relative to an origin on the map, in the units of x / w.
+inline moving_vertex moving_vertex_translate(moving_vertex v, float origin_x, float origin_y)
+{
+    sheared_vertex s = moving_vertex_shear(v, origin_x, origin_y);
+    v.x0 = s.x0;
+    v.y0 = s.y0;
+    v.x1 = s.x1;
+    v.y1 = s.y1;
+    return v;
+}
+
+/// Upper bound of the distance, in the units of x / w, of the edge from a to b from an edge that is linear in time and
+/// equal at both ends. It holds among the samples between the least and the largest x / w and y / w of both vertices.
+/// The same from b to a, bit for bit.
+/// Domain: all w > 0.
+/// NaN: the result for an edge without length is NaN.
+/// Error: 16 2^-p of the result, and 32 2^-p times the products X_i Y_j + Y_i X_j of triangle_setup_make's error, over
+/// the least slope of the edge function.
+inline float moving_edge_nonlinearity(moving_vertex a, moving_vertex b)
+{
+    float a_x0 = a.x0 / a.w0;
+    float a_x1 = a.x1 / a.w1;
+    float a_y0 = a.y0 / a.w0;
+    float a_y1 = a.y1 / a.w1;
+    float b_x0 = b.x0 / b.w0;
+    float b_x1 = b.x1 / b.w1;
+    float b_y0 = b.y0 / b.w0;
+    float b_y1 = b.y1 / b.w1;
+    float low_x = gnomon_min(gnomon_min(a_x0, a_x1), gnomon_min(b_x0, b_x1));
+    float low_y = gnomon_min(gnomon_min(a_y0, a_y1), gnomon_min(b_y0, b_y1));
+    float high_x = gnomon_max(gnomon_max(a_x0, a_x1), gnomon_max(b_x0, b_x1));
+    float high_y = gnomon_max(gnomon_max(a_y0, a_y1), gnomon_max(b_y0, b_y1));
+    float x = 0.5f * (low_x + high_x);
+    float y = 0.5f * (low_y + high_y);
+    moving_vertex p = moving_vertex_translate(a, x, y);
+    moving_vertex q = moving_vertex_translate(b, x, y);
+    edge_equation f = edge_equation_make(p, q);
+    sample_plane bend = homogeneous_line(p.x1 - p.x0, p.y1 - p.y0, p.w1 - p.w0, q.x1 - q.x0, q.y1 - q.y0, q.w1 - q.w0);
+    float most = gnomon_abs(bend.c) + 0.5f *
+                 (gnomon_abs(bend.x) * (high_x - low_x) + gnomon_abs(bend.y) * (high_y - low_y));
+    // Distance is value over slope. Between the ends, the slope is least where its line is nearest to 0.
+    float turn_x = f.e2.x - f.e0.x;
+    float turn_y = f.e2.y - f.e0.y;
+    float turn = turn_x * turn_x + turn_y * turn_y;
+    float nearest = saturate_or_zero(-1.0f * (f.e0.x * turn_x + f.e0.y * turn_y) / turn);
+    float slope_x = f.e0.x + nearest * turn_x;
+    float slope_y = f.e0.y + nearest * turn_y;
+    return 0.25f * most / gnomon_sqrt(slope_x * slope_x + slope_y * slope_y);
+}
+
+/// Edge equations of a triangle. Samples are relative to the origin, which is best near them.
+/// Error: 64 2^-p (X_i Y_j + Y_i X_j) for a coefficient at sample s; the covered times are exact for coefficients that
+/// differ by as much. X = max(|x| + (|origin_x| + |s_x|) |w|) over the shutter's ends, Y likewise, p the bits of the
+/// significand.
+inline triangle_setup triangle_setup_make(moving_triangle m, float origin_x, float origin_y)
+{
+    moving_vertex a = moving_vertex_translate(m.a, origin_x, origin_y);
+    moving_vertex b = moving_vertex_translate(m.b, origin_x, origin_y);
+    moving_vertex c = moving_vertex_translate(m.c, origin_x, origin_y);
+    triangle_setup f;
+    f.a = edge_equation_make(b, c);
+    f.b = edge_equation_make(c, a);
+    f.c = edge_equation_make(a, b);
+    return f;
+}
+
+/// Value of the affine function p at the sample. Odd in p, bit for bit.
+inline float sample_plane_at(sample_plane p, float s_x, float s_y)
+{
+    return (gnomon_product(p.x, s_x) + gnomon_product(p.y, s_y)) + p.c;
+}
+
+/// Edge function at a sample.
+inline moving_edge edge_equation_at(edge_equation f, float s_x, float s_y)
+{
+    moving_edge e;
+    e.e0 = sample_plane_at(f.e0, s_x, s_y);
+    e.e1 = sample_plane_at(f.e1, s_x, s_y);
+    e.e2 = sample_plane_at(f.e2, s_x, s_y);
+    return e;
+}
+
+/// Edge functions at a sample, for moving_coverage. Two triangles that share an edge cover each sample near it exactly
+/// one at a time, as with moving_triangle_edges.
+inline moving_edges triangle_setup_edges(triangle_setup f, float s_x, float s_y)
+{
+    moving_edges e;
+    e.a = edge_equation_at(f.a, s_x, s_y);
+    e.b = edge_equation_at(f.b, s_x, s_y);
+    e.c = edge_equation_at(f.c, s_x, s_y);
+    return e;
+}
+
+/// Edge function at a sample, for an edge function that is linear in time: its middle coefficient is the mean of the
+/// others.
+inline moving_edge linear_edge_at(edge_equation f, float s_x, float s_y)
+{
+    moving_edge e;
+    e.e0 = sample_plane_at(f.e0, s_x, s_y);
+    e.e2 = sample_plane_at(f.e2, s_x, s_y);
+    e.e1 = 0.5f * (e.e0 + e.e2);
+    return e;
+}
+
+/// Edge functions at a sample, for linear_coverage: all three are linear in time.
+inline moving_edges triangle_setup_edges_linear(triangle_setup f, float s_x, float s_y)
+{
+    moving_edges e;
+    e.a = linear_edge_at(f.a, s_x, s_y);
+    e.b = linear_edge_at(f.b, s_x, s_y);
+    e.c = linear_edge_at(f.c, s_x, s_y);
+    return e;
+}
+
+/// Upper bound of the affine function p over the samples within h_x and h_y of each sample; the lower bound if facing
+/// is -1.
+inline sample_plane sample_plane_around(sample_plane p, float h_x, float h_y, float facing)
+{
+    p.c = p.c + facing * (gnomon_abs(p.x) * h_x + gnomon_abs(p.y) * h_y);
+    return p;
+}
+
+/// Bounds of an edge function, as of triangle_setup_around.
+inline edge_equation edge_equation_around(edge_equation f, float h_x, float h_y, float facing)
+{
+    f.e0 = sample_plane_around(f.e0, h_x, h_y, facing);
+    f.e1 = sample_plane_around(f.e1, h_x, h_y, facing);
+    f.e2 = sample_plane_around(f.e2, h_x, h_y, facing);
+    return f;
+}
+
+/// Bounds of the edge functions over the samples within h_x and h_y of each sample: upper bounds if facing is 1, lower
+/// bounds if facing is -1. moving_coverage at (s_x, s_y), with the same facing, contains all times at which a triangle
+/// of this facing covers any sample of the block around (s_x, s_y).
+/// Error: rounding may reduce h_x and h_y by 8 2^-p of the tile's extents; pass a little more.
+inline triangle_setup triangle_setup_around(triangle_setup f, float h_x, float h_y, float facing)
+{
+    f.a = edge_equation_around(f.a, h_x, h_y, facing);
+    f.b = edge_equation_around(f.b, h_x, h_y, facing);
+    f.c = edge_equation_around(f.c, h_x, h_y, facing);
+    return f;
+}
+
+/// The sum of a times k_a and b times k_b.
+inline sample_plane sample_planes_combine(sample_plane a, float k_a, sample_plane b, float k_b)
+{
+    sample_plane r;
+    r.x = a.x * k_a + b.x * k_b;
+    r.y = a.y * k_a + b.y * k_b;
+    r.c = a.c * k_a + b.c * k_b;
+    return r;
+}
+
+/// Twice the middle coefficient of an edge times one end of a depth, plus an outer coefficient times the other end.
+inline sample_plane depth_setup_middle(sample_plane outer, float across, sample_plane middle, float beside)
+{
+    return sample_planes_combine(outer, across, middle, 2.0f * beside);
+}
+
+/// Depths of the triangle that the setup is of. The vertices' z is linear in view distance; samples are those of the
+/// setup.
+inline depth_setup depth_setup_make(triangle_setup f, moving_triangle m)
+{
+    float a0 = m.a.z0 - m.c.z0;
+    float a1 = m.a.z1 - m.c.z1;
+    float b0 = m.b.z0 - m.c.z0;
+    float b1 = m.b.z1 - m.c.z1;
+    depth_setup d;
+    d.n0 = sample_planes_combine(f.a.e0, a0, f.b.e0, b0);
+    d.n1 = sample_planes_combine(depth_setup_middle(f.a.e0, a1, f.a.e1, a0), 1.0f,
+                                 depth_setup_middle(f.b.e0, b1, f.b.e1, b0), 1.0f);
+    d.n2 = sample_planes_combine(depth_setup_middle(f.a.e2, a0, f.a.e1, a1), 1.0f,
+                                 depth_setup_middle(f.b.e2, b0, f.b.e1, b1), 1.0f);
+    d.n3 = sample_planes_combine(f.a.e2, a1, f.b.e2, b1);
+    d.z0 = m.c.z0;
+    d.z1 = m.c.z1;
+    float least = gnomon_min(gnomon_min(gnomon_min(m.a.z0, m.a.z1), gnomon_min(m.b.z0, m.b.z1)),
+                             gnomon_min(d.z0, d.z1));
+    float most = gnomon_max(gnomon_max(gnomon_max(m.a.z0, m.a.z1), gnomon_max(m.b.z0, m.b.z1)), gnomon_max(d.z0, d.z1));
+    d.least = gnomon_max(gnomon_min(least, 1.0f), -1.0f);
+    d.most = gnomon_max(gnomon_min(most, 1.0f), -1.0f);
+    return d;
+}
+
+/// Depth as a function of time at a sample; e are the edge functions at the same sample, from triangle_setup_edges.
+inline depth_curve moving_depth_curve(depth_setup d, moving_edges e, float s_x, float s_y)
+{
+    depth_curve r;
+    r.n0 = sample_plane_at(d.n0, s_x, s_y);
+    r.n1 = sample_plane_at(d.n1, s_x, s_y);
+    r.n2 = sample_plane_at(d.n2, s_x, s_y);
+    r.n3 = sample_plane_at(d.n3, s_x, s_y);
+    r.d0 = (e.a.e0 + e.b.e0) + e.c.e0;
+    r.d1 = 2.0f * ((e.a.e1 + e.b.e1) + e.c.e1);
+    r.d2 = (e.a.e2 + e.b.e2) + e.c.e2;
+    r.z0 = d.z0;
+    r.z1 = d.z1;
+    r.least = d.least;
+    r.most = d.most;
+    return r;
+}
+
+/// Depth of the triangle's point at the sample at time t in [0, 1], always within the limits of all vertices' depths.
+/// Where D is 0, such as where the triangle turns edge-on, one of these limits.
+/// Domain: the triangle covers the sample at time t, and all w > 0.
+/// NaN: the farthest depth of the vertices.
+/// Error: 32 2^-p (S_a |z_a - z_c| + S_b |z_b - z_c| + |z - z_c| (S_a + S_b + S_c)) / |D| and 8 2^-p; S_k the products
+/// X_i Y_j + Y_i X_j of edge k in triangle_setup_make's error, |z_k - z_c| the larger one of both ends of the shutter.
+inline float depth_curve_at(depth_curve c, float t)
+{
+    float s = 1.0f - t;
+    float numerator = (c.n0 * s + c.n1 * t) * (s * s) + (c.n2 * s + c.n3 * t) * (t * t);
+    float denominator = (c.d0 * s + c.d1 * t) * s + c.d2 * (t * t);
+    float z = (c.z0 * s + c.z1 * t) + numerator / denominator;
+    return gnomon_max(gnomon_min(z, c.most), c.least); // a NaN becomes the farthest
+}
+
+/// Depth at time t as of depth_curve_at, for N and D that are linear in time: edges are linear, and depths of vertices
+/// change alike.
+/// NaN: the farthest depth of the vertices.
+/// Error: that of depth_curve_at.
+inline float linear_depth_at(depth_curve c, float t)
+{
+    float s = 1.0f - t;
+    float z = (c.z0 * s + c.z1 * t) + (c.n0 * s + c.n3 * t) / (c.d0 * s + c.d2 * t);
+    return gnomon_max(gnomon_min(z, c.most), c.least); // a NaN becomes the farthest
+}
+
+/// Line through the depths of depth_curve_at at the times begin and end, and an upper bound of the deviation of depth
+/// from it. Where D may vanish, the bound is the largest deviation within the limits.
+/// Domain: begin <= end, both in [0, 1].
+/// Error: 24 2^-p (n + d (r + deviation)) / |D| and 8 2^-p of the largest depth; n and d the largest coefficients of N
+/// and D, the middle ones as means, not times 3 and 2; r the larger |N / D| at an end, |D| where it is least.
+inline depth_line depth_curve_line(depth_curve c, float begin, float end)
+{
+    float b = 1.0f - begin;
+    float f = 1.0f - end;
+    // Bernstein coefficients between the two times, by blossoming.
+    float three0 = 3.0f * c.n0;
+    float three3 = 3.0f * c.n3;
+    float n0 = (c.n0 * b + c.n1 * begin) * (b * b) + (c.n2 * b + c.n3 * begin) * (begin * begin);
+    float n1 = ((three0 * f + c.n1 * end) * (b * b) + (c.n2 * f + three3 * end) * (begin * begin)) +
+               (c.n1 * f + c.n2 * end) * (2.0f * (b * begin));
+    float n2 = ((three0 * b + c.n1 * begin) * (f * f) + (c.n2 * b + three3 * begin) * (end * end)) +
+               (c.n1 * b + c.n2 * begin) * (2.0f * (f * end));
+    float n3 = (c.n0 * f + c.n1 * end) * (f * f) + (c.n2 * f + c.n3 * end) * (end * end);
+    float d0 = (c.d0 * b + c.d1 * begin) * b + c.d2 * (begin * begin);
+    float d1 = (2.0f * (c.d0 * f) + c.d1 * end) * b + (c.d1 * f + 2.0f * (c.d2 * end)) * begin;
+    float d2 = (c.d0 * f + c.d1 * end) * f + c.d2 * (end * end);
+    float q0 = n0 / d0;
+    float q1 = n3 / d2;
+    float p0 = (n1 - q0 * d1) - q1 * d0;
+    float p1 = (n2 - q1 * d1) - q0 * d2;
+    float bend = depth_nonlinearity(gnomon_max(gnomon_abs(p0), gnomon_abs(p1)), d0, d2, d1, d1);
+    float free0 = (c.z0 * b + c.z1 * begin) + q0;
+    float free1 = (c.z0 * f + c.z1 * end) + q1;
+    float z0 = gnomon_max(gnomon_min(free0, c.most), c.least);
+    float z1 = gnomon_max(gnomon_min(free1, c.most), c.least);
+    return depth_line_within(z0, z1, free0, free1, bend, c.least, c.most);
+}
+
+/// Line through the depths of linear_depth_at at the times begin and end, and the largest deviation of depth from it,
+/// for N and D that are linear in time. The bound is attained.
+inline depth_line linear_depth_line(depth_curve c, float begin, float end)
+{
+    float b = 1.0f - begin;
+    float f = 1.0f - end;
+    float d0 = c.d0 * b + c.d2 * begin;
+    float d1 = c.d0 * f + c.d2 * end;
+    float q0 = (c.n0 * b + c.n3 * begin) / d0;
+    float q1 = (c.n0 * f + c.n3 * end) / d1;
+    float bend = depth_nonlinearity(gnomon_abs((q1 - q0) * (d1 - d0)), d0, d1, d0 + d1, d0 + d1);
+    float free0 = (c.z0 * b + c.z1 * begin) + q0;
+    float free1 = (c.z0 * f + c.z1 * end) + q1;
+    float z0 = gnomon_max(gnomon_min(free0, c.most), c.least);
+    float z1 = gnomon_max(gnomon_min(free1, c.most), c.least);
+    return depth_line_within(z0, z1, free0, free1, bend, c.least, c.most);
+}
+
+/// The next piece of an interval, as of moving_depth_piece, with lines of depth_curve_line; for linear N and D, too.
+inline depth_piece depth_curve_piece(depth_curve c, float begin, float end, float passed, float tolerance)
+{
+    depth_trial r = depth_trial_begin(begin, end, passed);
+    for (int i = 0; i < 6; ++i) {
+        if (gnomon_any(r.settled < 1.0f)) r = depth_trial_next(r, depth_curve_line(c, r.piece.t0, r.piece.t1), begin,
+                                                               end, tolerance);
+    }
+    return r.piece;
+}
+
+} // namespace gnomon
+
+#endif
+
+// motion/triangle/depth_planes.h --------------------------------------------------------------------------------------
+// Times at which the point of a moving triangle that a sample sees lies between the near and the far plane. A surface
+// that passes one of the planes is visible for a part of its covered times: its times are clipped, not its depths.
+//
+// With depth z = z_c + N / D (triangle_setup.h) and D > 0 where the triangle turns its positive side to the sample, z
+// is at least p exactly where
+//     h(t) = N(t) + (z_c(t) - p) D(t) >= 0
+// This is a cubic in t. Its turning points, the roots of a quadratic, divide [0, 1] into three intervals in which h is
+// monotonic. Each interval has one root or none; bisection finds the root. A cubic is positive in at most two
+// intervals, so the result is an edge_intervals, as for an edge.
+//
+//     near = depth_intervals_beyond(curve, -1, facing);   far = depth_intervals_before(curve, 1, facing);
+//     for every covered interval: edge_intervals_part(near, 0, begin, end), and part 1; each of them alike with far
+#ifndef GNOMON_MOTION_TRIANGLE_DEPTH_PLANES_H
+#define GNOMON_MOTION_TRIANGLE_DEPTH_PLANES_H
+
+namespace gnomon {
+
+/// A cubic: h0 s^3 + h1 s^2 t + h2 s t^2 + h3 t^3, s = 1 - t.
+struct moving_cubic { float h0, h1, h2, h3; };
+
+/// A root between two times, and whether there is one, 1 or 0.
+struct cubic_root { float t, found; };
+
+constant constexpr float cubic_third = 0.333333333333333333333f;
+
+/// Value of h at time t in [0, 1].
+/// Error: 8 2^-p times the largest coefficient.
+inline float moving_cubic_at(moving_cubic h, float t)
+{
+    float s = 1.0f - t;
+    return (h.h0 * s + h.h1 * t) * (s * s) + (h.h2 * s + h.h3 * t) * (t * t);
+}
+
+/// Time at which the sign of h changes between begin and end, where h has the values at_begin and at_end and is
+/// monotonic between them. By 24 halvings.
+/// Error: 2^-24 of the interval.
+inline cubic_root moving_cubic_root(moving_cubic h, float begin, float end, float at_begin, float at_end)
+{
+    bool before = at_begin < 0.0f;
+    bool after = at_end < 0.0f;
+    bool some = begin <= end && ((before && !after) || (after && !before));
+    float low = begin;
+    float high = end;
+    for (int i = 0; i < 24; ++i) {
+        float middle = 0.5f * (low + high);
+        bool outside = moving_cubic_at(h, middle) < 0.0f;
+        bool left = (outside && before) || !(outside || before); // the root is later
+        low = gnomon_select(left, middle, low);
+        high = gnomon_select(left, high, middle);
+    }
+    cubic_root r;
+    // Return the end that is inside, so that h is not negative at the time.
+    r.t = gnomon_select(before, high, low);
+    r.found = gnomon_select(some, 1.0f, 0.0f);
+    return r;
+}
+
+/// Times in [0, 1] at which h >= 0.
+/// NaN: none.
+/// Error: the error of the cubic's value over its slope at that time, and 2^-24. If h only touches 0 within its error,
+/// as if it did not.
+inline edge_intervals moving_cubic_inside(moving_cubic h)
+{
+    float none = coverage_none;
+    // A third of the slope, by Bernstein coefficients. The ends of the times at which h rises are the turning points.
+    float b1 = h.h1 * cubic_third;
+    float b2 = h.h2 * cubic_third;
+    moving_edge slope;
+    slope.e0 = b1 - h.h0;
+    slope.e1 = b2 - b1;
+    slope.e2 = h.h3 - b2;
+    edge_intervals rises = moving_edge_inside(slope, 1.0f);
+    bool gap = rises.gap_begin < none;
+    bool some = rises.begin < rises.end;
+    float first = gnomon_select(gap, rises.gap_begin, gnomon_select(some, rises.begin, 0.0f));
+    float second = gnomon_select(gap, rises.gap_end, gnomon_select(some, rises.end, 1.0f));
+    float at_first = moving_cubic_at(h, first);
+    float at_second = moving_cubic_at(h, second);
+    cubic_root a = moving_cubic_root(h, 0.0f, first, h.h0, at_first);
+    cubic_root b = moving_cubic_root(h, first, second, at_first, at_second);
+    cubic_root c = moving_cubic_root(h, second, 1.0f, at_second, h.h3);
+
+    // The roots in order, missing ones last.
+    bool has_a = 0.0f < a.found;
+    bool has_b = 0.0f < b.found;
+    bool has_c = 0.0f < c.found;
+    float root0 = gnomon_select(has_a, a.t, gnomon_select(has_b, b.t, gnomon_select(has_c, c.t, none)));
+    float later = gnomon_select(has_b, b.t, gnomon_select(has_c, c.t, none));
+    float root1 = gnomon_select(has_a, later, gnomon_select(has_b && has_c, c.t, none));
+    float root2 = gnomon_select(has_a && has_b && has_c, c.t, none);
+
+    bool open = 0.0f <= h.h0;
+    edge_intervals x;
+    x.begin = gnomon_select(open, 0.0f, gnomon_min(root0, 1.0f));
+    // A gap lasts from the first root to the second if h is positive at shutter open, else from the second to the
+    // third. Without its second root there is no gap, and the times end at its first.
+    float leaves = gnomon_select(open, root0, root1);
+    float returns = gnomon_select(open, root1, root2);
+    float leaves_again = gnomon_select(open, root2, none);
+    bool back = returns < none;
+    x.end = gnomon_min(gnomon_select(back, leaves_again, leaves), 1.0f);
+    x.gap_begin = gnomon_select(back, leaves, none);
+    x.gap_end = gnomon_select(back, returns, none);
+    bool known = (gnomon_abs(h.h0) + gnomon_abs(h.h1)) + (gnomon_abs(h.h2) + gnomon_abs(h.h3)) < moving_edge_limit;
+    bool ever = known && (open || root0 < none);
+    x.begin = gnomon_select(ever, x.begin, 1.0f);
+    x.end = gnomon_select(ever, x.end, 0.0f);
+    return x;
+}
+
+/// The cubic N + (z_c - plane) D, times side.
+inline moving_cubic depth_over_plane(depth_curve c, float plane, float side)
+{
+    float z0 = c.z0 - plane;
+    float z1 = c.z1 - plane;
+    moving_cubic h;
+    h.h0 = side * (c.n0 + z0 * c.d0);
+    h.h1 = side * (c.n1 + (z0 * c.d1 + z1 * c.d0));
+    h.h2 = side * (c.n2 + (z0 * c.d2 + z1 * c.d1));
+    h.h3 = side * (c.n3 + z1 * c.d2);
+    return h;
+}
+
+/// Times at which the depth of a triangle is at least that of the plane, among the times at which a triangle of this
+/// facing, 1 or -1, covers the sample.
+/// NaN: none.
+/// Error: that of moving_cubic_inside.
+inline edge_intervals depth_intervals_beyond(depth_curve c, float plane, float facing)
+{
+    return moving_cubic_inside(depth_over_plane(c, plane, facing));
+}
+
+/// Times at which the depth of a triangle is at most that of the plane, among the times at which a triangle of this
+/// facing, 1 or -1, covers the sample.
+/// NaN: none.
+/// Error: that of moving_cubic_inside.
+inline edge_intervals depth_intervals_before(depth_curve c, float plane, float facing)
+{
+    return moving_cubic_inside(depth_over_plane(c, plane, -1.0f * facing));
+}
+
+/// The part of the interval from begin to end that lies in x: before its gap (part 0) or after the gap (part 1). Empty
+/// unless begin < end. Without a gap everything is in part 0.
+inline linear_interval edge_intervals_part(edge_intervals x, float part, float begin, float end)
+{
+    bool second = 0.5f < part;
+    linear_interval r;
+    r.begin = gnomon_max(begin, gnomon_select(second, x.gap_end, x.begin));
+    r.end = gnomon_min(end, gnomon_select(second, x.end, gnomon_min(x.end, x.gap_begin)));
+    return r;
+}
+
+} // namespace gnomon
+
+#endif
+
+// motion/triangle/edge_widening.h -------------------------------------------------------------------------------------
+// Edges moved outwards by the amount that rounding may take from them. Two triangles that share an edge cover each
+// sample beside it at complementary times, bit for bit, so no gap shows between them. At a vertex, however, several
+// edges meet, and each is rounded independently: a sample on the vertex or beside it may be outside of all triangles of
+// a fan. Widened edges overlap by the same small amount, which lists tolerate.
+//
+//     margin = edge_equation_error(setup.a, h_x, h_y);
+//     wide = edge_equation_widen(setup.a, margin, facing);   once for a tile of samples
+//     edge = edge_equation_at(wide, s_x, s_y);               for moving_edge_inside
+#ifndef GNOMON_MOTION_TRIANGLE_EDGE_WIDENING_H
+#define GNOMON_MOTION_TRIANGLE_EDGE_WIDENING_H
+
+namespace gnomon {
+
+constant constexpr float edge_field_margin = 0.0000019073486328125f; // 2^-19, 32 2^-p in float
+
+/// Largest absolute value of the plane within h_x and h_y of the origin.
+inline float sample_plane_size(sample_plane p, float h_x, float h_y)
+{
+    return (gnomon_abs(p.x) * h_x + gnomon_abs(p.y) * h_y) + gnomon_abs(p.c);
+}
+
+/// Largest absolute value of the edge function's coefficients within h_x and h_y of the origin.
+inline float edge_equation_size(edge_equation f, float h_x, float h_y)
+{
+    float outer = gnomon_max(sample_plane_size(f.e0, h_x, h_y), sample_plane_size(f.e2, h_x, h_y));
+    return gnomon_max(outer, sample_plane_size(f.e1, h_x, h_y));
+}
+
+/// Upper bound of the rounding of an edge function at the samples within h_x and h_y of the origin. It covers planes
+/// that were exact before they were rounded to float, their coefficients at the sample, and the times of
+/// moving_edge_inside, all in float. These take 1 + 4 + 16 units of 2^-24 of the largest coefficient; the bound is 32.
+inline float edge_equation_error(edge_equation f, float h_x, float h_y)
+{
+    return edge_field_margin * edge_equation_size(f, h_x, h_y);
+}
+
+/// Upper bound of the rounding of an edge function for linear_edge_inside. Its times take 2 units instead of 16, and
+/// the bound is 8. The distance between the edge function and the linear one, a quarter of e0 - 2 e1 + e2, is added.
+inline float linear_edge_error(edge_equation f, float h_x, float h_y)
+{
+    sample_plane bend;
+    bend.x = f.e0.x - 2.0f * f.e1.x + f.e2.x;
+    bend.y = f.e0.y - 2.0f * f.e1.y + f.e2.y;
+    bend.c = f.e0.c - 2.0f * f.e1.c + f.e2.c;
+    return 0.25f * (edge_equation_error(f, h_x, h_y) + sample_plane_size(bend, h_x, h_y));
+}
+
+/// The edge moved outwards by a margin. With its error as margin, the edge is inside at all times at which the exact
+/// one is. Triangles around a common vertex then leave no crack, although each edge is rounded independently, but
+/// overlap by as little.
+inline edge_equation edge_equation_widen(edge_equation f, float margin, float facing)
+{
+    float by = facing * margin;
+    f.e0.c = f.e0.c + by;
+    f.e1.c = f.e1.c + by;
+    f.e2.c = f.e2.c + by;
+    return f;
+}
+
+} // namespace gnomon
+
+#endif
+
+// storage/convolution.h -----------------------------------------------------------------------------------------------
+// Convolution shadow maps in a storage format: from a depth to the channels of a texel, and from filtered channels to a
+// shadow, with the settings of the format.
+//
+//   format         bytes   channels                            write                       read
+//   32 x 8 UNORM    32     (1 + value) / 2: 16 cosines, sines  convolution_unorm8_encode   convolution_unorm8_intensity
+//
+// A texel is eight textures of four channels (Klehm, Seidel & Eisemann 2014): cosine and sine of term 1, then of term
+// 2, and so on. The series is neither damped nor sharpened. Its span leaves a 16th of the half period free, and its
+// offset is that of convolution_settings. A lit surface is darkened by the ripple of 16 terms and by rounding to 8
+// bits.
+#ifndef GNOMON_STORAGE_CONVOLUTION_H
+#define GNOMON_STORAGE_CONVOLUTION_H
+
+namespace gnomon {
+
+/// Eight textures of four channels.
+struct channels32 { channels4 t1, t2, t3, t4, t5, t6, t7, t8; };
+
+constant constexpr float convolution_unorm8_offset = 0.04088048903297681f; // 1.92644766 / (pi terms span)
+constant constexpr float convolution_unorm8_darkening = 0.055f;
+constant constexpr float convolution_unorm8_weight1 = 0.6366197723675814f;
+constant constexpr float convolution_unorm8_weight2 = 0.2122065907891938f;
+constant constexpr float convolution_unorm8_weight3 = 0.12732395447351627f;
+constant constexpr float convolution_unorm8_weight4 = 0.09094568176679733f;
+constant constexpr float convolution_unorm8_weight5 = 0.0707355302630646f;
+constant constexpr float convolution_unorm8_weight6 = 0.05787452476068922f;
+constant constexpr float convolution_unorm8_weight7 = 0.04897075172058318f;
+constant constexpr float convolution_unorm8_weight8 = 0.04244131815783876f;
+constant constexpr float convolution_unorm8_weight9 = 0.03744822190397538f;
+constant constexpr float convolution_unorm8_weight10 = 0.033506303808820075f;
+constant constexpr float convolution_unorm8_weight11 = 0.030315227255599115f;
+constant constexpr float convolution_unorm8_weight12 = 0.02767912053772093f;
+constant constexpr float convolution_unorm8_weight13 = 0.025464790894703257f;
+constant constexpr float convolution_unorm8_weight14 = 0.0235785100876882f;
+constant constexpr float convolution_unorm8_weight15 = 0.021952405943709702f;
+constant constexpr float convolution_unorm8_weight16 = 0.020536121689276817f;
+
+/// The channels of the term at phase and of the next term.
+inline channels4 convolution_unorm8_encode_two(convolution_phase phase)
+{
+    convolution_phase next = convolution_next(phase);
+    channels4 c;
+    c.c1 = 0.5f * phase.cosine + 0.5f;
+    c.c2 = 0.5f * phase.sine + 0.5f;
+    c.c3 = 0.5f * next.cosine + 0.5f;
+    c.c4 = 0.5f * next.sine + 0.5f;
+    return c;
+}
+
+/// The phase two terms on.
+inline convolution_phase convolution_unorm8_next_two(convolution_phase phase)
+{
+    return convolution_next(convolution_next(phase));
+}
+
+/// The 32 channels of a 32 x 8 UNORM texel of a depth z, each in [0, 1].
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Error: as convolution_next.
+/// Source: Annen 2007, Sec. 3
+inline channels32 convolution_unorm8_encode(float z)
+{
+    convolution_settings settings;
+    settings.terms = 16.0f;
+    settings.damping = 0.0f;
+    settings.offset = convolution_unorm8_offset;
+    settings.span = 0.9375f;
+    convolution_phase phase = convolution_encode(z, settings);
+    channels32 c;
+    c.t1 = convolution_unorm8_encode_two(phase);
+    phase = convolution_unorm8_next_two(phase);
+    c.t2 = convolution_unorm8_encode_two(phase);
+    phase = convolution_unorm8_next_two(phase);
+    c.t3 = convolution_unorm8_encode_two(phase);
+    phase = convolution_unorm8_next_two(phase);
+    c.t4 = convolution_unorm8_encode_two(phase);
+    phase = convolution_unorm8_next_two(phase);
+    c.t5 = convolution_unorm8_encode_two(phase);
+    phase = convolution_unorm8_next_two(phase);
+    c.t6 = convolution_unorm8_encode_two(phase);
+    phase = convolution_unorm8_next_two(phase);
+    c.t7 = convolution_unorm8_encode_two(phase);
+    phase = convolution_unorm8_next_two(phase);
+    c.t8 = convolution_unorm8_encode_two(phase);
+    return c;
+}
+
+/// The sum after two terms with their channels and weights.
+inline convolution_sum convolution_unorm8_add_two(convolution_sum state, channels4 c, float weight, float next_weight)
+{
+    state = convolution_add(state, 2.0f * c.c1 - 1.0f, 2.0f * c.c2 - 1.0f, weight);
+    return convolution_add(state, 2.0f * c.c3 - 1.0f, 2.0f * c.c4 - 1.0f, next_weight);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 32 x 8 UNORM texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+/// Error: as convolution_end.
+inline float convolution_unorm8_intensity(channels32 c, float z_f)
+{
+    convolution_settings settings;
+    settings.terms = 16.0f;
+    settings.damping = 0.0f;
+    settings.offset = convolution_unorm8_offset;
+    settings.span = 0.9375f;
+    convolution_sum state = convolution_begin(z_f, settings);
+    state = convolution_unorm8_add_two(state, c.t1, convolution_unorm8_weight1, convolution_unorm8_weight2);
+    state = convolution_unorm8_add_two(state, c.t2, convolution_unorm8_weight3, convolution_unorm8_weight4);
+    state = convolution_unorm8_add_two(state, c.t3, convolution_unorm8_weight5, convolution_unorm8_weight6);
+    state = convolution_unorm8_add_two(state, c.t4, convolution_unorm8_weight7, convolution_unorm8_weight8);
+    state = convolution_unorm8_add_two(state, c.t5, convolution_unorm8_weight9, convolution_unorm8_weight10);
+    state = convolution_unorm8_add_two(state, c.t6, convolution_unorm8_weight11, convolution_unorm8_weight12);
+    state = convolution_unorm8_add_two(state, c.t7, convolution_unorm8_weight13, convolution_unorm8_weight14);
+    state = convolution_unorm8_add_two(state, c.t8, convolution_unorm8_weight15, convolution_unorm8_weight16);
+    return convolution_end(state);
+}
+
+} // namespace gnomon
+
+#endif
+
+// storage/exponential.h -----------------------------------------------------------------------------------------------
+// Exponential shadow maps in a storage format: from a depth to the channel of a texel, and from a filtered channel to a
+// shadow, with the exponent of the format.
+//
+//   format      bytes   channel       write                      read
+//   1 x float     4     exp(40 z)     exponential_float_encode   exponential_float_intensity
+//
+// A lit surface is darkened by rounding alone: 84 roundings of exp(40 z), two of the filter passes and their sums.
+#ifndef GNOMON_STORAGE_EXPONENTIAL_H
+#define GNOMON_STORAGE_EXPONENTIAL_H
+
+namespace gnomon {
+
+constant constexpr float exponential_float_exponent = 40.0f; // exp(2 c) < 2^127
+constant constexpr float exponential_float_darkening = 6e-6f;
+
+/// The channel of a 1 x float texel of a depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Error: as exponential_encode.
+inline channels1 exponential_float_encode(float z)
+{
+    exponential_settings settings;
+    settings.exponent = exponential_float_exponent;
+    exponential_moment b = exponential_encode(z, settings);
+    channels1 c;
+    c.c1 = b.warped;
+    return c;
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channel of a 1 x float texel.
+/// Domain: any z_f; beyond the far plane as on it.
+/// NaN: 0, lit.
+/// Error: as exponential_intensity.
+inline float exponential_float_intensity(channels1 c, float z_f)
+{
+    exponential_settings settings;
+    settings.exponent = exponential_float_exponent;
+    exponential_moment b;
+    b.warped = c.c1;
+    return exponential_intensity(b, z_f, settings);
+}
+
+} // namespace gnomon
+
+#endif
+
+// storage/exponential_variance.h --------------------------------------------------------------------------------------
+// Exponential variance shadow maps in a storage format: from a depth to the channels of a texel, and from filtered
+// channels to a shadow, with the exponents and the minimum variance of the format.
+//
+//   format      bytes   exponents   write                              read
+//   4 x half      8     5.54 5.54   exponential_variance_half_encode    exponential_variance_half_intensity
+//   4 x float    16     40   5.54   exponential_variance_float_encode   exponential_variance_float_intensity
+//
+// The exponents are those of Peters et al. 2017, Figure 4. The channels are the four members of
+// exponential_variance_moments, in their order. The minimum variance is 99 e^2, as in storage/variance.h, with e three
+// roundings of a depth: a relative rounding of r in a warped value moves the depth by r / c. To 4 x float the rounding
+// of the depth, a float too, is added.
+#ifndef GNOMON_STORAGE_EXPONENTIAL_VARIANCE_H
+#define GNOMON_STORAGE_EXPONENTIAL_VARIANCE_H
+
+namespace gnomon {
+
+// both; exp(2 c) fills a half
+constant constexpr float exponential_variance_half_exponent = 5.54f;
+constant constexpr float exponential_variance_half_minimum_variance = 6.921468870293247e-6f; // 99 (3 2^-11 / 5.54)^2
+constant constexpr float exponential_variance_half_darkening = 0.01f;
+constant constexpr float exponential_variance_float_positive_exponent = 40.0f;
+constant constexpr float exponential_variance_float_negative_exponent = 5.54f;
+// 99 (3 2^-24 (1 + 1 / 5.54))^2
+constant constexpr float exponential_variance_float_minimum_variance = 4.41137400169126e-12f;
+constant constexpr float exponential_variance_float_darkening = 0.01f;
+
+/// The channels of the filter with the given settings for a depth z.
+inline channels4 exponential_variance_to_channels(float z, exponential_variance_settings settings)
+{
+    exponential_variance_moments b = exponential_variance_encode(z, settings);
+    channels4 c;
+    c.c1 = b.positive;
+    c.c2 = b.positive_square;
+    c.c3 = b.negative;
+    c.c4 = b.negative_square;
+    return c;
+}
+
+/// The intensity of the filter with the given settings from its channels.
+inline float exponential_variance_of_channels(channels4 c, float z_f, exponential_variance_settings settings)
+{
+    exponential_variance_moments b;
+    b.positive = c.c1;
+    b.positive_square = c.c2;
+    b.negative = c.c3;
+    b.negative_square = c.c4;
+    return exponential_variance_intensity(b, z_f, settings);
+}
+
+/// The four channels of a 4 x half texel of a depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Error: as exponential_variance_encode.
+inline channels4 exponential_variance_half_encode(float z)
+{
+    exponential_variance_settings settings;
+    settings.positive_exponent = exponential_variance_half_exponent;
+    settings.negative_exponent = exponential_variance_half_exponent;
+    settings.minimum_variance = exponential_variance_half_minimum_variance;
+    return exponential_variance_to_channels(z, settings);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit; a NaN channel takes the bound of its own warp away, which leaves the other's.
+inline float exponential_variance_half_intensity(channels4 c, float z_f)
+{
+    exponential_variance_settings settings;
+    settings.positive_exponent = exponential_variance_half_exponent;
+    settings.negative_exponent = exponential_variance_half_exponent;
+    settings.minimum_variance = exponential_variance_half_minimum_variance;
+    return exponential_variance_of_channels(c, z_f, settings);
+}
+
+/// The four channels of a 4 x float texel of a depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Error: as exponential_variance_encode.
+inline channels4 exponential_variance_float_encode(float z)
+{
+    exponential_variance_settings settings;
+    settings.positive_exponent = exponential_variance_float_positive_exponent;
+    settings.negative_exponent = exponential_variance_float_negative_exponent;
+    settings.minimum_variance = exponential_variance_float_minimum_variance;
+    return exponential_variance_to_channels(z, settings);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit; a NaN channel takes the bound of its own warp away, which leaves the other's.
+inline float exponential_variance_float_intensity(channels4 c, float z_f)
+{
+    exponential_variance_settings settings;
+    settings.positive_exponent = exponential_variance_float_positive_exponent;
+    settings.negative_exponent = exponential_variance_float_negative_exponent;
+    settings.minimum_variance = exponential_variance_float_minimum_variance;
+    return exponential_variance_of_channels(c, z_f, settings);
+}
+
+} // namespace gnomon
+
+#endif
+
+// storage/layered_variance.h ------------------------------------------------------------------------------------------
+// Layered variance shadow maps in a storage format: from a depth to the channels of a texel, and from filtered channels
+// to a shadow. Four layers divide [-1, 1] evenly.
+//
+//   format          bytes   channels of a layer           write                             read
+//   8 x 16 UNORM     16     (1 + mean) / 2, mean square   layered_variance_unorm16_encode  
+// layered_variance_unorm16_intensity
+//
+// Where a surface passes from one layer to the next, mean and mean square are both near 1. Their roundings, three of
+// half a code each, then hide a variance of up to 3 (1/2 + 2) / 65535: half a code of the square, twice one code of the
+// mean.
+#ifndef GNOMON_STORAGE_LAYERED_VARIANCE_H
+#define GNOMON_STORAGE_LAYERED_VARIANCE_H
+
+namespace gnomon {
+
+/// Two textures of four channels.
+struct channels8 { channels4 t1, t2; };
+
+constant constexpr float layered_variance_unorm16_minimum_variance = 0.00011444266422522316f;
+constant constexpr float layered_variance_unorm16_darkening = 2e-5f;
+
+/// The settings of the layer around centre: -0.75, -0.25, 0.25 or 0.75.
+inline layered_variance_settings layered_variance_unorm16_layer(float centre)
+{
+    layered_variance_settings settings;
+    settings.centre = centre;
+    settings.scale = 4.0f;
+    settings.minimum_variance = layered_variance_unorm16_minimum_variance;
+    return settings;
+}
+
+/// The channels of the two layers around near_centre and far_centre for a depth z.
+inline channels4 layered_variance_unorm16_encode_two(float z, float near_centre, float far_centre)
+{
+    variance_moments first = layered_variance_encode(z, layered_variance_unorm16_layer(near_centre));
+    variance_moments second = layered_variance_encode(z, layered_variance_unorm16_layer(far_centre));
+    channels4 c;
+    c.c1 = 0.5f * first.mean + 0.5f;
+    c.c2 = first.square;
+    c.c3 = 0.5f * second.mean + 0.5f;
+    c.c4 = second.square;
+    return c;
+}
+
+/// The eight channels of an 8 x 16 UNORM texel of a depth z, each in [0, 1].
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+inline channels8 layered_variance_unorm16_encode(float z)
+{
+    channels8 c;
+    c.t1 = layered_variance_unorm16_encode_two(z, -0.75f, -0.25f);
+    c.t2 = layered_variance_unorm16_encode_two(z, 0.25f, 0.75f);
+    return c;
+}
+
+/// The state after the layer around centre, whose channels are mean and square.
+inline layered_variance layered_variance_unorm16_add(layered_variance state, float mean, float square, float centre)
+{
+    variance_moments b;
+    b.mean = 2.0f * mean - 1.0f;
+    b.square = square;
+    return layered_variance_add(state, b, layered_variance_unorm16_layer(centre));
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of an 8 x 16 UNORM texel.
+/// Domain: any z_f; beyond a plane as on it.
+/// NaN: 0, lit.
+inline float layered_variance_unorm16_intensity(channels8 c, float z_f)
+{
+    layered_variance state = layered_variance_begin(z_f);
+    state = layered_variance_unorm16_add(state, c.t1.c1, c.t1.c2, -0.75f);
+    state = layered_variance_unorm16_add(state, c.t1.c3, c.t1.c4, -0.25f);
+    state = layered_variance_unorm16_add(state, c.t2.c1, c.t2.c2, 0.25f);
+    state = layered_variance_unorm16_add(state, c.t2.c3, c.t2.c4, 0.75f);
+    return layered_variance_end(state);
+}
+
+} // namespace gnomon
+
+#endif
+
+// storage/moments4.h --------------------------------------------------------------------------------------------------
+// Four moments in a storage format: from a depth to the channels of a texel, and from filtered channels to a shadow.
+// Each format undoes its own transform and allows for what its storage rounds, so that nobody pairs the wrong ones.
+//
+//   format          bytes   transform   write                     read                         matrix for both bounds
+//   4 x 16 UNORM      8     theta4      moments4_unorm16_encode   moments4_unorm16_intensity   hankel4_from_unorm16
+//   4 x half          8     theta4 - .5 moments4_half_encode      moments4_half_intensity      hankel4_from_half
+//   4 x float        16     none        moments4_float_encode     moments4_float_intensity     hankel4_from_float
+//
+// Filters are linear: average channels as they are. X_intensity and hankel4_from_X allow for one rounding: of channels
+// that are stored once and filtered without further rounding, as 16-bit texels by a texture unit that returns floats.
+// Texels of floats round again there and need X_filtered. X_filtered_intensity and hankel4_from_X_filtered allow for a
+// pass along rows and one along columns, of nine taps at most, that store their results in the format again.
+// Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at most
+//   X_intensity         stored4_arithmetic_weight, the error of float arithmetic
+//   hankel4_from_X      the weight of the constant bias, roundings * delta / r (bias.h), and that of arithmetic
+// Tests search for the largest excess by hill climbing (tests/moments/honest_four.cpp). Certificates (certified4.h)
+// leak less than a constant bias in every format. Float arithmetic moves the nodes of a certificate, which costs or
+// gains a little leaking. Difference of an intensity in float from the intensity in double:
+//     error, float, moments4_float_intensity: p99 3e-5, p99.9 1e-4, max 5e-4
+//     error, float, moments4_float_filtered_intensity: p99 1e-5, p99.9 5e-5, max 2e-4
+//     error, float, moments4_half_intensity: p99 5e-5, p99.9 4e-4, max 2e-2
+//     error, float, moments4_half_filtered_intensity: p99 3e-5, p99.9 2e-4, max 2e-3
+//     error, float, moments4_unorm16_intensity: p99 6e-4, p99.9 7e-3, max 3e-1
+//     error, float, moments4_unorm16_filtered_intensity: p99 3e-4, p99.9 3e-3, max 3e-2
+#ifndef GNOMON_STORAGE_MOMENTS4_H
+#define GNOMON_STORAGE_MOMENTS4_H
+
+namespace gnomon {
+
+/// The four channels of a 4 x 16 UNORM texel of a depth z, each in [0, 1].
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Eq. 3
+inline channels4 moments4_unorm16_encode(float z) { return theta4(moments4_from_depth(clamp_or_high(z, -1.0f, 1.0f))); }
+
+/// The channels c, each with shift added.
+inline channels4 channels4_shifted(channels4 c, float shift)
+{
+    c.c1 = c.c1 + shift;
+    c.c2 = c.c2 + shift;
+    c.c3 = c.c3 + shift;
+    c.c4 = c.c4 + shift;
+    return c;
+}
+
+/// The four channels of a 4 x half texel of a depth z, each in [-1/2, 1/2], where half floats are off by 2^-13 at most.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Eq. 3
+inline channels4 moments4_half_encode(float z) { return channels4_shifted(moments4_unorm16_encode(z), -0.5f); }
+
+/// The four channels of a 4 x float texel of a depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+inline channels4 moments4_float_encode(float z)
+{
+    return channels4_from_moments(moments4_from_depth(clamp_or_high(z, -1.0f, 1.0f)));
+}
+
+constant constexpr float stored4_unorm16_weight = 3.6e-5f;
+constant constexpr float stored4_unorm16_filtered_weight = 1.1e-4f;
+constant constexpr float stored4_half_weight = 5.7e-4f;
+constant constexpr float stored4_half_filtered_weight = 1.71e-3f;
+constant constexpr float stored4_float_weight = 3e-7f;
+constant constexpr float stored4_float_filtered_weight = 2e-6f;
+constant constexpr float stored4_arithmetic_weight = 1e-6f;
+
+/// The factored matrix of the channels of theta4, with a constant bias of weight alpha.
+inline hankel4 hankel4_from_theta(channels4 c, float alpha)
+{
+    return hankel4_from_moments(theta4_inverse_add_bias(c, bias4_theta_b2, alpha));
+}
+
+/// The factored matrix of the channels of a 4 x float texel, with a constant bias of weight alpha.
+/// Domain: alpha from 3e-7 on.
+inline hankel4 hankel4_stored_as_float(channels4 c, float alpha)
+{
+    return hankel4_constant_bias(moments4_from_channels(c), bias4_raw_b2, bias4_raw_b4, alpha);
+}
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for one rounding.
+inline hankel4 hankel4_from_unorm16(channels4 c) { return hankel4_from_theta(c, stored4_unorm16_weight); }
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for a filter of two passes.
+inline hankel4 hankel4_from_unorm16_filtered(channels4 c)
+{
+    return hankel4_from_theta(c, stored4_unorm16_filtered_weight);
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for one rounding.
+inline hankel4 hankel4_from_half(channels4 c)
+{
+    return hankel4_from_theta(channels4_shifted(c, 0.5f), stored4_half_weight);
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for a filter of two passes.
+inline hankel4 hankel4_from_half_filtered(channels4 c)
+{
+    return hankel4_from_theta(channels4_shifted(c, 0.5f), stored4_half_filtered_weight);
+}
+
+/// The factored matrix of the channels of a 4 x float texel, biased for one rounding.
+inline hankel4 hankel4_from_float(channels4 c) { return hankel4_stored_as_float(c, stored4_float_weight); }
+
+/// The factored matrix of the channels of a 4 x float texel, biased for a filter of two passes.
+inline hankel4 hankel4_from_float_filtered(channels4 c)
+{
+    return hankel4_stored_as_float(c, stored4_float_filtered_weight);
+}
+
+// The error of each channel that certificates allow for, and the weight of the bias of their nodes. Every weight is
+// honest. These leak least without specks: noise puts specks into contact shadows where a weight is too small.
+constant constexpr float certified4_unorm16_noise = 8e-6f; // half a code, and the error of theta4 in float
+constant constexpr float certified4_unorm16_filtered_noise = 2.4e-5f;
+constant constexpr float certified4_unorm16_weight = 3.6e-5f;
+constant constexpr float certified4_unorm16_filtered_weight = 9e-5f;
+constant constexpr float certified4_half_noise = 1.225e-4f; // 2^-13, and the error of theta4 in float
+constant constexpr float certified4_half_filtered_noise = 3.675e-4f;
+constant constexpr float certified4_half_weight = 6e-4f;
+constant constexpr float certified4_half_filtered_weight = 1.4e-3f;
+constant constexpr float certified4_float_noise = 3.3e-8f;                        // 1.1 times 2^-25
+// 8 times: sums of nine taps round, too
+constant constexpr float certified4_float_filtered_noise = 2.384185791015625e-7f;
+constant constexpr float certified4_float_weight = 3e-7f;
+constant constexpr float certified4_float_filtered_weight = 1.5e-6f;
+
+/// Shadow intensity at z_f from channels c of theta4, each off by at most noise, by nodes with a bias of weight alpha.
+inline float moments4_theta_intensity(channels4 c, float noise, float alpha, float z_f)
+{
+    return certified4_theta_lower(hankel4_from_theta(c, alpha), c, noise, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+inline float moments4_unorm16_intensity(channels4 c, float z_f)
+{
+    return moments4_theta_intensity(c, certified4_unorm16_noise, certified4_unorm16_weight, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+inline float moments4_unorm16_filtered_intensity(channels4 c, float z_f)
+{
+    return moments4_theta_intensity(c, certified4_unorm16_filtered_noise, certified4_unorm16_filtered_weight, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+inline float moments4_half_intensity(channels4 c, float z_f)
+{
+    return moments4_theta_intensity(channels4_shifted(c, 0.5f), certified4_half_noise, certified4_half_weight, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+inline float moments4_half_filtered_intensity(channels4 c, float z_f)
+{
+    return moments4_theta_intensity(channels4_shifted(c, 0.5f), certified4_half_filtered_noise,
+                                    certified4_half_filtered_weight, z_f);
+}
+
+/// Shadow intensity at z_f from the channels of a 4 x float texel, each off by at most its entry in noise, by nodes
+/// with a bias of weight alpha.
+inline float moments4_float_intensity_with_noise(channels4 c, moments4 noise, float alpha, float z_f)
+{
+    return certified4_constant_bias_lower(hankel4_stored_as_float(c, alpha), noise, bias4_raw_b2, bias4_raw_b4, alpha,
+                                          z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+inline float moments4_float_intensity(channels4 c, float z_f)
+{
+    return moments4_float_intensity_with_noise(
+        c, moments4_rounding(moments4_from_channels(c), certified4_float_noise),
+        certified4_float_weight, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+inline float moments4_float_filtered_intensity(channels4 c, float z_f)
+{
+    return moments4_float_intensity_with_noise(
+        c, moments4_rounding_filtered(moments4_from_channels(c), certified4_float_filtered_noise),
+        certified4_float_filtered_weight, z_f);
+}
+
+} // namespace gnomon
+
+#endif
+
+// storage/moments4_within.h -------------------------------------------------------------------------------------------
+// Certified shadow intensity (certified4.h) where the depths of a filter region are known to lie in [least, greatest]:
+// from a min-max map beside the moments, with its mip levels. [-1, 1] always holds.
+//
+// p then has to be at most 1 in [least, z_f) and at most 0 in [z_f, greatest] only. Where a node of the biased moments
+// lies outside, the canonical distribution on the interval (the Markov moment problem; Krein & Nudelman 1977) has nodes
+// least, greatest, z_f and
+//     x = E[(z - least) (greatest - z) (z - z_f) z] / E[(z - least) (greatest - z) (z - z_f)],
+// and p is 1 at least and at x < z_f, 0 at z_f, at x > z_f and at greatest; double at x:
+//     x > z_f:  p = (z - z_f) (z - x)^2 (z - greatest) / ((least - z_f) (least - x)^2 (least - greatest))
+//     x < z_f:  p = 1 - (z - least) (z - x)^2 (k0 + k1 z),  k0 and k1 by p(z_f) = p(greatest) = 0
+// Every x gives an honest p, so float arithmetic suffices. The greater of the two certified means is the result: both
+// are honest.
+#ifndef GNOMON_STORAGE_MOMENTS4_WITHIN_H
+#define GNOMON_STORAGE_MOMENTS4_WITHIN_H
+
+namespace gnomon {
+
+constant constexpr float certified4_gap = 9.5367431640625e-7f; // 2^-20, the least that the receiver is before greatest
+
+/// The certificate on [least, greatest] for a receiver z_f inside, from moments b with a bias.
+inline certificate4 certificate4_within(moments4 b, float least, float greatest, float z_f)
+{
+    greatest = gnomon_max(greatest, z_f + certified4_gap);
+    float sum = least + greatest;
+    float product = least * greatest;
+    float e0 = (sum * b.b1 - b.b2) - product;
+    float e1 = (sum * b.b2 - b.b3) - product * b.b1;
+    float e2 = (sum * b.b3 - b.b4) - product * b.b2;
+    float x = (e2 - z_f * e1) / (e1 - z_f * e0);
+    x = gnomon_select(x < greatest, x, greatest);
+    x = gnomon_select(least < x, x, least);
+    bool behind = z_f < x;
+    // The line k0 + k1 z: through z_f and greatest, or the multiple of z - z_f that is 1 at least.
+    float to_least = least - x;
+    float to_z_f = z_f - x;
+    float to_greatest = greatest - x;
+    float at_least = 1.0f / (to_least * to_least);
+    float at_z_f = 1.0f / ((z_f - least) * (to_z_f * to_z_f));
+    float at_greatest = 1.0f / ((greatest - least) * (to_greatest * to_greatest));
+    float slope = gnomon_select(behind, at_least / ((z_f - least) * (least - greatest)), (at_greatest - at_z_f) /
+                                (greatest - z_f));
+    float offset = gnomon_select(behind, 0.0f, at_z_f) - slope * z_f;
+    // s = (z - other) (z - x)^2 (offset + slope z)
+    float minus_other = -1.0f * gnomon_select(behind, greatest, least);
+    float m0 = minus_other * offset;
+    float m1 = offset + minus_other * slope;
+    float n0 = x * x;
+    float n1 = -2.0f * x;
+    certificate4 p;
+    p.top = gnomon_select(behind, 0.0f, 1.0f);
+    p.s0 = m0 * n0;
+    p.s1 = m0 * n1 + m1 * n0;
+    p.s2 = m0 + (m1 * n1 + slope * n0);
+    p.s3 = m1 + slope * n1;
+    p.s4 = slope;
+    return p;
+}
+
+/// The greater of two certified means as an intensity in [0, 1]: 1 where every depth is before z_f, 0 where none is,
+/// and where the ends are not in order.
+/// NaN: 0, lit.
+inline float certified4_from_means(float mean, float within, float least, float greatest, float z_f)
+{
+    float intensity = saturate_or_zero(gnomon_max(within, mean));
+    intensity = gnomon_select(greatest < z_f, 1.0f, intensity);
+    return gnomon_select(least < z_f && least <= greatest, intensity, 0.0f);
+}
+
+/// Shadow intensity at z_f from channels c of theta4, each off by at most noise.
+inline float certified4_theta_within(channels4 c, float noise, float alpha, float least, float greatest, float z_f)
+{
+    float z = clamp_or_nan(z_f, -1.0f, 1.0f);
+    moments4 b = theta4_inverse_add_bias(c, bias4_theta_b2, alpha);
+    float mean = certificate4_theta_mean(certificate4_make(hankel4_from_moments(b), z), c, noise);
+    float within = certificate4_theta_mean(certificate4_within(b, least, greatest, z), c, noise);
+    return certified4_from_means(mean, within, least, greatest, z);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel and the least and greatest depth
+/// of the region, rounded down and up where they are stored.
+/// Domain: any z_f, limited to [-1, 1]; least <= greatest, else lit.
+/// NaN: 0, lit.
+inline float moments4_unorm16_intensity_within(channels4 c, float least, float greatest, float z_f)
+{
+    return certified4_theta_within(c, certified4_unorm16_noise, certified4_unorm16_weight, least, greatest, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel, after a filter of two passes;
+/// least and greatest are those of all texels that the filter reads.
+/// Domain: any z_f, limited to [-1, 1]; least <= greatest, else lit.
+/// NaN: 0, lit.
+inline float moments4_unorm16_filtered_intensity_within(channels4 c, float least, float greatest, float z_f)
+{
+    return certified4_theta_within(c, certified4_unorm16_filtered_noise, certified4_unorm16_filtered_weight, least,
+                                   greatest, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel and the least and greatest depth of
+/// the region, rounded down and up where they are stored.
+/// Domain: any z_f, limited to [-1, 1]; least <= greatest, else lit.
+/// NaN: 0, lit.
+inline float moments4_half_intensity_within(channels4 c, float least, float greatest, float z_f)
+{
+    return certified4_theta_within(channels4_shifted(c, 0.5f), certified4_half_noise, certified4_half_weight, least,
+                                   greatest, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel, after a filter of two passes; least
+/// and greatest are those of all texels that the filter reads.
+/// Domain: any z_f, limited to [-1, 1]; least <= greatest, else lit.
+/// NaN: 0, lit.
+inline float moments4_half_filtered_intensity_within(channels4 c, float least, float greatest, float z_f)
+{
+    return certified4_theta_within(channels4_shifted(c, 0.5f), certified4_half_filtered_noise,
+                                   certified4_half_filtered_weight, least, greatest, z_f);
+}
+
+} // namespace gnomon
+
+#endif
+
+// storage/moments6.h --------------------------------------------------------------------------------------------------
+// Six moments in a storage format: from a depth to the channels of a texel, and from filtered channels to a shadow or
+// to the factored Hankel matrix. Each format undoes its own transform and applies the constant bias that belongs to it,
+// so that nobody pairs the wrong three.
+//
+//   format          bytes   transform   write                     read                         matrix for both bounds
+//   6 x 10 UNORM      8     theta6      moments6_unorm10_encode   moments6_unorm10_intensity   hankel6_from_unorm10
+//   6 x 16 UNORM     12     theta6      moments6_unorm16_encode   moments6_unorm16_intensity   hankel6_from_unorm16
+//   6 x float        24     none        moments6_float_encode     moments6_float_intensity     hankel6_from_float
+//
+// Texels of 6 x 10 UNORM are two 10-10-10-2 words: odd channels (c1, c2, c3) in the first, even ones (c4, c5, c6) in
+// the second. Filters are linear: average channels as they are.
+//
+// Intensities exceed Z(z < z_f) by the weight at most, for every receiver: by the proof in bias.h n roundings need a
+// weight of n delta / (n delta + r).
+//
+//                  delta      n = 1     weight    n = 3     weight, filtered
+//   6 x 10 UNORM   1/2046     3.34e-3   4e-3      9.96e-3   1e-2
+//   6 x 16 UNORM   1/131070   5.23e-5   8e-5      1.57e-4   1.6e-4
+//   6 x float      2^-25      1.83e-6   5e-6                2e-5
+//
+// Filtered: rounded when rendered and by each of two passes of nine taps, their sums in float. Sums of floats round as
+// storage does, and so do the powers of a depth: at their worst they are 22 roundings and 4e-5, which do not come
+// together. The kernel's own arithmetic in float is within the weights. Tests search for the largest excess by hill
+// climbing (tests/moments/honest_six.cpp), and find that 5e-6 is too little for filtered floats.
+#ifndef GNOMON_STORAGE_MOMENTS6_H
+#define GNOMON_STORAGE_MOMENTS6_H
+
+namespace gnomon {
+
+constant constexpr float stored6_unorm10_weight = 4e-3f;
+constant constexpr float stored6_unorm10_filtered_weight = 1e-2f;
+constant constexpr float stored6_unorm16_weight = 8e-5f;
+constant constexpr float stored6_unorm16_filtered_weight = 1.6e-4f;
+constant constexpr float stored6_float_weight = 5e-6f;
+constant constexpr float stored6_float_filtered_weight = 2e-5f;
+
+/// The six channels of a 6 x 10 UNORM texel of a depth z, each in [0, 1].
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Sec. 5.4.3
+inline channels6 moments6_unorm10_encode(float z) { return theta6(moments6_from_depth(clamp_or_high(z, -1.0f, 1.0f))); }
+
+/// The six channels of a 6 x 16 UNORM texel of a depth z, each in [0, 1].
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Sec. 5.4.3
+inline channels6 moments6_unorm16_encode(float z) { return theta6(moments6_from_depth(clamp_or_high(z, -1.0f, 1.0f))); }
+
+/// The six channels of a 6 x float texel of a depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+inline channels6 moments6_float_encode(float z)
+{
+    return channels6_from_moments(moments6_from_depth(clamp_or_high(z, -1.0f, 1.0f)));
+}
+
+/// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for one rounding.
+inline hankel6 hankel6_from_unorm10(channels6 c)
+{
+    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6,
+                                                  stored6_unorm10_weight));
+}
+
+/// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for a filter of two passes.
+inline hankel6 hankel6_from_unorm10_filtered(channels6 c)
+{
+    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6,
+                                                  stored6_unorm10_filtered_weight));
+}
+
+/// The factored matrix of the channels of a 6 x 16 UNORM texel, biased for one rounding.
+inline hankel6 hankel6_from_unorm16(channels6 c)
+{
+    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6,
+                                                  stored6_unorm16_weight));
+}
+
+/// The factored matrix of the channels of a 6 x 16 UNORM texel, biased for a filter of two passes.
+inline hankel6 hankel6_from_unorm16_filtered(channels6 c)
+{
+    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6,
+                                                  stored6_unorm16_filtered_weight));
+}
+
+/// The factored matrix of the channels of a 6 x float texel, biased for one rounding.
+inline hankel6 hankel6_from_float(channels6 c)
+{
+    return hankel6_constant_bias(moments6_from_channels(c), bias6_raw_b2, bias6_raw_b4, bias6_raw_b6,
+                                 stored6_float_weight);
+}
+
+/// The factored matrix of the channels of a 6 x float texel, biased for a filter of two passes.
+inline hankel6 hankel6_from_float_filtered(channels6 c)
+{
+    return hankel6_constant_bias(moments6_from_channels(c), bias6_raw_b2, bias6_raw_b4, bias6_raw_b6,
+                                 stored6_float_filtered_weight);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 6 x 10 UNORM texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+inline float moments6_unorm10_intensity(channels6 c, float z_f)
+{
+    return hamburger6_lower(hankel6_from_unorm10(c), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 6 x 10 UNORM texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+inline float moments6_unorm10_filtered_intensity(channels6 c, float z_f)
+{
+    return hamburger6_lower(hankel6_from_unorm10_filtered(c), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 6 x 16 UNORM texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+inline float moments6_unorm16_intensity(channels6 c, float z_f)
+{
+    return hamburger6_lower(hankel6_from_unorm16(c), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 6 x 16 UNORM texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+inline float moments6_unorm16_filtered_intensity(channels6 c, float z_f)
+{
+    return hamburger6_lower(hankel6_from_unorm16_filtered(c), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 6 x float texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+inline float moments6_float_intensity(channels6 c, float z_f) { return hamburger6_lower(hankel6_from_float(c), z_f); }
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 6 x float texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+inline float moments6_float_filtered_intensity(channels6 c, float z_f)
+{
+    return hamburger6_lower(hankel6_from_float_filtered(c), z_f);
+}
+
+} // namespace gnomon
+
+#endif
+
+// storage/variance.h --------------------------------------------------------------------------------------------------
+// Variance shadow maps in a storage format: from a depth to the channels of a texel, and from filtered channels to a
+// shadow, each with the minimum variance that hides the roundings of its format.
+//
+//   format          bytes   channels                      write                     read
+//   2 x 16 UNORM      4     (1 + mean) / 2, mean square   variance_unorm16_encode   variance_unorm16_intensity
+//
+// A minimum variance m lets an error e of the mean darken a lit surface by e^2 / (m + e^2) at most (Cantelli). It is
+// chosen as 99 e^2, for 1%, where e is three roundings of a depth: when rendered, and by each of two filter passes.
+#ifndef GNOMON_STORAGE_VARIANCE_H
+#define GNOMON_STORAGE_VARIANCE_H
+
+namespace gnomon {
+
+constant constexpr float variance_unorm16_minimum_variance = 2.0745843457628005e-7f; // 99 (3 / 65535)^2
+constant constexpr float variance_unorm16_darkening = 0.01f;
+
+/// The two channels of a 2 x 16 UNORM texel of a depth z, each in [0, 1].
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+inline channels2 variance_unorm16_encode(float z)
+{
+    variance_moments b = variance_encode(z);
+    channels2 c;
+    c.c1 = 0.5f * b.mean + 0.5f;
+    c.c2 = b.square;
+    return c;
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 2 x 16 UNORM texel.
+/// Domain: any z_f; beyond the far plane as on it.
+/// NaN: 0, lit.
+inline float variance_unorm16_intensity(channels2 c, float z_f)
+{
+    variance_moments b;
+    b.mean = 2.0f * c.c1 - 1.0f;
+    b.square = c.c2;
+    variance_settings settings;
+    settings.minimum_variance = variance_unorm16_minimum_variance;
+    return variance_intensity(b, z_f, settings);
+}
+
+} // namespace gnomon
+
+#endif
+
+#endif

@@ -1,0 +1,703 @@
+// Gnomon 0.1.0, layered_variance.cuh: shadow filtering in CUDA and C++20, this file alone.
+// Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
+// Written by shaders/package.py from the kernels in include/gnomon: change them there.
+#ifndef GNOMON_LAYERED_VARIANCE_CUH
+#define GNOMON_LAYERED_VARIANCE_CUH
+
+// Begins a function whose operations clang must not fuse with others. Versions that fuse nevertheless, under
+// -ffp-contract=fast, spare products that are read twice, but for PowerPC.
+#if defined(__clang__)
+#define GNOMON_UNFUSED _Pragma("clang fp contract(off)")
+#else
+#define GNOMON_UNFUSED
+#endif
+
+// True where products may be fused with sums.
+#if defined(__FMA__) || defined(__CUDA_ARCH__) || defined(__aarch64__) || defined(__powerpc64__) || \
+    defined(__s390x__) || (defined(__ARM_FEATURE_FMA) && __ARM_FP & 8) ||                           \
+    (defined(__riscv_flen) && __riscv_flen >= 64) || (defined(__FP_FAST_FMA) && defined(__FP_FAST_FMAF))
+#define GNOMON_HAS_FMA true
+#else
+#define GNOMON_HAS_FMA false
+#endif
+
+// True where std::fma is an instruction, whose result with -0 is left alone.
+#if defined(__clang__) && defined(__powerpc64__)
+#define GNOMON_SCALAR_FMA false
+#else
+#define GNOMON_SCALAR_FMA GNOMON_HAS_FMA
+#endif
+
+// With plain inline, compilers leave calls in pack kernels.
+#if defined(__CUDACC__)
+#define GNOMON_INLINE __host__ __device__ __forceinline__
+#elif defined(_MSC_VER)
+#define GNOMON_INLINE __forceinline
+#else
+#define GNOMON_INLINE __attribute__((always_inline)) inline
+#endif
+// Between a name and its bracket: a macro of that name, of whatever header, is not meant.
+#define GNOMON_NO_MACRO
+
+// Warnings of compilers that a user may have turned on, and that the dialect cannot avoid: comparisons of a Real with 0 or
+// with itself, types of variables that are deduced, and for GCC the length of an array that is a template's argument.
+#if defined(__clang__) && !defined(__CUDACC__)
+#define GNOMON_WARNINGS_OFF                                                                \
+    _Pragma("clang diagnostic push") _Pragma("clang diagnostic ignored \"-Wfloat-equal\"") \
+        _Pragma("clang diagnostic ignored \"-Wctad-maybe-unsupported\"")
+#define GNOMON_WARNINGS_ON _Pragma("clang diagnostic pop")
+#elif defined(__GNUC__) && !defined(__CUDACC__)
+#define GNOMON_WARNINGS_OFF                                                            \
+    _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wfloat-equal\"") \
+        _Pragma("GCC diagnostic ignored \"-Wsign-conversion\"")
+#define GNOMON_WARNINGS_ON _Pragma("GCC diagnostic pop")
+#else
+#define GNOMON_WARNINGS_OFF
+#define GNOMON_WARNINGS_ON
+#endif
+
+// the language --------------------------------------------------------------------------------------------------------
+// C++20, also CUDA: kernels are templates over Real, which is float, double or any pack of them.
+#if !defined(__cplusplus) || defined(__METAL_VERSION__)
+#error "gnomon: layered_variance.cuh is CUDA and C++20; another language's compiler reads it"
+#elif defined(GNOMON_PORTABLE_H)
+#error "gnomon: layered_variance.cuh and the headers of include/gnomon exclude one another"
+#elif defined(GNOMON_PACKAGE) && GNOMON_PACKAGE != 100
+#error "gnomon: layered_variance.cuh is not of the same version as a package before it"
+#endif
+#define GNOMON_PACKAGE 100 // major, minor and patch, two digits each
+
+#ifndef GNOMON_PORTABLE_CPP_H
+#define GNOMON_PORTABLE_CPP_H
+
+#if !defined(__cpp_concepts)
+#error "gnomon: C++20 needed (-std=c++20)"
+#elif defined(Real)
+#error "gnomon: a macro named Real is in the way; include this before it, or undefine it"
+#endif
+
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST) ||        \
+    defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || (defined(__CUDA_PREC_DIV) && !__CUDA_PREC_DIV) || \
+    (defined(__CUDA_PREC_SQRT) && !__CUDA_PREC_SQRT) || (defined(__clang__) && __FLT_EVAL_METHOD__ == -1)
+#error "gnomon: fast mathematics voids exact products, rounding and NaN: compile without -ffast-math or parts of it"
+#elif (defined(__FLT_EVAL_METHOD__) && (__FLT_EVAL_METHOD__ < 0 || __FLT_EVAL_METHOD__ % 16 != 0)) || \
+    (defined(_M_IX86_FP) && _M_IX86_FP < 2)
+#error "gnomon: x87 rounds twice: compile with -msse2 -mfpmath=sse, or /arch:SSE2"
+#elif defined(__clang__) && __clang_major__ < 15
+// These versions have no macro for -funsafe-math-optimizations and its parts. Where they know the first of these pragmas,
+// the first is an error there; elsewhere the last keeps the operations of all that follows.
+#if defined(__x86_64__) || defined(__i386__) || defined(__powerpc__) || defined(__s390x__)
+#pragma float_control(except, on, push) // gnomon: compile without -ffast-math or parts of it
+#pragma float_control(pop)
+#else
+#pragma clang fp reassociate(off)
+#endif
+#elif defined(_MSC_VER) && !defined(__clang__)
+#pragma fp_contract(off)
+#elif defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
+// #pragma GCC optimize changes no macro, but the value of this.
+static_assert(__builtin_isunordered(__builtin_nanf(""), 1.0f),
+              "gnomon: fast mathematics voids NaN: compile without -ffast-math or parts of it");
+#endif
+
+static_assert(0.1 < double(0.1f), "gnomon: compile without -fsingle-precision-constant");
+
+#if defined(__CUDACC_RTC__)
+namespace gnomon::std {
+
+using uint32_t = unsigned int;
+using uint64_t = unsigned long long;
+
+template <class A, class B> inline constexpr bool is_same_v = false;
+template <class A> inline constexpr bool is_same_v<A, A> = true;
+template <class A, class B>
+concept same_as = is_same_v<A, B>;
+
+template <class T> inline constexpr bool is_floating_point_v = is_same_v<T, float> || is_same_v<T, double>;
+template <class T> inline constexpr bool is_integral_v = false;
+template <class T>
+requires requires(T x) { x % x; }
+inline constexpr bool is_integral_v<T> = true;
+template <class T> inline constexpr bool is_arithmetic_v = is_floating_point_v<T> || is_integral_v<T>;
+
+template <class T> struct type_identity {
+    using type = T;
+};
+template <class T> using type_identity_t = typename type_identity<T>::type;
+template <class T> struct remove_cvref : type_identity<T> {};
+template <class T> struct remove_cvref<const T> : type_identity<T> {};
+template <class T> struct remove_cvref<T&> : remove_cvref<T> {};
+template <class T> struct remove_cvref<T&&> : remove_cvref<T> {};
+template <class T> using remove_cvref_t = typename remove_cvref<T>::type;
+template <bool condition, class A, class B> struct conditional : type_identity<A> {};
+template <class A, class B> struct conditional<false, A, B> : type_identity<B> {};
+template <bool condition, class A, class B> using conditional_t = typename conditional<condition, A, B>::type;
+
+template <class T> __device__ T&& declval() noexcept;
+template <class T, class... Arguments>
+concept constructible_from = requires
+{
+    T(declval<Arguments>()...);
+};
+
+template <class T> struct numeric_limits;
+template <> struct numeric_limits<float> {
+    static constexpr int digits = 24, min_exponent = -125, max_exponent = 128;
+};
+template <> struct numeric_limits<double> {
+    static constexpr int digits = 53, min_exponent = -1021, max_exponent = 1024;
+};
+
+using ::abs;
+using ::fma;
+using ::ldexp;
+using ::sqrt;
+
+} // namespace gnomon::std
+#else
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+#include <utility>
+#endif
+
+namespace gnomon {
+
+/// The scalar in one lane of a pack, or the scalar itself.
+template <class T> struct lane {
+    using type = T;
+};
+template <class T>
+requires(!std::is_arithmetic_v<T>) && requires { typename T::value_type; }
+struct lane<T> {
+    using type = typename T::value_type;
+};
+template <class T> using lane_t = typename lane<T>::type;
+
+/// The type of a comparison: bool for a scalar, the pack's own mask for a pack.
+template <class T> using mask_t = std::remove_cvref_t<decltype(std::declval<T>() < std::declval<T>())>;
+
+template <class T>
+using arithmetic_result =
+    decltype((-std::declval<T>() + std::declval<T>()) * std::declval<T>() / (std::declval<T>() - std::declval<T>()));
+
+/// True for the types whose digits and exponents the kernels are made for. Others round elsewhere, as long double,
+/// _Float16 and numbers of many digits do.
+template <class T> inline constexpr bool is_lane = std::is_same_v<T, float> || std::is_same_v<T, double>;
+
+/// Operations of a pack that are faster than the generic code below: a specialization provides them (simd/xsimd.hpp).
+template <class T> struct pack_operations {};
+
+/// False for a pack of another library that is no Real by itself, since its operators lack something or round otherwise:
+/// gnomon::pack of it is (simd/pack.hpp). The library's adapter knows, so without it no pack of xsimd or of the standard
+/// library is one.
+template <class T> constexpr bool is_native_real()
+{
+    if constexpr (requires { pack_operations<T>::native; }) return pack_operations<T>::native;
+    else if constexpr (requires { typename T::arch_type; }) return false;
+    else if constexpr (requires { typename T::abi_type; }) return false;
+    else return true;
+}
+template <class T> inline constexpr bool is_native = is_native_real<T>();
+
+/// A type that can be Real: closed under its own arithmetic, so that one type holds every intermediate value, with
+/// lanes of float or double. Expression templates are excluded: evaluate them into a value first.
+template <class T>
+concept real_number = std::same_as<arithmetic_result<T>, T> && is_lane<lane_t<T>> && is_native<T> &&
+    std::constructible_from<T, lane_t<T>> && requires
+{
+    typename mask_t<T>;
+};
+
+template <class T> struct require_real_of {
+    static_assert(
+        real_number<T>,
+        "gnomon: Real must be float, double or a pack of them, closed under + - * / "
+        "(no other precision, no integer; no expression template: evaluate it first; no foreign pack without its "
+        "adapter: include gnomon/simd/xsimd.hpp or std_simd.hpp, and let Real be gnomon::pack of it)");
+    using type = T;
+};
+template <class T> using require_real = typename require_real_of<T>::type;
+
+/// The value as a Real, rounded once from double to the type of a lane.
+template <class T> GNOMON_INLINE constexpr T literal(double value) { return T(static_cast<lane_t<T>>(value)); }
+
+template <class T>
+inline constexpr double splitter = double(std::uint64_t{1} << (std::numeric_limits<T>::digits + 1) / 2) + 1.0;
+template <class T>
+inline constexpr double pivot_floor = std::numeric_limits<T>::min_exponent < -1000 ? 0x1p-66 : 0x1p-30;
+
+// Without an instruction for it, a scalar fma is a library call, which is correct but slower than splitting.
+template <class T> GNOMON_INLINE constexpr bool fma_is_fused()
+{
+    if constexpr (requires { pack_operations<T>::fused; }) return pack_operations<T>::fused;
+    else return GNOMON_SCALAR_FMA && is_lane<T>;
+}
+template <class T> inline constexpr bool is_fused = fma_is_fused<T>();
+
+/// The value of type To with the bits of `from`: std::bit_cast, which libc++ lacks before version 14.
+template <class To, class From> GNOMON_INLINE constexpr To gnomon_bit_cast(const From& from)
+{
+    return __builtin_bit_cast(To, from);
+}
+
+template <class T, class Bits> GNOMON_INLINE constexpr T select_by_bits(bool mask, T a, T b)
+{
+    const Bits ones = Bits(0) - Bits(mask);
+    return gnomon_bit_cast<T>(Bits((gnomon_bit_cast<Bits>(a) & ones) | (gnomon_bit_cast<Bits>(b) & ~ones)));
+}
+
+// GCC compiles a conditional operator to a branch, to skip work that only one side needs. For receivers that differ
+// from their neighbours, half the time of a kernel is then lost to mispredictions. Bit operations stay free of
+// branches, and GCC vectorises them.
+template <class M, class T> GNOMON_INLINE constexpr T gnomon_select(M mask, T a, T b)
+{
+    if constexpr (!std::is_same_v<M, bool>) return select GNOMON_NO_MACRO(mask, a, b);
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
+    else if constexpr (std::is_same_v<T, float>) return select_by_bits<T, std::uint32_t>(mask, a, b);
+    else if constexpr (std::is_same_v<T, double>) return select_by_bits<T, std::uint64_t>(mask, a, b);
+#endif
+    else return mask ? a : b;
+}
+
+template <class M> GNOMON_INLINE constexpr bool gnomon_any(M mask)
+{
+    if constexpr (std::is_same_v<M, bool>) return mask;
+    else if constexpr (requires { any_of(mask); }) return any_of(mask);
+    else return any GNOMON_NO_MACRO(mask);
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_min(T a, T b)
+{
+    if constexpr (requires { pack_operations<T>::min GNOMON_NO_MACRO(a, b); })
+        return pack_operations<T>::min GNOMON_NO_MACRO(a, b);
+    else if constexpr (std::is_floating_point_v<T>) return a < b ? a : b; // one instruction
+    else return gnomon_select(a < b, a, b);
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_max(T a, T b)
+{
+    if constexpr (requires { pack_operations<T>::max GNOMON_NO_MACRO(a, b); })
+        return pack_operations<T>::max GNOMON_NO_MACRO(a, b);
+    else if constexpr (std::is_floating_point_v<T>) return b < a ? a : b;
+    else return gnomon_select(b < a, a, b);
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_abs(T a)
+{
+    using std::abs;
+    return abs GNOMON_NO_MACRO(a);
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_sqrt(T a)
+{
+#if defined(__CUDA_ARCH__)
+    // Correctly rounded under nvcc --use_fast_math, too.
+    if constexpr (std::is_same_v<T, float>) return __fsqrt_rn(a);
+    else if constexpr (std::is_same_v<T, double>) return __dsqrt_rn(a);
+    else
+#elif defined(__GNUC__)
+    // std::sqrt compiles to a call as well, which sets errno.
+    if constexpr (std::is_same_v<T, float>) return __builtin_sqrtf(a);
+    else if constexpr (std::is_same_v<T, double>) return __builtin_sqrt(a);
+    else
+#endif
+    {
+        using std::sqrt;
+        return sqrt(a);
+    }
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_fma(T a, T b, T c)
+{
+    GNOMON_UNFUSED
+    if constexpr (std::is_floating_point_v<T>) return std::fma(a, b, c);
+    else if constexpr (requires { pack_operations<T>::fma(a, b, c); }) return pack_operations<T>::fma(a, b, c);
+    else return a * b + c;
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_sum(T a, T b) { return a + b; }
+template <class T> GNOMON_INLINE constexpr T gnomon_difference(T a, T b) { return a - b; }
+
+template <class T> GNOMON_INLINE constexpr T gnomon_power_of_two(T n)
+{
+    if constexpr (std::is_same_v<T, float>) {
+        // The sum has n in its low bits, and the shift moves n into the exponent.
+        return gnomon_bit_cast<float>((gnomon_bit_cast<std::uint32_t>(n + 0x1.8p23f) << 23) +
+                                      (std::uint32_t{127} << 23));
+    } else if constexpr (std::is_same_v<T, double>) {
+        return gnomon_bit_cast<double>((gnomon_bit_cast<std::uint64_t>(n + 0x1.8p52) << 52) +
+                                       (std::uint64_t{1023} << 52));
+    } else if constexpr (requires { pack_operations<T>::power_of_two(n); }) {
+        return pack_operations<T>::power_of_two(n);
+    } else {
+        T power = T(lane_t<T>(1));
+        for (int k = std::numeric_limits<lane_t<T>>::max_exponent / 2; k > 0; k /= 2) {
+            const T step = T(static_cast<lane_t<T>>(k));
+            const T up = T(static_cast<lane_t<T>>(std::ldexp(1.0, k)));
+            const T down = T(static_cast<lane_t<T>>(std::ldexp(1.0, -k)));
+            power = gnomon_select(step <= n, power * up, gnomon_select(n <= -step, power * down, power));
+            n = gnomon_select(step <= n, n - step, gnomon_select(n <= -step, n + step, n));
+        }
+        return power;
+    }
+}
+
+/// x, of which the optimizer knows nothing.
+template <class T> GNOMON_INLINE constexpr T opaque(T x)
+{
+#if defined(__GNUC__) && !defined(__CUDA_ARCH__)
+    if (!__builtin_is_constant_evaluated()) {
+        auto bits = __builtin_bit_cast(std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>, x);
+        __asm__("" : "+r"(bits));
+        return __builtin_bit_cast(T, bits);
+    }
+#endif
+    return x;
+}
+
+// Contraction would fold a plain product into a later sum, and the error of the product, which two_product returns, would
+// be subtracted twice. A fused product cannot be folded, and adding -0 to the product changes no value; clang must not
+// know that. Where no fma is known for T, what a compiler folds is the product by 1, which rounds nothing.
+template <class T> GNOMON_INLINE constexpr T gnomon_product(T a, T b)
+{
+    GNOMON_UNFUSED
+#if defined(__CUDA_ARCH__)
+    if constexpr (std::is_same_v<T, float>) return __fmul_rn(a, b);
+    else if constexpr (std::is_same_v<T, double>) return __dmul_rn(a, b);
+#elif defined(__clang__)
+    if constexpr (is_fused<T>) return gnomon_fma(a, b, T(opaque(lane_t<T>(-0.0))));
+#else
+    if constexpr (is_fused<T>) return gnomon_fma(a, b, T(lane_t<T>(-0.0)));
+#endif
+    else if constexpr (GNOMON_HAS_FMA) return (a * b) * T(opaque(lane_t<T>(1)));
+    else return a * b;
+}
+
+// A float loses its low bits. Half of 53 bits is no whole number: a double, and whatever has no bits at hand, is rounded to 26
+// bits (Dekker 1971).
+template <class T> GNOMON_INLINE constexpr T gnomon_high_part(T a)
+{
+    if constexpr (requires { pack_operations<T>::high_part(a); }) return pack_operations<T>::high_part(a);
+    else if constexpr (std::is_same_v<T, float>) {
+        return gnomon_bit_cast<float>(gnomon_bit_cast<std::uint32_t>(a) & std::uint32_t{0xFFFFF000});
+    } else {
+        const T scaled = gnomon_product(literal<T>(splitter<lane_t<T>>), a); // contraction would leave no halves
+        return scaled - gnomon_difference(scaled, a);
+    }
+}
+
+} // namespace gnomon
+
+#endif
+
+// numerics/select.h ---------------------------------------------------------------------------------------------------
+// Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
+#ifndef GNOMON_NUMERICS_SELECT_H
+#define GNOMON_NUMERICS_SELECT_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// x clamped to [low, high].
+/// NaN: stays NaN, so that the last step of a kernel can answer it.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real clamp_or_nan(Real x, std::type_identity_t<Real> low, std::type_identity_t<Real> high)
+{
+    return gnomon_min(high, gnomon_max(low, x));
+}
+
+/// x clamped to [low, high].
+/// NaN: high.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real clamp_or_high(Real x, std::type_identity_t<Real> low, std::type_identity_t<Real> high)
+{
+    return gnomon_max(low, gnomon_min(x, high));
+}
+
+/// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real saturate_or_zero(Real x) { return gnomon_min(Real(1), gnomon_max(x, Real(0))); }
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// filters/variance.h --------------------------------------------------------------------------------------------------
+// Variance shadow maps (Donnelly & Lauritzen 2006; Peters et al. 2017, 2.2): the map holds z and z^2, filtered to mean
+// and second moment, and Cantelli's inequality bounds the shadow intensity from below: Z(z < z_f) >= d^2 / (variance +
+// d^2), d = z_f - mean >= 0.
+#ifndef GNOMON_FILTERS_VARIANCE_H
+#define GNOMON_FILTERS_VARIANCE_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// E[z] and E[z^2]. Linear combinations of such moments, by weights that sum to 1, are such moments again.
+template <class Real, class = require_real<Real>> struct variance_moments { Real mean, square; };
+
+/// minimum_variance, at least 0, hides the rounding of the stored moments from the inequality (storage/variance.h).
+template <class Real, class = require_real<Real>> struct variance_settings { Real minimum_variance; };
+
+/// The moments of one depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr variance_moments<Real> variance_encode(Real z)
+{
+    variance_moments<Real> r;
+    r.mean = clamp_or_high(z, Real(-1), Real(1));
+    r.square = r.mean * r.mean;
+    return r;
+}
+
+/// Cantelli's lower bound in [0, 1] on the probability of values below the receiver; 0 for a receiver at or before the
+/// mean.
+/// Domain: minimum_variance at least 0. A negative one counts for nothing; an infinite one leaves no shadow.
+/// NaN: 0; a minimum_variance of NaN counts for nothing.
+/// Error: with the rounding of the moments, r (1 + 4 q + sqrt q), q = (square + receiver^2) / (variance + d^2),
+/// r = 4 2^-p, p the bits of the significand.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real cantelli_lower(variance_moments<Real> moments, Real receiver,
+                                            std::type_identity_t<Real> minimum_variance)
+{
+    Real variance = gnomon_max(minimum_variance, moments.square - moments.mean * moments.mean);
+    Real d = gnomon_max(Real(0), receiver - moments.mean);
+    return saturate_or_zero(d * d / (variance + d * d));
+}
+
+/// Shadow intensity in [0, 1] at depth z_f, never above percentage-closer filtering but for rounding.
+/// Domain: any z_f; beyond the far plane as on it; minimum_variance as of cantelli_lower.
+/// NaN: 0, lit; a minimum_variance of NaN counts for nothing.
+/// Error: as cantelli_lower.
+/// Source: Donnelly & Lauritzen 2006; Peters 2017, Sec. 2.2
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real variance_intensity(variance_moments<Real> filtered, Real z_f,
+                                                variance_settings<Real> settings)
+{
+    return cantelli_lower(filtered, gnomon_min(Real(1), z_f), settings.minimum_variance);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// filters/layered_variance.h ------------------------------------------------------------------------------------------
+// Layered variance shadow maps (Lauritzen & McCool 2008, "Layered variance shadow maps", section 3): depth is cut into
+// layers, and each has a variance shadow map of the depth clamped to it and stretched to [-1, 1]. Clamping keeps the
+// order of depths, so that every layer bounds the shadow intensity from below, and the largest bound holds. Depths in
+// front of a layer are clamped to its front: only occluders and receivers that share a layer leak light.
+//
+//     state = layered_variance_begin(z_f);
+//     state = layered_variance_add(state, filtered, settings);      for every layer, or just for the receiver's own
+//     intensity = layered_variance_end(state);
+#ifndef GNOMON_FILTERS_LAYERED_VARIANCE_H
+#define GNOMON_FILTERS_LAYERED_VARIANCE_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// A layer holds depths within 1 / scale of its centre; the minimum variance is that of the stretched depth.
+template <class Real, class = require_real<Real>>
+struct layered_variance_settings { Real centre, scale, minimum_variance; };
+
+/// The layer's own depth of a depth z, in [-1, 1].
+/// Domain: any z; scale at least 0. For 0 the layer tells no depths apart; an infinite scale is a shadow test at the
+/// centre. A negative scale turns the order of depths around.
+/// NaN: NaN.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real layered_variance_depth(Real z, layered_variance_settings<Real> settings)
+{
+    return clamp_or_nan((z - settings.centre) * settings.scale, Real(-1), Real(1));
+}
+
+/// The layer's moments of one depth z.
+/// Domain: any z.
+/// NaN: the far end of the layer, which shadows nothing.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr variance_moments<Real> layered_variance_encode(Real z, layered_variance_settings<Real> settings)
+{
+    // Clamp once, not by layered_variance_depth and then by variance_encode: clang 14 drops the second clamp, and a
+    // NaN would stay a NaN.
+    variance_moments<Real> r;
+    r.mean = clamp_or_high((z - settings.centre) * settings.scale, Real(-1), Real(1));
+    r.square = r.mean * r.mean;
+    return r;
+}
+
+/// The receiver's depth, and the largest bound so far.
+template <class Real, class = require_real<Real>> struct layered_variance { Real receiver, intensity; };
+
+/// The state before the first layer.
+/// Domain: any z_f; beyond the far plane as on it.
+/// NaN: lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr layered_variance<Real> layered_variance_begin(Real z_f)
+{
+    layered_variance<Real> r;
+    r.receiver = gnomon_min(Real(1), z_f);
+    r.intensity = Real(0);
+    return r;
+}
+
+/// The state after one more layer with its filtered moments.
+/// NaN: a layer with a NaN moment, centre or scale bounds nothing.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr layered_variance<Real> layered_variance_add(layered_variance<Real> state,
+                                                                    variance_moments<Real> filtered,
+                                                                    layered_variance_settings<Real> settings)
+{
+    Real receiver = layered_variance_depth(state.receiver, settings);
+    state.intensity = gnomon_max(state.intensity, cantelli_lower(filtered, receiver, settings.minimum_variance));
+    return state;
+}
+
+/// Shadow intensity in [0, 1], never above percentage-closer filtering but for rounding.
+/// NaN: 0, lit.
+/// Error: that of cantelli_lower for the layers' own depths, with r = 8 2^-p, the largest of all.
+/// Source: Lauritzen & McCool 2008, Sec. 3
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real layered_variance_end(layered_variance<Real> state)
+{
+    return saturate_or_zero(state.intensity);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// moments/channels.h --------------------------------------------------------------------------------------------------
+// The channels of a shadow map's texel, as a texture unit returns them: filtered or not, still behind the transform of
+// the storage format. Types of their own, so that channels never pass for moments, nor moments for channels.
+#ifndef GNOMON_MOMENTS_CHANNELS_H
+#define GNOMON_MOMENTS_CHANNELS_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+template <class Real, class = require_real<Real>> struct channels1 { Real c1; };
+
+template <class Real, class = require_real<Real>> struct channels2 { Real c1, c2; };
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// moments/channels.h, four moments ------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_CHANNELS_4
+#define GNOMON_MOMENTS_CHANNELS_4
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+template <class Real, class = require_real<Real>> struct channels4 { Real c1, c2, c3, c4; };
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// moments/channels.h, six moments -------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_CHANNELS_6
+#define GNOMON_MOMENTS_CHANNELS_6
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+template <class Real, class = require_real<Real>> struct channels6 { Real c1, c2, c3, c4, c5, c6; };
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// storage/layered_variance.h ------------------------------------------------------------------------------------------
+// Layered variance shadow maps in a storage format: from a depth to the channels of a texel, and from filtered channels
+// to a shadow. Four layers divide [-1, 1] evenly.
+//
+//   format          bytes   channels of a layer           write                             read
+//   8 x 16 UNORM     16     (1 + mean) / 2, mean square   layered_variance_unorm16_encode  
+// layered_variance_unorm16_intensity
+//
+// Where a surface passes from one layer to the next, mean and mean square are both near 1. Their roundings, three of
+// half a code each, then hide a variance of up to 3 (1/2 + 2) / 65535: half a code of the square, twice one code of the
+// mean.
+#ifndef GNOMON_STORAGE_LAYERED_VARIANCE_H
+#define GNOMON_STORAGE_LAYERED_VARIANCE_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// Two textures of four channels.
+template <class Real, class = require_real<Real>> struct channels8 { channels4<Real> t1, t2; };
+
+inline constexpr double layered_variance_unorm16_minimum_variance = 0.00011444266422522316;
+inline constexpr double layered_variance_unorm16_darkening = 2e-5;
+
+/// The settings of the layer around centre: -0.75, -0.25, 0.25 or 0.75.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr layered_variance_settings<Real> layered_variance_unorm16_layer(Real centre)
+{
+    layered_variance_settings<Real> settings;
+    settings.centre = centre;
+    settings.scale = Real(4);
+    settings.minimum_variance = literal<Real>(layered_variance_unorm16_minimum_variance);
+    return settings;
+}
+
+/// The channels of the two layers around near_centre and far_centre for a depth z.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr channels4<Real> layered_variance_unorm16_encode_two(Real z, Real near_centre, Real far_centre)
+{
+    variance_moments first = layered_variance_encode(z, layered_variance_unorm16_layer(near_centre));
+    variance_moments second = layered_variance_encode(z, layered_variance_unorm16_layer(far_centre));
+    channels4<Real> c;
+    c.c1 = Real(0.5) * first.mean + Real(0.5);
+    c.c2 = first.square;
+    c.c3 = Real(0.5) * second.mean + Real(0.5);
+    c.c4 = second.square;
+    return c;
+}
+
+/// The eight channels of an 8 x 16 UNORM texel of a depth z, each in [0, 1].
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr channels8<Real> layered_variance_unorm16_encode(Real z)
+{
+    channels8<Real> c;
+    c.t1 = layered_variance_unorm16_encode_two(z, Real(-0.75), Real(-0.25));
+    c.t2 = layered_variance_unorm16_encode_two(z, Real(0.25), Real(0.75));
+    return c;
+}
+
+/// The state after the layer around centre, whose channels are mean and square.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr layered_variance<Real> layered_variance_unorm16_add(layered_variance<Real> state, Real mean,
+                                                                            Real square, Real centre)
+{
+    variance_moments<Real> b;
+    b.mean = Real(2) * mean - Real(1);
+    b.square = square;
+    return layered_variance_add(state, b, layered_variance_unorm16_layer(centre));
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of an 8 x 16 UNORM texel.
+/// Domain: any z_f; beyond a plane as on it.
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real layered_variance_unorm16_intensity(channels8<Real> c, Real z_f)
+{
+    layered_variance state = layered_variance_begin(z_f);
+    state = layered_variance_unorm16_add(state, c.t1.c1, c.t1.c2, Real(-0.75));
+    state = layered_variance_unorm16_add(state, c.t1.c3, c.t1.c4, Real(-0.25));
+    state = layered_variance_unorm16_add(state, c.t2.c1, c.t2.c2, Real(0.25));
+    state = layered_variance_unorm16_add(state, c.t2.c3, c.t2.c4, Real(0.75));
+    return layered_variance_end(state);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+#undef GNOMON_UNFUSED
+#undef GNOMON_HAS_FMA
+#undef GNOMON_SCALAR_FMA
+#undef GNOMON_INLINE
+#undef GNOMON_NO_MACRO
+#undef GNOMON_WARNINGS_OFF
+#undef GNOMON_WARNINGS_ON
+#endif

@@ -1,0 +1,117 @@
+// Gnomon 0.1.0, percentage_closer.cl: shadow filtering in OpenCL C, this file alone.
+// Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
+// Written by shaders/package.py from the kernels in include/gnomon: change them there.
+#ifndef GNOMON_PERCENTAGE_CLOSER_CL
+#define GNOMON_PERCENTAGE_CLOSER_CL
+
+// the language --------------------------------------------------------------------------------------------------------
+// OpenCL C from version 1.2, full profile. Put #pragma OPENCL FP_CONTRACT OFF before the kernels, and build without
+// relaxed mathematics, for the same bits as on the CPU.
+#if !defined(__OPENCL_C_VERSION__) && !defined(__OPENCL_CPP_VERSION__)
+#error "gnomon: percentage_closer.cl is OpenCL C; another language's compiler reads it"
+#elif defined(GNOMON_PORTABLE_H)
+#error "gnomon: percentage_closer.cl and the headers of include/gnomon exclude one another"
+#elif defined(GNOMON_PACKAGE) && GNOMON_PACKAGE != 100
+#error "gnomon: percentage_closer.cl is not of the same version as a package before it"
+#endif
+#define GNOMON_PACKAGE 100 // major, minor and patch, two digits each
+
+#ifndef GNOMON_PORTABLE_OPENCL_H
+#define GNOMON_PORTABLE_OPENCL_H
+
+#if defined(__OPENCL_C_VERSION__) && __OPENCL_C_VERSION__ < 120
+#error "gnomon: -cl-std=CL1.2 or later needed"
+#elif defined(__EMBEDDED_PROFILE__)
+#error "gnomon: the full profile needed: the embedded one rounds as it likes"
+#elif defined(__FAST_RELAXED_MATH__)
+#error "gnomon: -cl-fast-relaxed-math voids the treatment of NaN and the exact products; build without it"
+#endif
+
+__constant float gnomon_pivot_floor = 9.31322574615478515625e-10f; // 2^-30
+
+static inline float gnomon_select(bool mask, float a, float b) { return mask ? a : b; }
+static inline bool gnomon_any(bool mask) { return mask; }
+static inline float gnomon_abs(float a) { return fabs(a); }
+static inline float gnomon_sqrt(float a) { return sqrt(a); }
+// x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
+// bits of NaN are above the bound, which is one.
+static inline float gnomon_kept(float x) { return as_float(min(as_int(x), 0x7FC00000)); }
+static inline float gnomon_apart(float x) { return as_float(min(as_uint(x), 0xFFC00000u)); }
+// A compiler that knew both operands would write min() and max(), which lose a NaN. gnomon_kept would not hide an operand
+// that is kept already, since two minima of integers become one; gnomon_apart is another one.
+static inline float gnomon_min(float a, float b) { return gnomon_select(a < b, a, gnomon_apart(b)); }
+static inline float gnomon_max(float a, float b) { return gnomon_select(b < a, a, gnomon_apart(b)); }
+static inline float gnomon_product(float a, float b) { return gnomon_kept(a * b); }
+static inline float gnomon_sum(float a, float b) { return gnomon_kept(a + b); }
+static inline float gnomon_difference(float a, float b) { return gnomon_kept(a - b); }
+static inline float gnomon_fma(float a, float b, float c) { return gnomon_kept(fma(a, b, c)); }
+// a without the low half of its significand.
+static inline float gnomon_high_part(float a) { return as_float(as_uint(a) & 0xFFFFF000u); }
+// The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
+static inline float gnomon_power_of_two(float n) { return as_float((as_uint(n + 12582912.0f) << 23) + 0x3F800000u); }
+
+#endif
+
+// numerics/select.h ---------------------------------------------------------------------------------------------------
+// Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
+#ifndef GNOMON_NUMERICS_SELECT_H
+#define GNOMON_NUMERICS_SELECT_H
+
+/// x clamped to [low, high].
+/// NaN: stays NaN, so that the last step of a kernel can answer it.
+static inline float clamp_or_nan(float x, float low, float high) { return gnomon_min(high, gnomon_max(low, x)); }
+
+/// x clamped to [low, high].
+/// NaN: high.
+static inline float clamp_or_high(float x, float low, float high) { return gnomon_max(low, gnomon_min(x, high)); }
+
+/// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
+/// NaN: 0, lit.
+static inline float saturate_or_zero(float x) { return gnomon_min(1.0f, gnomon_max(x, 0.0f)); }
+
+#endif
+
+// filters/percentage_closer.h -----------------------------------------------------------------------------------------
+// Percentage-closer filtering (Reeves, Salesin & Cook 1987; Peters et al. 2017, 2.2): the shadow intensity is the
+// weight of the shadow-map depths in front of the receiver, Z(z < z_f) itself. This filter is exact, cannot be filtered
+// beforehand, and is what every other filter here estimates.
+//
+//     state = percentage_closer_begin(z_f);
+//     state = percentage_closer_add(state, z, weight);      for every texel of the filter region, weights summing to 1
+//     intensity = percentage_closer_end(state);
+#ifndef GNOMON_FILTERS_PERCENTAGE_CLOSER_H
+#define GNOMON_FILTERS_PERCENTAGE_CLOSER_H
+
+/// The receiver's depth, and the weight in front of the receiver so far.
+typedef struct percentage_closer percentage_closer;
+struct percentage_closer { float receiver, shadowed; };
+
+/// The state before the first texel. Subtract a depth bias from z_f first (filters/depth_bias.h).
+/// Domain: any z_f; beyond the far plane as on it, so that a map cleared to the far plane shadows nothing.
+/// NaN: lit.
+static inline percentage_closer percentage_closer_begin(float z_f)
+{
+    percentage_closer r;
+    r.receiver = gnomon_min(1.0f, z_f);
+    r.shadowed = 0.0f;
+    return r;
+}
+
+/// The state after one more texel of depth z with its filter weight.
+/// Domain: any z.
+/// NaN: a texel of depth NaN casts no shadow; a weight of NaN before the receiver makes everything lit.
+static inline percentage_closer percentage_closer_add(percentage_closer state, float z, float weight)
+{
+    state.shadowed = state.shadowed + gnomon_select(z < state.receiver, weight, 0.0f);
+    return state;
+}
+
+/// Shadow intensity in [0, 1], also where the weights do not sum to 1.
+/// NaN: 0, lit.
+/// Error: that of the sum of weights.
+/// Source: Reeves, Salesin & Cook 1987
+static inline float percentage_closer_end(percentage_closer state) { return saturate_or_zero(state.shadowed); }
+
+#endif
+
+#endif

@@ -1,0 +1,108 @@
+// Gnomon 0.1.0, percentage_closer.hlsl: shadow filtering in HLSL, this file alone.
+// Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
+// Written by shaders/package.py from the kernels in include/gnomon: change them there.
+#ifndef GNOMON_PERCENTAGE_CLOSER_HLSL
+#define GNOMON_PERCENTAGE_CLOSER_HLSL
+
+// the language --------------------------------------------------------------------------------------------------------
+// HLSL without templates, for old front ends too.
+// Compile with strict IEEE arithmetic (/Gis) for the same bits as on the CPU. Exact products are exact in any case.
+#if defined(GL_ES) || defined(__METAL_VERSION__) || defined(__OPENCL_C_VERSION__)
+#error "gnomon: percentage_closer.hlsl is HLSL; another language's compiler reads it"
+#elif defined(GNOMON_PORTABLE_H)
+#error "gnomon: percentage_closer.hlsl and the headers of include/gnomon exclude one another"
+#elif defined(GNOMON_PACKAGE) && GNOMON_PACKAGE != 100
+#error "gnomon: percentage_closer.hlsl is not of the same version as a package before it"
+#endif
+#define GNOMON_PACKAGE 100 // major, minor and patch, two digits each
+
+#ifndef GNOMON_PORTABLE_HLSL_H
+#define GNOMON_PORTABLE_HLSL_H
+
+static const float gnomon_pivot_floor = 9.31322574615478515625e-10; // 2^-30
+
+float gnomon_select(bool mask, float a, float b) { return mask ? a : b; }
+bool gnomon_any(bool mask) { return mask; }
+float gnomon_abs(float a) { return abs(a); }
+float gnomon_sqrt(float a) { return sqrt(a); }
+
+// x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
+// bits of NaN are above the bound, which is one.
+float gnomon_kept(float x) { return asfloat(min(asint(x), 0x7FC00000)); }
+float gnomon_apart(float x) { return asfloat(min(asuint(x), 0xFFC00000u)); }
+// A compiler that knew both operands would write min() and max(), which lose a NaN. gnomon_kept would not hide an operand
+// that is kept already, since two minima of integers become one; gnomon_apart is another one.
+float gnomon_min(float a, float b) { return gnomon_select(a < b, a, gnomon_apart(b)); }
+float gnomon_max(float a, float b) { return gnomon_select(b < a, a, gnomon_apart(b)); }
+float gnomon_product(float a, float b) { return gnomon_kept(a * b); }
+float gnomon_sum(float a, float b) { return gnomon_kept(a + b); }
+float gnomon_difference(float a, float b) { return gnomon_kept(a - b); }
+// a without the low half of its significand.
+float gnomon_high_part(float a) { return asfloat(asuint(a) & 0xFFFFF000u); }
+// The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
+float gnomon_power_of_two(float n) { return asfloat((asuint(n + 12582912.0) << 23u) + 0x3F800000u); }
+
+#endif
+
+// numerics/select.h ---------------------------------------------------------------------------------------------------
+// Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
+#ifndef GNOMON_NUMERICS_SELECT_H
+#define GNOMON_NUMERICS_SELECT_H
+
+/// x clamped to [low, high].
+/// NaN: stays NaN, so that the last step of a kernel can answer it.
+float clamp_or_nan(float x, float low, float high) { return gnomon_min(high, gnomon_max(low, x)); }
+
+/// x clamped to [low, high].
+/// NaN: high.
+float clamp_or_high(float x, float low, float high) { return gnomon_max(low, gnomon_min(x, high)); }
+
+/// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
+/// NaN: 0, lit.
+float saturate_or_zero(float x) { return gnomon_min(1.0, gnomon_max(x, 0.0)); }
+
+#endif
+
+// filters/percentage_closer.h -----------------------------------------------------------------------------------------
+// Percentage-closer filtering (Reeves, Salesin & Cook 1987; Peters et al. 2017, 2.2): the shadow intensity is the
+// weight of the shadow-map depths in front of the receiver, Z(z < z_f) itself. This filter is exact, cannot be filtered
+// beforehand, and is what every other filter here estimates.
+//
+//     state = percentage_closer_begin(z_f);
+//     state = percentage_closer_add(state, z, weight);      for every texel of the filter region, weights summing to 1
+//     intensity = percentage_closer_end(state);
+#ifndef GNOMON_FILTERS_PERCENTAGE_CLOSER_H
+#define GNOMON_FILTERS_PERCENTAGE_CLOSER_H
+
+/// The receiver's depth, and the weight in front of the receiver so far.
+struct percentage_closer { float receiver, shadowed; };
+
+/// The state before the first texel. Subtract a depth bias from z_f first (filters/depth_bias.h).
+/// Domain: any z_f; beyond the far plane as on it, so that a map cleared to the far plane shadows nothing.
+/// NaN: lit.
+percentage_closer percentage_closer_begin(float z_f)
+{
+    percentage_closer r;
+    r.receiver = gnomon_min(1.0, z_f);
+    r.shadowed = 0.0;
+    return r;
+}
+
+/// The state after one more texel of depth z with its filter weight.
+/// Domain: any z.
+/// NaN: a texel of depth NaN casts no shadow; a weight of NaN before the receiver makes everything lit.
+percentage_closer percentage_closer_add(percentage_closer state, float z, float weight)
+{
+    state.shadowed = state.shadowed + gnomon_select(z < state.receiver, weight, 0.0);
+    return state;
+}
+
+/// Shadow intensity in [0, 1], also where the weights do not sum to 1.
+/// NaN: 0, lit.
+/// Error: that of the sum of weights.
+/// Source: Reeves, Salesin & Cook 1987
+float percentage_closer_end(percentage_closer state) { return saturate_or_zero(state.shadowed); }
+
+#endif
+
+#endif

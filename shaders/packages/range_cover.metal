@@ -1,0 +1,393 @@
+// Gnomon 0.1.0, range_cover.metal: shadow filtering in Metal, this file alone.
+// Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
+// Written by shaders/package.py from the kernels in include/gnomon: change them there.
+#ifndef GNOMON_RANGE_COVER_METAL
+#define GNOMON_RANGE_COVER_METAL
+
+// the language --------------------------------------------------------------------------------------------------------
+// Metal: C++14 with address spaces. Kernels are not templates, as in the other shader languages: Real is float.
+// Compile with -fno-fast-math and -ffp-contract=off for the same bits as on the CPU.
+#if !defined(__METAL_VERSION__)
+#error "gnomon: range_cover.metal is Metal; another language's compiler reads it"
+#elif defined(GNOMON_PORTABLE_H)
+#error "gnomon: range_cover.metal and the headers of include/gnomon exclude one another"
+#elif defined(GNOMON_PACKAGE) && GNOMON_PACKAGE != 100
+#error "gnomon: range_cover.metal is not of the same version as a package before it"
+#endif
+#define GNOMON_PACKAGE 100 // major, minor and patch, two digits each
+
+#ifndef GNOMON_PORTABLE_MSL_H
+#define GNOMON_PORTABLE_MSL_H
+
+#include <metal_stdlib>
+
+namespace gnomon {
+
+constant constexpr float gnomon_pivot_floor = 9.31322574615478515625e-10f; // 2^-30
+
+inline float gnomon_select(bool mask, float a, float b) { return mask ? a : b; }
+inline bool gnomon_any(bool mask) { return mask; }
+inline float gnomon_abs(float a) { return metal::fabs(a); }
+inline float gnomon_sqrt(float a) { return metal::precise::sqrt(a); }
+// x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
+// bits of NaN are above the bound, which is one.
+inline float gnomon_kept(float x) { return as_type<float>(metal::min(as_type<int>(x), 0x7FC00000)); }
+inline float gnomon_apart(float x) { return as_type<float>(metal::min(as_type<uint>(x), 0xFFC00000u)); }
+// A compiler that knew both operands would write min() and max(), which lose a NaN. gnomon_kept would not hide an operand
+// that is kept already, since two minima of integers become one; gnomon_apart is another one.
+inline float gnomon_min(float a, float b) { return gnomon_select(a < b, a, gnomon_apart(b)); }
+inline float gnomon_max(float a, float b) { return gnomon_select(b < a, a, gnomon_apart(b)); }
+inline float gnomon_product(float a, float b) { return gnomon_kept(a * b); }
+inline float gnomon_sum(float a, float b) { return gnomon_kept(a + b); }
+inline float gnomon_difference(float a, float b) { return gnomon_kept(a - b); }
+inline float gnomon_fma(float a, float b, float c) { return gnomon_kept(metal::fma(a, b, c)); }
+// a without the low half of its significand.
+inline float gnomon_high_part(float a) { return as_type<float>(as_type<uint>(a) & 0xFFFFF000u); }
+// The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
+inline float gnomon_power_of_two(float n) { return as_type<float>((as_type<uint>(n + 12582912.0f) << 23) + 0x3F800000u); }
+
+} // namespace gnomon
+
+#endif
+
+// numerics/select.h ---------------------------------------------------------------------------------------------------
+// Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
+#ifndef GNOMON_NUMERICS_SELECT_H
+#define GNOMON_NUMERICS_SELECT_H
+
+namespace gnomon {
+
+/// x clamped to [low, high].
+/// NaN: stays NaN, so that the last step of a kernel can answer it.
+inline float clamp_or_nan(float x, float low, float high) { return gnomon_min(high, gnomon_max(low, x)); }
+
+/// x clamped to [low, high].
+/// NaN: high.
+inline float clamp_or_high(float x, float low, float high) { return gnomon_max(low, gnomon_min(x, high)); }
+
+/// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
+/// NaN: 0, lit.
+inline float saturate_or_zero(float x) { return gnomon_min(1.0f, gnomon_max(x, 0.0f)); }
+
+} // namespace gnomon
+
+#endif
+
+// motion/range/range.h ------------------------------------------------------------------------------------------------
+// Depth-time ranges. From time t0 to time t1 of the shutter interval [0, 1] a surface covers a texel of the shadow map,
+// at a depth that changes linearly from z0 to z1. The depth-time range of Hong & Oh ("Motion blurred shadows utilizing
+// a depth-time ranges shadow map", section 4), the tuple of their temporal shadow map (2017), and the interval of
+// Gribel et al. 2010 and Palmer 2011 are these five numbers. The id names the surface, because no surface shadows
+// itself.
+//
+// A range whose times are out of order, or with a NaN time, is empty: it shadows nothing.
+#ifndef GNOMON_MOTION_RANGE_RANGE_H
+#define GNOMON_MOTION_RANGE_RANGE_H
+
+namespace gnomon {
+
+/// Times in [0, 1], signed depths, and an id: a whole number that floats hold, such as a triangle's index below 2^24.
+struct depth_time_range { float t0, t1, z0, z1, id; };
+
+// the id of a range of several surfaces: it shadows them all
+constant constexpr float range_mixed = -1.0f;
+constant constexpr float range_nothing = -2.0f;              // the id of a time without any surface
+constant constexpr float range_far = 1152921504606846976.0f; // 2^60: products of two depths are finite in float
+
+/// The range between two points of time and depth, given in either order.
+inline depth_time_range range_between(float time_a, float z_a, float time_b, float z_b, float id)
+{
+    bool swapped = time_b < time_a;
+    depth_time_range r;
+    r.t0 = gnomon_select(swapped, time_b, time_a);
+    r.t1 = gnomon_select(swapped, time_a, time_b);
+    r.z0 = gnomon_select(swapped, z_b, z_a);
+    r.z1 = gnomon_select(swapped, z_a, z_b);
+    r.id = id;
+    return r;
+}
+
+/// An empty range: it shadows nothing.
+inline depth_time_range range_empty(float id)
+{
+    depth_time_range r;
+    r.t0 = 1.0f;
+    r.t1 = 0.0f;
+    r.z0 = 1.0f;
+    r.z1 = 1.0f;
+    r.id = id;
+    return r;
+}
+
+/// Fraction of the range elapsed at time t, in [0, 1]: 0 up to t0, 1 from t1 on, 0 if t0 == t1.
+/// NaN: 0.
+inline float range_elapsed(depth_time_range r, float t) { return saturate_or_zero((t - r.t0) / (r.t1 - r.t0)); }
+
+/// Depth at time t, held constant before t0 and after t1; z0 if t0 == t1. Exact at both ends, and at all times if z0 ==
+/// z1.
+/// NaN: the result is NaN if z0 or z1 is.
+/// Error: 5 (|z0| + |z1|) 2^-p, p the bits of the significand.
+inline float range_depth(depth_time_range r, float t)
+{
+    float passed = range_elapsed(r, t);
+    return gnomon_select(r.z0 == r.z1, r.z0, r.z0 * (1.0f - passed) + r.z1 * passed);
+}
+
+/// Duration of the range, 0 if it is empty.
+inline float range_duration(depth_time_range r) { return gnomon_max(r.t1 - r.t0, 0.0f); }
+
+/// The part of r between the times begin and end, possibly empty.
+inline depth_time_range range_clip(depth_time_range r, float begin, float end)
+{
+    depth_time_range c;
+    c.t0 = gnomon_max(begin, r.t0);
+    c.t1 = gnomon_min(end, r.t1);
+    c.z0 = range_depth(r, c.t0);
+    c.z1 = range_depth(r, c.t1);
+    c.id = r.id;
+    return c;
+}
+
+/// a where the mask is set, b elsewhere.
+inline depth_time_range range_select(bool mask, depth_time_range a, depth_time_range b)
+{
+    depth_time_range r;
+    r.t0 = gnomon_select(mask, a.t0, b.t0);
+    r.t1 = gnomon_select(mask, a.t1, b.t1);
+    r.z0 = gnomon_select(mask, a.z0, b.z0);
+    r.z1 = gnomon_select(mask, a.z1, b.z1);
+    r.id = gnomon_select(mask, a.id, b.id);
+    return r;
+}
+
+/// r where the mask is set; elsewhere an empty range, which begins after all others.
+inline depth_time_range range_keep_if(bool mask, depth_time_range r)
+{
+    return range_select(mask, r, range_empty(range_nothing));
+}
+
+/// True if a comes before b in a total order: by begin, end, depth at begin, depth at end, id.
+inline bool range_less(depth_time_range a, depth_time_range b)
+{
+    bool by_id = a.id < b.id;
+    bool by_z1 = a.z1 < b.z1 || (a.z1 == b.z1 && by_id);
+    bool by_z0 = a.z0 < b.z0 || (a.z0 == b.z0 && by_z1);
+    bool by_t1 = a.t1 < b.t1 || (a.t1 == b.t1 && by_z0);
+    return a.t0 < b.t0 || (a.t0 == b.t0 && by_t1);
+}
+
+/// True if a provably occludes all of b: all of a is in front of all of b while b lasts, or both have the same times
+/// and a has the nearer ends. Of two equal ranges the one with the lower id occludes the other. Nothing is rounded, so
+/// the relation is transitive: the ranges that remain when the occluded ones go do not depend on the order of the
+/// tests.
+inline bool range_occludes(depth_time_range a, depth_time_range b)
+{
+    bool during = a.t0 <= b.t0 && b.t1 <= a.t1;
+    bool apart = gnomon_max(a.z0, a.z1) <= gnomon_min(b.z0, b.z1);
+    bool nearer = a.t0 == b.t0 && a.t1 == b.t1 && a.z0 <= b.z0 && a.z1 <= b.z1;
+    bool equal = nearer && a.z0 == b.z0 && a.z1 == b.z1;
+    return during && (apart || nearer) && !(equal && b.id < a.id);
+}
+
+/// The part of a during the time of b, possibly empty.
+inline depth_time_range range_clip_to(depth_time_range a, depth_time_range b) { return range_clip(a, b.t0, b.t1); }
+
+/// Time at which two ranges of the same begin and end are at the same depth; one of these ends if they never are.
+inline float range_crossing(depth_time_range a, depth_time_range b)
+{
+    float distance0 = a.z0 - b.z0;
+    float distance1 = a.z1 - b.z1;
+    float passed = saturate_or_zero(distance0 / (distance0 - distance1));
+    return a.t0 * (1.0f - passed) + a.t1 * passed;
+}
+
+/// The part of a that is in front of b, possibly empty. Where depths are equal throughout, the range with the lower id
+/// is in front. This part and the part of b in front of a fill the time that both share, bit for bit, unless both
+/// depths and ids are equal.
+/// Error: (80 z / d + 4) 2^-p for the time at which the front changes, z the largest depth and d the change of the
+/// distance between the ranges.
+inline depth_time_range range_visible_part(depth_time_range a, depth_time_range b)
+{
+    depth_time_range near_a = range_clip_to(a, b);
+    depth_time_range near_b = range_clip_to(b, a);
+    float before0 = near_b.z0 - near_a.z0;
+    float before1 = near_b.z1 - near_a.z1;
+    bool tie = before0 == 0.0f && before1 == 0.0f && a.id < b.id;
+    bool first = 0.0f < before0 || (before0 == 0.0f && 0.0f < before1) || tie;
+    bool last = 0.0f < before1 || (before1 == 0.0f && 0.0f < before0) || tie;
+    float crossing = clamp_or_nan(range_crossing(near_a, near_b), near_a.t0, near_a.t1);
+    float begin = gnomon_select(first, near_a.t0, gnomon_select(last, crossing, 1.0f));
+    float end = gnomon_select(last, near_a.t1, gnomon_select(first, crossing, 0.0f));
+    bool some = begin < end;
+    return range_clip(a, gnomon_select(some, begin, 1.0f), gnomon_select(some, end, 0.0f));
+}
+
+/// The part of r that remains after `other` occludes its begin, its end or all of it. If only the middle is occluded, r
+/// stays whole, since a range cannot have a hole. Cuts fall at times that `other` covers, so no gap opens.
+/// Error: that of range_depth, for the depth line.
+inline depth_time_range range_trim(depth_time_range r, depth_time_range other)
+{
+    depth_time_range occluding = range_visible_part(other, r);
+    bool some = occluding.t0 < occluding.t1;
+    float begin = gnomon_select(some && occluding.t0 <= r.t0, occluding.t1, r.t0);
+    float end = gnomon_select(some && r.t1 <= occluding.t1, occluding.t0, r.t1);
+    return range_clip(r, begin, end);
+}
+
+/// The part of r between begin and end that is in front of a receiver, possibly empty. The receiver's depth is a range,
+/// too, and level for a static receiver.
+/// NaN: a NaN depth is in front of nothing.
+/// Error: the times at which the two are within 26 z 2^-p of one another, z the largest depth; and 8 2^-p.
+inline depth_time_range range_occluding_part(depth_time_range r, depth_time_range receiver, float begin, float end)
+{
+    float early = gnomon_max(begin, r.t0);
+    float late = gnomon_min(end, r.t1);
+    // In most cases one of the two is in front at all times.
+    bool nearer = r.z0 < receiver.z0 && r.z0 < receiver.z1 && r.z1 < receiver.z0 && r.z1 < receiver.z1;
+    bool farther = receiver.z0 <= r.z0 && receiver.z0 <= r.z1 && receiver.z1 <= r.z0 && receiver.z1 <= r.z1;
+    float front = early;
+    float back = gnomon_select(farther, 0.0f, late);
+    bool open = early < late && !(nearer || farther);
+    if (gnomon_any(open)) {
+        float before0 = range_depth(receiver, early) - range_depth(r, early);
+        float before1 = range_depth(receiver, late) - range_depth(r, late);
+        float passed = before0 / (before0 - before1); // in [0, 1] where their signs differ
+        float crossing = clamp_or_nan(early * (1.0f - passed) + late * passed, early, late);
+        float first = gnomon_select(0.0f < before0, early, gnomon_select(0.0f < before1, crossing, 1.0f));
+        float last = gnomon_select(0.0f < before1, late, gnomon_select(0.0f < before0, crossing, 0.0f));
+        front = gnomon_select(open, first, front);
+        back = gnomon_select(open, last, back);
+    }
+    bool some = front < back; // false for NaN
+    return range_clip(r, gnomon_select(some, front, 1.0f), gnomon_select(some, back, 0.0f));
+}
+
+/// Shadow intensity at time t and depth z on the surface with the given id: 1 where the range lasts at time t, lies
+/// more than the bias in front of z, and has another id; else 0.
+/// NaN: 0, lit.
+/// Source: Hong & Oh 2018, Sec. 3.3
+inline float range_intensity(depth_time_range r, float t, float z, float id, float bias)
+{
+    bool during = r.t0 <= t && t <= r.t1;
+    bool occludes = range_depth(r, t) + bias < z && !(id == r.id);
+    return gnomon_select(during && occludes, 1.0f, 0.0f);
+}
+
+} // namespace gnomon
+
+#endif
+
+// motion/range/range_cover.h ------------------------------------------------------------------------------------------
+// Texels that one surface covers for the whole shutter, in front of everything else: the coverage map of Hong & Oh
+// ("Efficient motion blurred shadows using a temporal shadow map", 2017). All other ranges of such a texel are occluded
+// at all times and need not be stored. A cover is a range from 0 to 1 with the id of its surface. A texel without a
+// cover has an empty range with the id -1.
+//
+// The paper needs three passes (comparators/three_pass_cover.h) and leaves a single pass for future work. These kernels
+// take one pass over ranges, in any order:
+//
+//     state = range_cover_begin(1);              state = range_cover_add(state, r);            for all r
+//     cover = range_cover_end(state);
+//
+// Ranges for which range_cover_occludes returns 1 may be left out of the list. The cover stays in the list, or a
+// look-up tests it first:
+//
+//     answer = range_cover_answer(cover, t, z, id, bias);   if answer.decided is 0, test the list
+#ifndef GNOMON_MOTION_RANGE_RANGE_COVER_H
+#define GNOMON_MOTION_RANGE_RANGE_COVER_H
+
+namespace gnomon {
+
+/// The best cover so far, and the nearest depth of all other ranges.
+struct range_cover
+{
+    depth_time_range best;
+    float front, far_plane;
+};
+
+/// The answer of a cover for one receiver: shadow intensity, 0 or 1, and decided, which is 1 if that is the answer of
+/// the whole texel and 0 if the list has to be tested.
+struct cover_answer { float intensity, decided; };
+
+constant constexpr float cover_margin = 0.0000019073486328125f; // 2^-19, 32 2^-p in float
+
+/// Begin without a range. Covers must not lie behind far_plane, which is 1.
+inline range_cover range_cover_begin(float far_plane)
+{
+    range_cover state;
+    state.best = range_empty(-1.0f);
+    state.front = far_plane;
+    state.far_plane = far_plane;
+    return state;
+}
+
+/// Add one range, as a whole: cut it into pieces (moving_depth_piece) only after it is known not to be the cover. The
+/// best of the ranges from 0 to 1 is the one with the least farthest depth; if any range is in front of all others,
+/// this one is. Ties go to the nearer end, then to the lesser id. All other ranges count as others, whatever their ids.
+/// A range whose times are out of order adds nothing.
+/// Domain: a cover needs depths within [-far_plane, far_plane] and an id of at least 0.
+/// NaN: a range with a NaN adds nothing.
+inline range_cover range_cover_add(range_cover state, depth_time_range r)
+{
+    float near_depth = gnomon_min(r.z0, r.z1);
+    float far_depth = gnomon_max(r.z0, r.z1);
+    float best_near = gnomon_min(state.best.z0, state.best.z1);
+    float best_far = gnomon_max(state.best.z0, state.best.z1);
+    bool some = r.t0 <= r.t1 && r.z0 == r.z0 && r.z1 == r.z1;
+    bool within = gnomon_abs(r.z0) <= state.far_plane && gnomon_abs(r.z1) <= state.far_plane;
+    bool full = some && r.t0 <= 0.0f && 1.0f <= r.t1 && within && 0.0f <= r.id;
+    bool first = state.best.id < 0.0f;
+    bool tie = far_depth == best_far;
+    bool tie_wins = near_depth < best_near || (near_depth == best_near && r.id < state.best.id);
+    bool better = full && (first || far_depth < best_far || (tie && tie_wins));
+
+    float other = gnomon_select(better, gnomon_select(first, state.far_plane, best_near), near_depth);
+    state.front = gnomon_select(some && other < state.front, other, state.front);
+    state.best = range_select(better, r, state.best);
+    return state;
+}
+
+/// The cover, or an empty range with the id -1: the best range if no other one is ever nearer than its farther end.
+/// Source: Hong & Oh 2017
+inline depth_time_range range_cover_end(range_cover state)
+{
+    bool covers = gnomon_max(state.best.z0, state.best.z1) <= state.front;
+    return range_select(covers, state.best, range_empty(-1.0f));
+}
+
+/// 1 where r may be left out of a list that keeps the cover: r is never nearer than the cover's farther end, or shadows
+/// nothing. A receiver behind r is then behind the cover at all times, and shadowed by the cover, in spite of the
+/// rounding of range_depth: the margin outweighs that rounding, and keeps a level cover from occluding itself. So a
+/// receiver gets the answer of all ranges, unless it has the cover's id and the cover is in front of it by more than
+/// its bias (see range_list.h for ids).
+/// Domain: depths in [-1, 1], times in [0, 1].
+inline float range_cover_occludes(depth_time_range cover, depth_time_range r)
+{
+    bool some = r.t0 <= r.t1 && r.z0 == r.z0 && r.z1 == r.z1;
+    float behind = gnomon_max(cover.z0, cover.z1) + cover_margin;
+    bool hidden = 0.0f <= cover.id && behind <= gnomon_min(r.z0, r.z1);
+    return gnomon_select(hidden || !some, 1.0f, 0.0f);
+}
+
+/// Shadow test at time t and depth z on the surface with the given id. Where decided, the answer is that of all ranges
+/// of the texel, bit for bit. The receiver is shadowed where z is more than the bias behind the cover and the cover has
+/// another id. The receiver is lit where z is within the bias, less 2^-19, of the cover's farther end, since nothing
+/// else is in front of the cover. Between the two, and without a cover, the answer is undecided. The paper compares no
+/// depths: its test shadows a neighbouring triangle that lies in front of the cover, but falls into the cover's texel
+/// by the map's resolution.
+/// Domain: times in [0, 1], depths in [-1, 1], bias in [0, 1].
+inline cover_answer range_cover_answer(depth_time_range cover, float t, float z, float id, float bias)
+{
+    cover_answer r;
+    r.intensity = range_intensity(cover, t, z, id, bias);
+    float behind = gnomon_max(cover.z0, cover.z1) + bias;
+    bool lit = z + cover_margin <= behind;
+    r.decided = gnomon_select(0.0f <= cover.id && (lit || 0.0f < r.intensity), 1.0f, 0.0f);
+    return r;
+}
+
+} // namespace gnomon
+
+#endif
+
+#endif
