@@ -3,8 +3,8 @@
 
 usage: newcomer_test.py OUTPUT PATH [COMMAND...]
 
-PATH is cpp, vulkan, webgl2 or wgsl. OUTPUT is a folder for the picture of webgl2, COMMAND the browser of webgl2 and the checker
-of wgsl. Exit code 77 where the machine lacks something.
+PATH is cpp, vulkan, webgl2 or wgsl. COMMAND is the browser of webgl2 and the checker of wgsl. webgl2 leaves its site and a
+picture in OUTPUT/webgl2. Exit code 77 where the machine lacks something.
 """
 import base64
 import functools
@@ -21,7 +21,6 @@ from html import unescape
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-HERE = Path(__file__).resolve().parent
 SKIPPED = 1 if os.environ.get("CI") == "true" else 77
 CONSUMER = """cmake_minimum_required(VERSION 3.22)
 project(newcomer LANGUAGES CXX)
@@ -119,11 +118,13 @@ def webgl2(copy, folder, output, chromium):
     """A page with the ESSL of docs/shaders.md draws a shadow."""
     if not shutil.which(chromium):
         skip("no Chromium (chromium)")
-    site = folder / "site"
-    shutil.copytree(copy / "shaders/packages", site)
+    site = output / "webgl2"
+    site.mkdir(parents=True, exist_ok=True)
     shutil.copy(copy / "tests/newcomer/page.html", site / "index.html")
     for name, text in zip(["write.frag", "read.frag"], examples(copy, "docs/shaders.md", "OpenGL and OpenGL ES"), strict=True):
         (site / name).write_text(text)
+        for package in re.findall(r'^#include "(.*)"$', text, re.MULTILINE):
+            shutil.copy(copy / "shaders/packages" / package, site)
     function = examples(copy, "docs/shaders.md", "WebGL 2")[0]
     (site / "pasted.js").write_text(f"export {function}")
     kernel = re.search(r"(\w+)_encode\(", (site / "write.frag").read_text())[1]
@@ -139,7 +140,7 @@ def webgl2(copy, folder, output, chromium):
     server.shutdown()
     found = json.loads(unescape(re.search('<pre id="found">(.*?)</pre>', page, re.DOTALL)[1]))
     assert "failed" not in found, found
-    picture = output / "webgl2.png"
+    picture = site / "picture.png"
     picture.write_bytes(base64.b64decode(found["picture"].partition(",")[2]))
 
     # 256 pixels, 2 to a texel: the square is from 64 to 192, the blur reaches 4 texels on either side of its edges.
