@@ -1,4 +1,5 @@
-// The version of the headers: CMake reads it here, and #if GNOMON_VERSION >= 100 can be written in every language.
+// The version, in its one place: CMake and shaders/package.py read it here. #if GNOMON_VERSION >= 100 may be written in every
+// language; in a shader package the number is GNOMON_PACKAGE.
 #ifndef GNOMON_VERSION_H
 #define GNOMON_VERSION_H
 

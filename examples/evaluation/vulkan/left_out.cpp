@@ -7,7 +7,7 @@ namespace {
 
 void left_out(const settings&)
 {
-    progress("vulkan_shadows", "skipped: built without Vulkan headers, Python or glslangValidator");
+    progress("vulkan_shadows", "skipped: built without Vulkan headers or glslangValidator");
 }
 
 const registered<driver> entry{
