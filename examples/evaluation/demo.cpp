@@ -93,7 +93,7 @@ try {
     std::vector<const driver*> wanted;
     std::ranges::copy_if(drivers, std::back_inserter(wanted), [&](const driver* d) { return is_asked_for(*d); });
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-        progress(wanted[i]->id, fmt::format("driver {} of {}", i + 1, wanted.size()));
+        if (wanted.size() > 1) progress(wanted[i]->id, fmt::format("driver {} of {}", i + 1, wanted.size()));
         wanted[i]->run(how);
     }
     return 0;
