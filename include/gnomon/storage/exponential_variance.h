@@ -64,6 +64,7 @@ GNOMON_KERNEL GNOMON_T(channels4) exponential_variance_half_encode(Real z)
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit; a NaN channel takes the bound of its own warp away, which leaves the other's.
+/// Error: as exponential_variance_intensity, for the given channels.
 GNOMON_KERNEL Real exponential_variance_half_intensity(GNOMON_T(channels4) c, Real z_f)
 {
     GNOMON_T(exponential_variance_settings) settings;
@@ -89,6 +90,7 @@ GNOMON_KERNEL GNOMON_T(channels4) exponential_variance_float_encode(Real z)
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit; a NaN channel takes the bound of its own warp away, which leaves the other's.
+/// Error: as exponential_variance_intensity, for the given channels.
 GNOMON_KERNEL Real exponential_variance_float_intensity(GNOMON_T(channels4) c, Real z_f)
 {
     GNOMON_T(exponential_variance_settings) settings;

@@ -65,6 +65,7 @@ GNOMON_DETAIL_KERNEL GNOMON_T(layered_variance) layered_variance_unorm16_add(GNO
 /// Shadow intensity in [0, 1] at depth z_f from the channels of an 8 x 16 UNORM texel.
 /// Domain: any z_f; beyond a plane as on it.
 /// NaN: 0, lit.
+/// Error: as layered_variance_end, for the given channels.
 GNOMON_KERNEL Real layered_variance_unorm16_intensity(GNOMON_T(channels8) c, Real z_f)
 {
     layered_variance state = layered_variance_begin(z_f);

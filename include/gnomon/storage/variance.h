@@ -30,6 +30,7 @@ GNOMON_KERNEL GNOMON_T(channels2) variance_unorm16_encode(Real z)
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 2 x 16 UNORM texel.
 /// Domain: any z_f; beyond the far plane as on it.
 /// NaN: 0, lit.
+/// Error: as variance_intensity, for the given channels.
 GNOMON_KERNEL Real variance_unorm16_intensity(GNOMON_T(channels2) c, Real z_f)
 {
     GNOMON_T(variance_moments) b;
