@@ -856,6 +856,7 @@ GNOMON_INLINE constexpr channels4<Real> exponential_variance_half_encode(Real z)
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit; a NaN channel takes the bound of its own warp away, which leaves the other's.
+/// Error: as exponential_variance_intensity, for the given channels.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real exponential_variance_half_intensity(channels4<Real> c, Real z_f)
 {
@@ -883,6 +884,7 @@ GNOMON_INLINE constexpr channels4<Real> exponential_variance_float_encode(Real z
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit; a NaN channel takes the bound of its own warp away, which leaves the other's.
+/// Error: as exponential_variance_intensity, for the given channels.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real exponential_variance_float_intensity(channels4<Real> c, Real z_f)
 {

@@ -404,6 +404,7 @@ channels4 exponential_variance_half_encode(float z)
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit; a NaN channel takes the bound of its own warp away, which leaves the other's.
+/// Error: as exponential_variance_intensity, for the given channels.
 float exponential_variance_half_intensity(channels4 c, float z_f)
 {
     exponential_variance_settings settings;
@@ -429,6 +430,7 @@ channels4 exponential_variance_float_encode(float z)
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit; a NaN channel takes the bound of its own warp away, which leaves the other's.
+/// Error: as exponential_variance_intensity, for the given channels.
 float exponential_variance_float_intensity(channels4 c, float z_f)
 {
     exponential_variance_settings settings;

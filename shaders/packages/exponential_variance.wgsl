@@ -344,6 +344,7 @@ fn exponential_variance_half_encode(z: f32) -> channels4_
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit; a NaN channel takes the bound of its own warp away, which leaves the other's.
+/// Error: as exponential_variance_intensity, for the given channels.
 fn exponential_variance_half_intensity(c: channels4_, z_f: f32) -> f32
 {
     var settings: exponential_variance_settings;
@@ -369,6 +370,7 @@ fn exponential_variance_float_encode(z: f32) -> channels4_
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit; a NaN channel takes the bound of its own warp away, which leaves the other's.
+/// Error: as exponential_variance_intensity, for the given channels.
 fn exponential_variance_float_intensity(c: channels4_, z_f: f32) -> f32
 {
     var settings: exponential_variance_settings;

@@ -7190,6 +7190,7 @@ GNOMON_INLINE constexpr channels4<Real> exponential_variance_half_encode(Real z)
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit; a NaN channel takes the bound of its own warp away, which leaves the other's.
+/// Error: as exponential_variance_intensity, for the given channels.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real exponential_variance_half_intensity(channels4<Real> c, Real z_f)
 {
@@ -7217,6 +7218,7 @@ GNOMON_INLINE constexpr channels4<Real> exponential_variance_float_encode(Real z
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit; a NaN channel takes the bound of its own warp away, which leaves the other's.
+/// Error: as exponential_variance_intensity, for the given channels.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real exponential_variance_float_intensity(channels4<Real> c, Real z_f)
 {
@@ -7304,6 +7306,7 @@ GNOMON_INLINE constexpr layered_variance<Real> layered_variance_unorm16_add(laye
 /// Shadow intensity in [0, 1] at depth z_f from the channels of an 8 x 16 UNORM texel.
 /// Domain: any z_f; beyond a plane as on it.
 /// NaN: 0, lit.
+/// Error: as layered_variance_end, for the given channels.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real layered_variance_unorm16_intensity(channels8<Real> c, Real z_f)
 {
@@ -7894,6 +7897,7 @@ GNOMON_INLINE constexpr channels2<Real> variance_unorm16_encode(Real z)
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 2 x 16 UNORM texel.
 /// Domain: any z_f; beyond the far plane as on it.
 /// NaN: 0, lit.
+/// Error: as variance_intensity, for the given channels.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real variance_unorm16_intensity(channels2<Real> c, Real z_f)
 {

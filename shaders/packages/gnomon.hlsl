@@ -6033,6 +6033,7 @@ channels4 exponential_variance_half_encode(float z)
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit; a NaN channel takes the bound of its own warp away, which leaves the other's.
+/// Error: as exponential_variance_intensity, for the given channels.
 float exponential_variance_half_intensity(channels4 c, float z_f)
 {
     exponential_variance_settings settings;
@@ -6058,6 +6059,7 @@ channels4 exponential_variance_float_encode(float z)
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit; a NaN channel takes the bound of its own warp away, which leaves the other's.
+/// Error: as exponential_variance_intensity, for the given channels.
 float exponential_variance_float_intensity(channels4 c, float z_f)
 {
     exponential_variance_settings settings;
@@ -6135,6 +6137,7 @@ layered_variance gnomon_layered_variance_unorm16_add(layered_variance state, flo
 /// Shadow intensity in [0, 1] at depth z_f from the channels of an 8 x 16 UNORM texel.
 /// Domain: any z_f; beyond a plane as on it.
 /// NaN: 0, lit.
+/// Error: as layered_variance_end, for the given channels.
 float layered_variance_unorm16_intensity(channels8 c, float z_f)
 {
     layered_variance state = layered_variance_begin(z_f);
@@ -6628,6 +6631,7 @@ channels2 variance_unorm16_encode(float z)
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 2 x 16 UNORM texel.
 /// Domain: any z_f; beyond the far plane as on it.
 /// NaN: 0, lit.
+/// Error: as variance_intensity, for the given channels.
 float variance_unorm16_intensity(channels2 c, float z_f)
 {
     variance_moments b;

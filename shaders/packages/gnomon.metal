@@ -6265,6 +6265,7 @@ inline channels4 exponential_variance_half_encode(float z)
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit; a NaN channel takes the bound of its own warp away, which leaves the other's.
+/// Error: as exponential_variance_intensity, for the given channels.
 inline float exponential_variance_half_intensity(channels4 c, float z_f)
 {
     exponential_variance_settings settings;
@@ -6290,6 +6291,7 @@ inline channels4 exponential_variance_float_encode(float z)
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit; a NaN channel takes the bound of its own warp away, which leaves the other's.
+/// Error: as exponential_variance_intensity, for the given channels.
 inline float exponential_variance_float_intensity(channels4 c, float z_f)
 {
     exponential_variance_settings settings;
@@ -6371,6 +6373,7 @@ inline layered_variance layered_variance_unorm16_add(layered_variance state, flo
 /// Shadow intensity in [0, 1] at depth z_f from the channels of an 8 x 16 UNORM texel.
 /// Domain: any z_f; beyond a plane as on it.
 /// NaN: 0, lit.
+/// Error: as layered_variance_end, for the given channels.
 inline float layered_variance_unorm16_intensity(channels8 c, float z_f)
 {
     layered_variance state = layered_variance_begin(z_f);
@@ -6885,6 +6888,7 @@ inline channels2 variance_unorm16_encode(float z)
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 2 x 16 UNORM texel.
 /// Domain: any z_f; beyond the far plane as on it.
 /// NaN: 0, lit.
+/// Error: as variance_intensity, for the given channels.
 inline float variance_unorm16_intensity(channels2 c, float z_f)
 {
     variance_moments b;

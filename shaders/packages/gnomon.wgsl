@@ -5852,6 +5852,7 @@ fn exponential_variance_half_encode(z: f32) -> channels4_
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit; a NaN channel takes the bound of its own warp away, which leaves the other's.
+/// Error: as exponential_variance_intensity, for the given channels.
 fn exponential_variance_half_intensity(c: channels4_, z_f: f32) -> f32
 {
     var settings: exponential_variance_settings;
@@ -5877,6 +5878,7 @@ fn exponential_variance_float_encode(z: f32) -> channels4_
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit; a NaN channel takes the bound of its own warp away, which leaves the other's.
+/// Error: as exponential_variance_intensity, for the given channels.
 fn exponential_variance_float_intensity(c: channels4_, z_f: f32) -> f32
 {
     var settings: exponential_variance_settings;
@@ -5950,6 +5952,7 @@ fn gnomon_layered_variance_unorm16_add(state: layered_variance, mean: f32, squar
 /// Shadow intensity in [0, 1] at depth z_f from the channels of an 8 x 16 UNORM texel.
 /// Domain: any z_f; beyond a plane as on it.
 /// NaN: 0, lit.
+/// Error: as layered_variance_end, for the given channels.
 fn layered_variance_unorm16_intensity(c: channels8_, z_f: f32) -> f32
 {
     var state = layered_variance_begin(z_f);
@@ -6433,6 +6436,7 @@ fn variance_unorm16_encode(z: f32) -> channels2_
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 2 x 16 UNORM texel.
 /// Domain: any z_f; beyond the far plane as on it.
 /// NaN: 0, lit.
+/// Error: as variance_intensity, for the given channels.
 fn variance_unorm16_intensity(c: channels2_, z_f: f32) -> f32
 {
     var b: variance_moments;

@@ -678,6 +678,7 @@ GNOMON_INLINE constexpr layered_variance<Real> layered_variance_unorm16_add(laye
 /// Shadow intensity in [0, 1] at depth z_f from the channels of an 8 x 16 UNORM texel.
 /// Domain: any z_f; beyond a plane as on it.
 /// NaN: 0, lit.
+/// Error: as layered_variance_end, for the given channels.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real layered_variance_unorm16_intensity(channels8<Real> c, Real z_f)
 {

@@ -307,6 +307,7 @@ inline layered_variance layered_variance_unorm16_add(layered_variance state, flo
 /// Shadow intensity in [0, 1] at depth z_f from the channels of an 8 x 16 UNORM texel.
 /// Domain: any z_f; beyond a plane as on it.
 /// NaN: 0, lit.
+/// Error: as layered_variance_end, for the given channels.
 inline float layered_variance_unorm16_intensity(channels8 c, float z_f)
 {
     layered_variance state = layered_variance_begin(z_f);

@@ -234,6 +234,7 @@ fn gnomon_layered_variance_unorm16_add(state: layered_variance, mean: f32, squar
 /// Shadow intensity in [0, 1] at depth z_f from the channels of an 8 x 16 UNORM texel.
 /// Domain: any z_f; beyond a plane as on it.
 /// NaN: 0, lit.
+/// Error: as layered_variance_end, for the given channels.
 fn layered_variance_unorm16_intensity(c: channels8_, z_f: f32) -> f32
 {
     var state = layered_variance_begin(z_f);

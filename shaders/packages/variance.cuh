@@ -555,6 +555,7 @@ GNOMON_INLINE constexpr channels2<Real> variance_unorm16_encode(Real z)
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 2 x 16 UNORM texel.
 /// Domain: any z_f; beyond the far plane as on it.
 /// NaN: 0, lit.
+/// Error: as variance_intensity, for the given channels.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real variance_unorm16_intensity(channels2<Real> c, Real z_f)
 {

@@ -198,6 +198,7 @@ inline channels2 variance_unorm16_encode(float z)
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 2 x 16 UNORM texel.
 /// Domain: any z_f; beyond the far plane as on it.
 /// NaN: 0, lit.
+/// Error: as variance_intensity, for the given channels.
 inline float variance_unorm16_intensity(channels2 c, float z_f)
 {
     variance_moments b;

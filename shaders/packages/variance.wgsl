@@ -132,6 +132,7 @@ fn variance_unorm16_encode(z: f32) -> channels2_
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 2 x 16 UNORM texel.
 /// Domain: any z_f; beyond the far plane as on it.
 /// NaN: 0, lit.
+/// Error: as variance_intensity, for the given channels.
 fn variance_unorm16_intensity(c: channels2_, z_f: f32) -> f32
 {
     var b: variance_moments;
