@@ -159,6 +159,15 @@
 // What games and shader ports define for themselves.
 #define saturate(x) clamp(x, 0, 1)
 #define real double
+#define assume(x) __assume(x)
+#define lower(c) ((c) | 0x20)
+#define upper(c) ((c) & ~0x20)
+#define EPSILON 1e-6
+#define ALIGN(x) __attribute__((aligned(x)))
+#define BIT(n) (1u << (n))
+#define ABS(x) ((x) < 0 ? -(x) : (x))
+#define SIGN(x) ((x) < 0 ? -1 : 1)
+#define CLAMP(x, low, high) ((x) < (low) ? (low) : (x) > (high) ? (high) : (x))
 #define likely(x) __builtin_expect(!!(x), 1)
 #define unlikely(x) __builtin_expect(!!(x), 0)
 #define countof(array) (sizeof(array) / sizeof(array[0]))
@@ -186,6 +195,7 @@
 // What games and shader ports define for themselves.
 #define clamp(x, low, high) ((x) < (low) ? (low) : (x) > (high) ? (high) : (x))
 #define lerp(a, b, t) ((a) + (t) * ((b) - (a)))
+#define index(s, c) strchr(s, c)
 #define swap(a, b) ((a) ^= (b) ^= (a) ^= (b))
 #define any(x) (x)
 #define all(x) (x)
