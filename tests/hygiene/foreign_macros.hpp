@@ -160,8 +160,6 @@
 #define saturate(x) clamp(x, 0, 1)
 #define real double
 #define assume(x) __assume(x)
-#define lower(c) ((c) | 0x20)
-#define upper(c) ((c) & ~0x20)
 #define EPSILON 1e-6
 #define ALIGN(x) __attribute__((aligned(x)))
 #define BIT(n) (1u << (n))
