@@ -35,6 +35,8 @@
 //                                    square of the rounding error of P_k at a node, and so large that its 7th power
 //                                    times 2^112 is a normal number
 //
+// Kernels compare by < <= > >= and ==, not by !=: of NaN, that of xsimd 8.1 says false.
+//
 // Not every implementation keeps the sign of a zero. For +0, -x is +0 in AVX-512 code of xsimd, and 0 - x is -0 in
 // Mesa's llvmpipe. Where such a zero could reach a result, kernels use Real(-1) * x, which is -0 everywhere. Mesa also
 // returns -0 for the 0 in gnomon_select(mask, Real(-1), Real(0)), and 0 for Real(0) * x with any x.

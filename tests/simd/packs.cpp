@@ -1,7 +1,7 @@
 // Every word of the dialect by every pack, on ordinary and on hostile numbers: the bits of the scalar in every lane.
 // A program without doctest, so that it runs on any target and by any version of xsimd. Exit status 1 and a line for each
 // word and pack that differs.
-#include "flushed.hpp"
+#include "alike.hpp"
 #include "support/hostile.hpp"
 
 #include <gnomon/numerics/round.h>
@@ -90,6 +90,7 @@ template <class Pack> void compare(const std::string& origin)
     with("gnomon_any", [](auto a, auto b) { return any_lane(a < b, a); });
     with("gnomon_difference", [](auto a, auto b) { return gnomon_difference(a, b); });
     with("gnomon_product", [](auto a, auto b) { return gnomon_product(a, b); });
+    with("gnomon_high_part", [](auto a, auto) { return gnomon_high_part(a); });
     with("two_product", [](auto a, auto b) { return two_product(a, b).low; });
     with("gnomon_power_of_two", []<class Real>(Real a, Real) {
         return gnomon_power_of_two(nearest_integer(gnomon_min(gnomon_max(a, Real(-120)), Real(120))));

@@ -8,6 +8,7 @@
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #endif
 
+#include <gnomon/portable.h>
 #if __has_include(<xsimd/xsimd.hpp>)
 #include <gnomon/simd/xsimd.hpp>
 #endif
@@ -74,6 +75,7 @@ template <class Real> std::string real_name()
     else return is_plain<Real> ? "plain " + scalar : scalar;
 }
 
+#if defined(GNOMON_SIMD_XSIMD_HPP)
 /// Calls f.template operator()<Real>() for T, the packs of T that this machine has, and plain<T>.
 template <class T, class F> void for_each_real(F f)
 {
@@ -90,5 +92,6 @@ template <class T, class F> void for_each_real(F f)
     pack.template operator()<16>();
 #endif
 }
+#endif
 
 } // namespace gnomon::test

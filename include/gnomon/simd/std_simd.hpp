@@ -36,6 +36,13 @@ template <class T, class Abi> struct pack_operations<std::experimental::simd<T, 
         return b;
     }
 
+    // As for a scalar.
+    static GNOMON_INLINE pack high_part(pack a) requires(std::is_same_v<T, float>&& std::is_trivially_copyable_v<pack>)
+    {
+        using integers = std::experimental::rebind_simd_t<std::uint32_t, pack>;
+        return gnomon_bit_cast<pack>(gnomon_bit_cast<integers>(a) & integers(0xFFFFF000u));
+    }
+
     // As for a scalar: the sum leaves n in the low bits, and the shift moves n into the exponent.
     static GNOMON_INLINE pack power_of_two(pack n) requires std::is_trivially_copyable_v<pack>
     {

@@ -62,7 +62,7 @@ template <class T, class A> struct pack_operations<xsimd::batch<T, A>> {
 
     // Of floats on NEON, xsimd finds quotients and roots by Newton's method.
     static constexpr bool native = !(std::is_base_of_v<xsimd::neon, A> && std::is_same_v<T, float>);
-#if (defined(XSIMD_WITH_SVE) && XSIMD_WITH_SVE) || (defined(XSIMD_WITH_VSX) && XSIMD_WITH_VSX)
+#if defined(XSIMD_WITH_SVE) && XSIMD_WITH_SVE
     static constexpr bool fused = is_fused<T>;
 #else
     static constexpr bool fused = is_fused<T> && requires(registers r) { register_fma(r, r, r); };

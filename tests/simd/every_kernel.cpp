@@ -1,12 +1,12 @@
 // Every kernel on another target. The host writes rows of inputs with the results of its scalars; the target runs the
 // same rows, and its scalars and packs must have the same bits.
 //
-//     target write FILE    on the host
-//     target read FILE     on the target; exit status 1 and a line for each kernel and Real that differs
+//     every_kernel write FILE    on the host
+//     every_kernel read FILE     on the target; exit status 1 and a line for each kernel and Real that differs
 //
 // Both must make exact products in one way, by fused multiply-add or by splitting: these differ where a product over- or
 // underflows.
-#include "flushed.hpp"
+#include "alike.hpp"
 #include "kernels.hpp"
 #include "support/kernel_inputs.hpp"
 
@@ -36,7 +36,7 @@ struct exchange {
         const std::size_t done = write ? std::fwrite(numbers.data(), sizeof(T), numbers.size(), file)
                                        : std::fread(numbers.data(), sizeof(T), numbers.size(), file);
         if (done == numbers.size()) return;
-        std::fprintf(stderr, "target: cannot %s all rows\n", write ? "write" : "read");
+        std::fprintf(stderr, "every_kernel: cannot %s all rows\n", write ? "write" : "read");
         std::exit(2);
     }
 };
@@ -102,11 +102,13 @@ template <class T> void exchange_kernels(exchange& x)
 int main(int argc, char** argv)
 {
     const std::string word = argc == 3 ? argv[1] : "";
-    if (word != "write" && word != "read") return std::fprintf(stderr, "usage: target write|read FILE\n"), 2;
+    if (word != "write" && word != "read") return std::fprintf(stderr, "usage: every_kernel write|read FILE\n"), 2;
     exchange x{std::fopen(argv[2], word == "write" ? "wb" : "rb"), word == "write"};
     if (!x.file) return std::perror(argv[2]), 2;
     exchange_kernels<float>(x);
+#if !defined(GNOMON_TEST_FLOAT)
     exchange_kernels<double>(x);
+#endif
     if (std::fclose(x.file) != 0) return std::perror(argv[2]), 2;
     if (!x.write) std::printf("%d of %d kernels and Reals differ from the host\n", x.wrong, x.compared);
     return x.wrong > 0;
