@@ -195,10 +195,10 @@ template <class T> struct pack_operations {};
 /// library is one.
 template <class T> constexpr bool is_native_real()
 {
+    constexpr bool is_of_xsimd = requires { typename T::arch_type; };
+    constexpr bool is_of_std = requires { typename T::abi_type; };
     if constexpr (requires { pack_operations<T>::native; }) return pack_operations<T>::native;
-    else if constexpr (requires { typename T::arch_type; }) return false;
-    else if constexpr (requires { typename T::abi_type; }) return false;
-    else return true;
+    else return !is_of_xsimd && !is_of_std;
 }
 template <class T> inline constexpr bool is_native = is_native_real<T>();
 
