@@ -21,6 +21,7 @@
 //   gnomon_select                    choice by a mask
 //   gnomon_any                       true if any lane of a mask is set
 //   gnomon_min, gnomon_max           a < b ? a : b and a > b ? a : b in this order: the second operand if one is NaN
+//   gnomon_saturate                  x clamped to [0, 1]; 0 if it is NaN
 //   gnomon_abs, gnomon_sqrt          exact and correctly rounded
 //   gnomon_product                   the rounded product, never contracted into a later sum
 //   gnomon_sum, gnomon_difference    the rounded sum and difference, never fused, cancelled against a later sum, as

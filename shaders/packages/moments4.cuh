@@ -285,6 +285,11 @@ template <class T> GNOMON_INLINE constexpr T gnomon_max(T a, T b)
     else return gnomon_select(b < a, a, b);
 }
 
+template <class T> GNOMON_INLINE constexpr T gnomon_saturate(T x)
+{
+    return gnomon_min(T(lane_t<T>(1)), gnomon_max(x, T(lane_t<T>(0))));
+}
+
 template <class T> GNOMON_INLINE constexpr T gnomon_abs(T a)
 {
     using std::abs;
@@ -447,7 +452,7 @@ GNOMON_INLINE constexpr Real clamp_or_high(Real x, std::type_identity_t<Real> lo
 /// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
 /// NaN: 0, lit.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real saturate_or_zero(Real x) { return gnomon_min(Real(1), gnomon_max(x, Real(0))); }
+GNOMON_INLINE constexpr Real saturate_or_zero(Real x) { return gnomon_saturate(x); }
 
 GNOMON_WARNINGS_ON } // namespace gnomon
 
@@ -898,7 +903,8 @@ GNOMON_INLINE constexpr Real dekker_product_error(Real a, Real b, Real p)
     Real bh = gnomon_high_part(b);
     Real al = gnomon_difference(a, ah);
     Real bl = gnomon_difference(b, bh);
-    return gnomon_sum(gnomon_sum(gnomon_difference(ah * bh, p), al * bh), ah * bl) + al * bl;
+    Real e = gnomon_difference(ah * bh, p);
+    return gnomon_sum(gnomon_sum(gnomon_sum(e, al * bh), ah * bl), al * bl);
 }
 
 /// a b exactly, as the rounded product and its error. Fused multiply-add and splitting give the same bits.
@@ -928,7 +934,7 @@ GNOMON_INLINE constexpr double_word<Real> two_difference(Real a, Real b)
     r.high = gnomon_difference(a, b);
     Real bv = gnomon_difference(r.high, a);
     Real av = gnomon_difference(r.high, bv);
-    r.low = gnomon_difference(a, av) - gnomon_sum(b, bv);
+    r.low = gnomon_difference(gnomon_difference(a, av), gnomon_sum(b, bv));
     return r;
 }
 
@@ -940,7 +946,7 @@ GNOMON_INLINE constexpr double_word<Real> two_difference_ordered(Real a, Real b)
 {
     double_word<Real> r;
     r.high = gnomon_difference(a, b);
-    r.low = gnomon_difference(a, r.high) - b;
+    r.low = gnomon_difference(gnomon_difference(a, r.high), b);
     return r;
 }
 
@@ -952,7 +958,7 @@ GNOMON_INLINE constexpr double_word<Real> subtract_product(Real c, Real a, Real 
 {
     double_word p = two_product(a, b);
     double_word r = two_difference(c, p.high);
-    r.low = r.low - p.low;
+    r.low = gnomon_difference(r.low, p.low);
     return r;
 }
 
@@ -964,7 +970,7 @@ GNOMON_INLINE constexpr double_word<Real> subtract_product_ordered(Real c, Real 
 {
     double_word p = two_product(a, b);
     double_word r = two_difference_ordered(c, p.high);
-    r.low = r.low - p.low;
+    r.low = gnomon_difference(r.low, p.low);
     return r;
 }
 

@@ -23,6 +23,11 @@ fn gnomon_max(a: f32, b: f32) -> f32 { return select(gnomon_apart(b), a, a > b);
 fn gnomon_product(a: f32, b: f32) -> f32 { return gnomon_kept(a * b); }
 fn gnomon_sum(a: f32, b: f32) -> f32 { return gnomon_kept(a + b); }
 fn gnomon_difference(a: f32, b: f32) -> f32 { return gnomon_kept(a - b); }
+// By integers, so that a NaN becomes 0 where a compiler assumes that there is none.
+fn gnomon_saturate(x: f32) -> f32 {
+    let bits = bitcast<i32>(x);
+    return gnomon_select(bits > 0x7f800000, 0.0, bitcast<f32>(min(max(bits, 0), 0x3f800000)));
+}
 // a without the low half of its significand.
 fn gnomon_high_part(a: f32) -> f32 { return bitcast<f32>(bitcast<u32>(a) & 0xfffff000u); }
 // The sum has n in its low bits, and the shift moves n into the exponent.
@@ -53,7 +58,7 @@ fn clamp_or_high(x: f32, low: f32, high: f32) -> f32 { return gnomon_max(low, gn
 
 /// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
 /// NaN: 0, lit.
-fn saturate_or_zero(x: f32) -> f32 { return gnomon_min(1.0, gnomon_max(x, 0.0)); }
+fn saturate_or_zero(x: f32) -> f32 { return gnomon_saturate(x); }
 
 // moments/depth.h -----------------------------------------------------------------------------------------------------
 // Signed depth from what depth buffers hold. Signed depth is -1 at the near plane, +1 at the far plane, and linear in
@@ -417,7 +422,8 @@ fn gnomon_dekker_product_error(a: f32, b: f32, p: f32) -> f32
     let bh = gnomon_high_part(b);
     let al = gnomon_difference(a, ah);
     let bl = gnomon_difference(b, bh);
-    return gnomon_sum(gnomon_sum(gnomon_difference(ah * bh, p), al * bh), ah * bl) + al * bl;
+    let e = gnomon_difference(ah * bh, p);
+    return gnomon_sum(gnomon_sum(gnomon_sum(e, al * bh), ah * bl), al * bl);
 }
 
 /// a b exactly, as the rounded product and its error. Fused multiply-add and splitting give the same bits.
@@ -441,7 +447,7 @@ fn two_difference(a: f32, b: f32) -> gnomon_double_word
     r.high = gnomon_difference(a, b);
     let bv = gnomon_difference(r.high, a);
     let av = gnomon_difference(r.high, bv);
-    r.low = gnomon_difference(a, av) - gnomon_sum(b, bv);
+    r.low = gnomon_difference(gnomon_difference(a, av), gnomon_sum(b, bv));
     return r;
 }
 
@@ -452,7 +458,7 @@ fn two_difference_ordered(a: f32, b: f32) -> gnomon_double_word
 {
     var r: gnomon_double_word;
     r.high = gnomon_difference(a, b);
-    r.low = gnomon_difference(a, r.high) - b;
+    r.low = gnomon_difference(gnomon_difference(a, r.high), b);
     return r;
 }
 
@@ -463,7 +469,7 @@ fn subtract_product(c: f32, a: f32, b: f32) -> gnomon_double_word
 {
     let p = two_product(a, b);
     var r = two_difference(c, p.high);
-    r.low = r.low - p.low;
+    r.low = gnomon_difference(r.low, p.low);
     return r;
 }
 
@@ -474,7 +480,7 @@ fn subtract_product_ordered(c: f32, a: f32, b: f32) -> gnomon_double_word
 {
     let p = two_product(a, b);
     var r = two_difference_ordered(c, p.high);
-    r.low = r.low - p.low;
+    r.low = gnomon_difference(r.low, p.low);
     return r;
 }
 

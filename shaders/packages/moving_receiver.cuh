@@ -285,6 +285,11 @@ template <class T> GNOMON_INLINE constexpr T gnomon_max(T a, T b)
     else return gnomon_select(b < a, a, b);
 }
 
+template <class T> GNOMON_INLINE constexpr T gnomon_saturate(T x)
+{
+    return gnomon_min(T(lane_t<T>(1)), gnomon_max(x, T(lane_t<T>(0))));
+}
+
 template <class T> GNOMON_INLINE constexpr T gnomon_abs(T a)
 {
     using std::abs;
@@ -410,7 +415,7 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real n
     if (std::numeric_limits<lane_t<Real>>::digits > 24) {
         rounder = Real(-6755399441055744.0);
     }
-    return gnomon_difference(x, rounder) + rounder;
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon
@@ -443,7 +448,7 @@ GNOMON_INLINE constexpr Real clamp_or_high(Real x, std::type_identity_t<Real> lo
 /// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
 /// NaN: 0, lit.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real saturate_or_zero(Real x) { return gnomon_min(Real(1), gnomon_max(x, Real(0))); }
+GNOMON_INLINE constexpr Real saturate_or_zero(Real x) { return gnomon_saturate(x); }
 
 GNOMON_WARNINGS_ON } // namespace gnomon
 

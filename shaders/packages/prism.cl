@@ -45,6 +45,12 @@ static inline float gnomon_product(float a, float b) { return gnomon_kept(a * b)
 static inline float gnomon_sum(float a, float b) { return gnomon_kept(a + b); }
 static inline float gnomon_difference(float a, float b) { return gnomon_kept(a - b); }
 static inline float gnomon_fma(float a, float b, float c) { return gnomon_kept(fma(a, b, c)); }
+// By integers, so that a NaN becomes 0 where a compiler assumes that there is none.
+static inline float gnomon_saturate(float x)
+{
+    int bits = as_int(x);
+    return gnomon_select(bits > 0x7F800000, 0.0f, as_float(min(max(bits, 0), 0x3F800000)));
+}
 // a without the low half of its significand.
 static inline float gnomon_high_part(float a) { return as_float(as_uint(a) & 0xFFFFF000u); }
 // The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
@@ -67,7 +73,7 @@ static inline float clamp_or_high(float x, float low, float high) { return gnomo
 
 /// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
 /// NaN: 0, lit.
-static inline float saturate_or_zero(float x) { return gnomon_min(1.0f, gnomon_max(x, 0.0f)); }
+static inline float saturate_or_zero(float x) { return gnomon_saturate(x); }
 
 #endif
 

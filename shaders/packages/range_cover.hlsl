@@ -37,6 +37,12 @@ float gnomon_max(float a, float b) { return gnomon_select(b < a, a, gnomon_apart
 float gnomon_product(float a, float b) { return gnomon_kept(a * b); }
 float gnomon_sum(float a, float b) { return gnomon_kept(a + b); }
 float gnomon_difference(float a, float b) { return gnomon_kept(a - b); }
+// By integers, so that a NaN becomes 0 where a compiler assumes that there is none.
+float gnomon_saturate(float x)
+{
+    int bits = asint(x);
+    return gnomon_select(bits > 0x7F800000, 0.0, asfloat(min(max(bits, 0), 0x3F800000)));
+}
 // a without the low half of its significand.
 float gnomon_high_part(float a) { return asfloat(asuint(a) & 0xFFFFF000u); }
 // The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
@@ -59,7 +65,7 @@ float clamp_or_high(float x, float low, float high) { return gnomon_max(low, gno
 
 /// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
 /// NaN: 0, lit.
-float saturate_or_zero(float x) { return gnomon_min(1.0, gnomon_max(x, 0.0)); }
+float saturate_or_zero(float x) { return gnomon_saturate(x); }
 
 #endif
 

@@ -23,6 +23,11 @@ fn gnomon_max(a: f32, b: f32) -> f32 { return select(gnomon_apart(b), a, a > b);
 fn gnomon_product(a: f32, b: f32) -> f32 { return gnomon_kept(a * b); }
 fn gnomon_sum(a: f32, b: f32) -> f32 { return gnomon_kept(a + b); }
 fn gnomon_difference(a: f32, b: f32) -> f32 { return gnomon_kept(a - b); }
+// By integers, so that a NaN becomes 0 where a compiler assumes that there is none.
+fn gnomon_saturate(x: f32) -> f32 {
+    let bits = bitcast<i32>(x);
+    return gnomon_select(bits > 0x7f800000, 0.0, bitcast<f32>(min(max(bits, 0), 0x3f800000)));
+}
 // a without the low half of its significand.
 fn gnomon_high_part(a: f32) -> f32 { return bitcast<f32>(bitcast<u32>(a) & 0xfffff000u); }
 // The sum has n in its low bits, and the shift moves n into the exponent.
@@ -41,7 +46,7 @@ fn clamp_or_high(x: f32, low: f32, high: f32) -> f32 { return gnomon_max(low, gn
 
 /// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
 /// NaN: 0, lit.
-fn saturate_or_zero(x: f32) -> f32 { return gnomon_min(1.0, gnomon_max(x, 0.0)); }
+fn saturate_or_zero(x: f32) -> f32 { return gnomon_saturate(x); }
 
 // motion/range/range.h ------------------------------------------------------------------------------------------------
 // Depth-time ranges. From time t0 to time t1 of the shutter interval [0, 1] a surface covers a texel of the shadow map,

@@ -41,6 +41,12 @@ inline float gnomon_product(float a, float b) { return gnomon_kept(a * b); }
 inline float gnomon_sum(float a, float b) { return gnomon_kept(a + b); }
 inline float gnomon_difference(float a, float b) { return gnomon_kept(a - b); }
 inline float gnomon_fma(float a, float b, float c) { return gnomon_kept(metal::fma(a, b, c)); }
+// By integers, so that a NaN becomes 0 where a compiler assumes that there is none.
+inline float gnomon_saturate(float x)
+{
+    int bits = as_type<int>(x);
+    return gnomon_select(bits > 0x7F800000, 0.0f, as_type<float>(metal::min(metal::max(bits, 0), 0x3F800000)));
+}
 // a without the low half of its significand.
 inline float gnomon_high_part(float a) { return as_type<float>(as_type<uint>(a) & 0xFFFFF000u); }
 // The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
@@ -64,7 +70,7 @@ namespace gnomon {
 inline float nearest_integer(float x)
 {
     float rounder = -12582912.0f;
-    return gnomon_difference(x, rounder) + rounder;
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
 }
 
 } // namespace gnomon
@@ -88,7 +94,7 @@ inline float clamp_or_high(float x, float low, float high) { return gnomon_max(l
 
 /// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
 /// NaN: 0, lit.
-inline float saturate_or_zero(float x) { return gnomon_min(1.0f, gnomon_max(x, 0.0f)); }
+inline float saturate_or_zero(float x) { return gnomon_saturate(x); }
 
 } // namespace gnomon
 

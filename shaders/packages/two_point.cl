@@ -45,6 +45,12 @@ static inline float gnomon_product(float a, float b) { return gnomon_kept(a * b)
 static inline float gnomon_sum(float a, float b) { return gnomon_kept(a + b); }
 static inline float gnomon_difference(float a, float b) { return gnomon_kept(a - b); }
 static inline float gnomon_fma(float a, float b, float c) { return gnomon_kept(fma(a, b, c)); }
+// By integers, so that a NaN becomes 0 where a compiler assumes that there is none.
+static inline float gnomon_saturate(float x)
+{
+    int bits = as_int(x);
+    return gnomon_select(bits > 0x7F800000, 0.0f, as_float(min(max(bits, 0), 0x3F800000)));
+}
 // a without the low half of its significand.
 static inline float gnomon_high_part(float a) { return as_float(as_uint(a) & 0xFFFFF000u); }
 // The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
@@ -67,7 +73,7 @@ static inline float clamp_or_high(float x, float low, float high) { return gnomo
 
 /// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
 /// NaN: 0, lit.
-static inline float saturate_or_zero(float x) { return gnomon_min(1.0f, gnomon_max(x, 0.0f)); }
+static inline float saturate_or_zero(float x) { return gnomon_saturate(x); }
 
 #endif
 
@@ -93,7 +99,8 @@ static inline float gnomon_dekker_product_error(float a, float b, float p)
     float bh = gnomon_high_part(b);
     float al = gnomon_difference(a, ah);
     float bl = gnomon_difference(b, bh);
-    return gnomon_sum(gnomon_sum(gnomon_difference(ah * bh, p), al * bh), ah * bl) + al * bl;
+    float e = gnomon_difference(ah * bh, p);
+    return gnomon_sum(gnomon_sum(gnomon_sum(e, al * bh), ah * bl), al * bl);
 }
 
 /// a b exactly, as the rounded product and its error. Fused multiply-add and splitting give the same bits.
@@ -117,7 +124,7 @@ static inline gnomon_double_word two_difference(float a, float b)
     r.high = gnomon_difference(a, b);
     float bv = gnomon_difference(r.high, a);
     float av = gnomon_difference(r.high, bv);
-    r.low = gnomon_difference(a, av) - gnomon_sum(b, bv);
+    r.low = gnomon_difference(gnomon_difference(a, av), gnomon_sum(b, bv));
     return r;
 }
 
@@ -128,7 +135,7 @@ static inline gnomon_double_word two_difference_ordered(float a, float b)
 {
     gnomon_double_word r;
     r.high = gnomon_difference(a, b);
-    r.low = gnomon_difference(a, r.high) - b;
+    r.low = gnomon_difference(gnomon_difference(a, r.high), b);
     return r;
 }
 
@@ -139,7 +146,7 @@ static inline gnomon_double_word subtract_product(float c, float a, float b)
 {
     gnomon_double_word p = two_product(a, b);
     gnomon_double_word r = two_difference(c, p.high);
-    r.low = r.low - p.low;
+    r.low = gnomon_difference(r.low, p.low);
     return r;
 }
 
@@ -150,7 +157,7 @@ static inline gnomon_double_word subtract_product_ordered(float c, float a, floa
 {
     gnomon_double_word p = two_product(a, b);
     gnomon_double_word r = two_difference_ordered(c, p.high);
-    r.low = r.low - p.low;
+    r.low = gnomon_difference(r.low, p.low);
     return r;
 }
 

@@ -14,7 +14,7 @@ GNOMON_KERNEL Real nearest_integer(Real x)
     if (GNOMON_DIGITS > 24) {
         rounder = Real(-6755399441055744.0);
     }
-    return gnomon_difference(x, rounder) + rounder;
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
 }
 
 GNOMON_NAMESPACE_END

@@ -20,7 +20,7 @@ GNOMON_KERNEL Real clamp_or_high(Real x, GNOMON_SETTING low, GNOMON_SETTING high
 
 /// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
 /// NaN: 0, lit.
-GNOMON_KERNEL Real saturate_or_zero(Real x) { return gnomon_min(Real(1), gnomon_max(x, Real(0))); }
+GNOMON_KERNEL Real saturate_or_zero(Real x) { return gnomon_saturate(x); }
 
 GNOMON_NAMESPACE_END
 #endif

@@ -20,7 +20,8 @@ GNOMON_DETAIL_KERNEL Real dekker_product_error(Real a, Real b, Real p)
     Real bh = gnomon_high_part(b);
     Real al = gnomon_difference(a, ah);
     Real bl = gnomon_difference(b, bh);
-    return gnomon_sum(gnomon_sum(gnomon_difference(ah * bh, p), al * bh), ah * bl) + al * bl;
+    Real e = gnomon_difference(ah * bh, p);
+    return gnomon_sum(gnomon_sum(gnomon_sum(e, al * bh), ah * bl), al * bl);
 }
 
 /// a b exactly, as the rounded product and its error. Fused multiply-add and splitting give the same bits.
@@ -49,7 +50,7 @@ GNOMON_KERNEL GNOMON_T(double_word) two_difference(Real a, Real b)
     r.high = gnomon_difference(a, b);
     Real bv = gnomon_difference(r.high, a);
     Real av = gnomon_difference(r.high, bv);
-    r.low = gnomon_difference(a, av) - gnomon_sum(b, bv);
+    r.low = gnomon_difference(gnomon_difference(a, av), gnomon_sum(b, bv));
     return r;
 }
 
@@ -60,7 +61,7 @@ GNOMON_KERNEL GNOMON_T(double_word) two_difference_ordered(Real a, Real b)
 {
     GNOMON_T(double_word) r;
     r.high = gnomon_difference(a, b);
-    r.low = gnomon_difference(a, r.high) - b;
+    r.low = gnomon_difference(gnomon_difference(a, r.high), b);
     return r;
 }
 
@@ -71,7 +72,7 @@ GNOMON_KERNEL GNOMON_T(double_word) subtract_product(Real c, Real a, Real b)
 {
     double_word p = two_product(a, b);
     double_word r = two_difference(c, p.high);
-    r.low = r.low - p.low;
+    r.low = gnomon_difference(r.low, p.low);
     return r;
 }
 
@@ -82,7 +83,7 @@ GNOMON_KERNEL GNOMON_T(double_word) subtract_product_ordered(Real c, Real a, Rea
 {
     double_word p = two_product(a, b);
     double_word r = two_difference_ordered(c, p.high);
-    r.low = r.low - p.low;
+    r.low = gnomon_difference(r.low, p.low);
     return r;
 }
 

@@ -191,6 +191,11 @@ template <class T> GNOMON_INLINE constexpr T gnomon_max(T a, T b)
     else return gnomon_select(b < a, a, b);
 }
 
+template <class T> GNOMON_INLINE constexpr T gnomon_saturate(T x)
+{
+    return gnomon_min(T(lane_t<T>(1)), gnomon_max(x, T(lane_t<T>(0))));
+}
+
 template <class T> GNOMON_INLINE constexpr T gnomon_abs(T a)
 {
     using std::abs;

@@ -23,6 +23,12 @@ precision highp int;
 Real gnomon_kept(Real x) { return intBitsToFloat(min(floatBitsToInt(x), 0x7FC00000)); }
 Real gnomon_apart(Real x) { return uintBitsToFloat(min(floatBitsToUint(x), 0xFFC00000u)); }
 #include "kept.h"
+// By integers, so that a NaN becomes 0 where a compiler assumes that there is none.
+Real gnomon_saturate(Real x)
+{
+    int bits = floatBitsToInt(x);
+    return gnomon_select(bits > 0x7F800000, Real(0), intBitsToFloat(min(max(bits, 0), 0x3F800000)));
+}
 // a without the low half of its significand.
 Real gnomon_high_part(Real a) { return uintBitsToFloat(floatBitsToUint(a) & 0xFFFFF000u); }
 // The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.

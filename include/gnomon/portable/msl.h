@@ -29,6 +29,12 @@ inline Real gnomon_kept(Real x) { return as_type<Real>(metal::min(as_type<int>(x
 inline Real gnomon_apart(Real x) { return as_type<Real>(metal::min(as_type<uint>(x), 0xFFC00000u)); }
 #include "kept.h"
 inline Real gnomon_fma(Real a, Real b, Real c) { return gnomon_kept(metal::fma(a, b, c)); }
+// By integers, so that a NaN becomes 0 where a compiler assumes that there is none.
+inline Real gnomon_saturate(Real x)
+{
+    int bits = as_type<int>(x);
+    return gnomon_select(bits > 0x7F800000, Real(0), as_type<Real>(metal::min(metal::max(bits, 0), 0x3F800000)));
+}
 // a without the low half of its significand.
 inline Real gnomon_high_part(Real a) { return as_type<Real>(as_type<uint>(a) & 0xFFFFF000u); }
 // The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.

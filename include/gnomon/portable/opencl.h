@@ -38,6 +38,12 @@ static inline Real gnomon_kept(Real x) { return as_float(min(as_int(x), 0x7FC000
 static inline Real gnomon_apart(Real x) { return as_float(min(as_uint(x), 0xFFC00000u)); }
 #include "kept.h"
 static inline Real gnomon_fma(Real a, Real b, Real c) { return gnomon_kept(fma(a, b, c)); }
+// By integers, so that a NaN becomes 0 where a compiler assumes that there is none.
+static inline Real gnomon_saturate(Real x)
+{
+    int bits = as_int(x);
+    return gnomon_select(bits > 0x7F800000, Real(0), as_float(min(max(bits, 0), 0x3F800000)));
+}
 // a without the low half of its significand.
 static inline Real gnomon_high_part(Real a) { return as_float(as_uint(a) & 0xFFFFF000u); }
 // The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
