@@ -12,6 +12,9 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+#include <bit>
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <type_traits>
@@ -96,6 +99,41 @@ TEST_CASE_TEMPLATE("a lit surface is never darkened", Format, moments4_unorm16, 
                    Format::bias_weight + stored4_arithmetic_weight);
     report<Format>("constant bias, two filter passes", darkest_filtered<Format>(evaluations, constant_passes),
                    Format::filtered_bias_weight + stored4_arithmetic_weight);
+}
+
+namespace {
+
+/// Half floats on a device that stores what is next towards zero, as Direct3D demands.
+struct truncated_half : moments4_half {
+    static texel encode(const channels4<float>& c)
+    {
+        const auto numbers = std::bit_cast<std::array<float, 4>>(c);
+        texel t = moments4_half::encode(c);
+        for (std::size_t k = 0; k < 4; ++k)
+            if (std::abs(half_decode(t[k])) > std::abs(numbers[k])) --t[k];
+        return t;
+    }
+};
+
+} // namespace
+
+TEST_CASE("half floats that are truncated darken no lit surface")
+{
+    using format = truncated_half;
+    CHECK(half_decode(format::encode({0.3f, 0, 0, 0})[0]) < 0.3f);
+    CHECK(half_decode(format::encode({-0.3f, 0, 0, 0})[0]) > -0.3f);
+    report<format>("truncated, texture unit",
+                   darkest_mixed<format>(evaluations, [](channels c, float z_f) { return format::intensity(c, z_f); }),
+                   format::darkening);
+    report<format>(
+        "truncated, two filter passes",
+        darkest_filtered<format>(evaluations, [](channels c, float z_f) { return format::filtered_intensity(c, z_f); }),
+        format::filtered_darkening);
+    report<format>(
+        "truncated, constant bias, two filter passes",
+        darkest_filtered<format>(
+            evaluations, [](channels c, float z_f) { return hamburger4_lower(format::filtered_factor(c), z_f); }),
+        format::filtered_bias_weight + stored4_arithmetic_weight);
 }
 
 // A certificate with nodes that noise has misplaced proves little and would be a lit speck in a shadow. The constant

@@ -3,11 +3,11 @@
 // the CPU's, no lit receiver is darkened, and no covered one is lit.
 //
 // usage: integer_map FOLDER    of example0.frag, which writes, and example1.frag, which reads
+#include "gl_context.hpp"
+
 #include <gnomon/passes/look_up.hpp>
 #include <gnomon/storage/moments4.hpp>
 
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
 #include <GLES3/gl3.h>
 
 #include <algorithm>
@@ -40,17 +40,6 @@ bool covered(int x, int y) { return left <= x && x < left + width && bottom <= y
 
 /// The position of the centre of texel i of `count` in [-1, 1].
 float centre(int i, int count) { return (float(i) + 0.5f) / float(count) * 2 - 1; }
-
-bool start()
-{
-    setenv("LIBGL_ALWAYS_SOFTWARE", "true", 1);
-    const EGLDisplay display = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return false;
-    eglBindAPI(EGL_OPENGL_ES_API);
-    const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0, EGL_NONE};
-    const EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, version);
-    return context != EGL_NO_CONTEXT && eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context);
-}
 
 constexpr const char* vertices = R"(#version 300 es
 uniform highp vec3 plane;
@@ -197,13 +186,13 @@ int run(const std::string& folder)
 int main(int argc, char** argv)
 {
     if (argc != 2) return 2;
-    if (!start()) {
-        std::puts("skipped: no OpenGL ES 3.0 without surfaces (libegl-mesa0, libgl1-mesa-dri)");
+    try {
+        const gnomon::parity::gl_context current(gnomon::parity::gl_api::es, 3, 0);
+        return run(argv[1]);
+    } catch (const gnomon::parity::unavailable& e) {
+        std::printf("skipped: %s\n", e.what());
         const char* ci = std::getenv("CI");
         return ci != nullptr && std::string(ci) == "true" ? 1 : 77;
-    }
-    try {
-        return run(argv[1]);
     } catch (const std::exception& e) {
         std::puts(e.what());
         return 1;
