@@ -6180,8 +6180,8 @@ float layered_variance_unorm16_intensity(channels8 c, float z_f)
 // Filters are linear: average channels as they are. X_intensity and hankel4_from_X allow for one rounding: of channels
 // that are stored once and filtered without further rounding, as 16-bit texels by a texture unit that returns floats.
 // Texels of floats round again there and need X_filtered. X_filtered_intensity and hankel4_from_X_filtered allow for a
-// pass along rows and one along columns, of nine taps at most, that store their results in the format again.
-// Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at most
+// pass along rows and one along columns, of nine taps at most, that store their results in the format again, half
+// floats truncated or rounded. Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at most
 //   X_intensity         gnomon_stored4_arithmetic_weight, the error of float arithmetic
 //   hankel4_from_X      the weight of the constant bias, roundings * delta / r (bias.h), and that of arithmetic
 // Tests search for the largest excess by hill climbing (tests/moments/honest_four.cpp). Certificates (certified4.h)
@@ -6212,11 +6212,23 @@ channels4 gnomon_channels4_shifted(channels4 c, float shift)
     return c;
 }
 
-/// The four channels of a 4 x half texel of a depth z, each in [-1/2, 1/2], where half floats are off by 2^-13 at most.
+/// The multiple of 2^-12 that is nearest to x. In [-1/2, 1/2] half floats hold every multiple.
+float gnomon_half_nearest(float x) { return 0.000244140625 * nearest_integer(4096.0 * x); }
+
+/// The four channels of a 4 x half texel of a depth z, each in [-1/2, 1/2]. They are half floats already, since devices
+/// may truncate what they store.
 /// Domain: any z, limited to [-1, 1].
 /// NaN: the far plane, which shadows nothing.
 /// Source: Peters 2017, Eq. 3
-channels4 moments4_half_encode(float z) { return gnomon_channels4_shifted(moments4_unorm16_encode(z), -0.5); }
+channels4 moments4_half_encode(float z)
+{
+    channels4 c = gnomon_channels4_shifted(moments4_unorm16_encode(z), -0.5);
+    c.c1 = gnomon_half_nearest(c.c1);
+    c.c2 = gnomon_half_nearest(c.c2);
+    c.c3 = gnomon_half_nearest(c.c3);
+    c.c4 = gnomon_half_nearest(c.c4);
+    return c;
+}
 
 /// The four channels of a 4 x float texel of a depth z.
 /// Domain: any z, limited to [-1, 1].
@@ -6229,7 +6241,7 @@ channels4 moments4_float_encode(float z)
 const float gnomon_stored4_unorm16_weight = 3.6e-5;
 const float gnomon_stored4_unorm16_filtered_weight = 1.1e-4;
 const float gnomon_stored4_half_weight = 5.7e-4;
-const float gnomon_stored4_half_filtered_weight = 1.71e-3;
+const float gnomon_stored4_half_filtered_weight = 2.85e-3;
 const float gnomon_stored4_float_weight = 3e-7;
 const float gnomon_stored4_float_filtered_weight = 2e-6;
 const float gnomon_stored4_arithmetic_weight = 1e-6;
@@ -6283,10 +6295,10 @@ const float certified4_unorm16_noise = 8e-6; // half a code, and the error of th
 const float certified4_unorm16_filtered_noise = 2.4e-5;
 const float certified4_unorm16_weight = 3.6e-5;
 const float certified4_unorm16_filtered_weight = 9e-5;
-const float certified4_half_noise = 1.225e-4; // 2^-13, and the error of theta4 in float
-const float certified4_half_filtered_noise = 3.675e-4;
+const float certified4_half_noise = 1.225e-4;         // 2^-13, and the error of theta4 in float
+const float certified4_half_filtered_noise = 6.12e-4; // passes may truncate: 2^-12 each
 const float certified4_half_weight = 6e-4;
-const float certified4_half_filtered_weight = 1.4e-3;
+const float certified4_half_filtered_weight = 2.3e-3;
 const float certified4_float_noise = 3.3e-8;                        // 1.1 times 2^-25
 const float certified4_float_filtered_noise = 2.384185791015625e-7; // 8 times: sums of nine taps round, too
 const float certified4_float_weight = 3e-7;

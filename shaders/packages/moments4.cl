@@ -868,6 +868,23 @@ static inline moments4 moments4_rounding_filtered(moments4 b, float delta)
 
 #endif
 
+// numerics/round.h ----------------------------------------------------------------------------------------------------
+// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
+// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
+#ifndef GNOMON_NUMERICS_ROUND_H
+#define GNOMON_NUMERICS_ROUND_H
+
+/// The whole number nearest to x, ties to even.
+/// Domain: |x| <= 2^22 in float, 2^51 in double.
+/// NaN: stays NaN.
+static inline float nearest_integer(float x)
+{
+    float rounder = -12582912.0f;
+    return gnomon_difference(x, rounder) + rounder;
+}
+
+#endif
+
 // storage/moments4.h --------------------------------------------------------------------------------------------------
 // Four moments in a storage format: from a depth to the channels of a texel, and from filtered channels to a shadow.
 // Each format undoes its own transform and allows for what its storage rounds, so that nobody pairs the wrong ones.
@@ -880,8 +897,8 @@ static inline moments4 moments4_rounding_filtered(moments4 b, float delta)
 // Filters are linear: average channels as they are. X_intensity and hankel4_from_X allow for one rounding: of channels
 // that are stored once and filtered without further rounding, as 16-bit texels by a texture unit that returns floats.
 // Texels of floats round again there and need X_filtered. X_filtered_intensity and hankel4_from_X_filtered allow for a
-// pass along rows and one along columns, of nine taps at most, that store their results in the format again.
-// Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at most
+// pass along rows and one along columns, of nine taps at most, that store their results in the format again, half
+// floats truncated or rounded. Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at most
 //   X_intensity         gnomon_stored4_arithmetic_weight, the error of float arithmetic
 //   hankel4_from_X      the weight of the constant bias, roundings * delta / r (bias.h), and that of arithmetic
 // Tests search for the largest excess by hill climbing (tests/moments/honest_four.cpp). Certificates (certified4.h)
@@ -915,13 +932,22 @@ static inline channels4 gnomon_channels4_shifted(channels4 c, float shift)
     return c;
 }
 
-/// The four channels of a 4 x half texel of a depth z, each in [-1/2, 1/2], where half floats are off by 2^-13 at most.
+/// The multiple of 2^-12 that is nearest to x. In [-1/2, 1/2] half floats hold every multiple.
+static inline float gnomon_half_nearest(float x) { return 0.000244140625f * nearest_integer(4096.0f * x); }
+
+/// The four channels of a 4 x half texel of a depth z, each in [-1/2, 1/2]. They are half floats already, since devices
+/// may truncate what they store.
 /// Domain: any z, limited to [-1, 1].
 /// NaN: the far plane, which shadows nothing.
 /// Source: Peters 2017, Eq. 3
 static inline channels4 moments4_half_encode(float z)
 {
-    return gnomon_channels4_shifted(moments4_unorm16_encode(z), -0.5f);
+    channels4 c = gnomon_channels4_shifted(moments4_unorm16_encode(z), -0.5f);
+    c.c1 = gnomon_half_nearest(c.c1);
+    c.c2 = gnomon_half_nearest(c.c2);
+    c.c3 = gnomon_half_nearest(c.c3);
+    c.c4 = gnomon_half_nearest(c.c4);
+    return c;
 }
 
 /// The four channels of a 4 x float texel of a depth z.
@@ -935,7 +961,7 @@ static inline channels4 moments4_float_encode(float z)
 __constant float gnomon_stored4_unorm16_weight = 3.6e-5f;
 __constant float gnomon_stored4_unorm16_filtered_weight = 1.1e-4f;
 __constant float gnomon_stored4_half_weight = 5.7e-4f;
-__constant float gnomon_stored4_half_filtered_weight = 1.71e-3f;
+__constant float gnomon_stored4_half_filtered_weight = 2.85e-3f;
 __constant float gnomon_stored4_float_weight = 3e-7f;
 __constant float gnomon_stored4_float_filtered_weight = 2e-6f;
 __constant float gnomon_stored4_arithmetic_weight = 1e-6f;
@@ -995,10 +1021,10 @@ __constant float certified4_unorm16_noise = 8e-6f; // half a code, and the error
 __constant float certified4_unorm16_filtered_noise = 2.4e-5f;
 __constant float certified4_unorm16_weight = 3.6e-5f;
 __constant float certified4_unorm16_filtered_weight = 9e-5f;
-__constant float certified4_half_noise = 1.225e-4f; // 2^-13, and the error of theta4 in float
-__constant float certified4_half_filtered_noise = 3.675e-4f;
+__constant float certified4_half_noise = 1.225e-4f;         // 2^-13, and the error of theta4 in float
+__constant float certified4_half_filtered_noise = 6.12e-4f; // passes may truncate: 2^-12 each
 __constant float certified4_half_weight = 6e-4f;
-__constant float certified4_half_filtered_weight = 1.4e-3f;
+__constant float certified4_half_filtered_weight = 2.3e-3f;
 __constant float certified4_float_noise = 3.3e-8f;                        // 1.1 times 2^-25
 __constant float certified4_float_filtered_noise = 2.384185791015625e-7f; // 8 times: sums of nine taps round, too
 __constant float certified4_float_weight = 3e-7f;

@@ -783,6 +783,19 @@ fn moments4_rounding_filtered(b: moments4_, delta: f32) -> moments4_
     return e;
 }
 
+// numerics/round.h ----------------------------------------------------------------------------------------------------
+// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
+// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
+
+/// The whole number nearest to x, ties to even.
+/// Domain: |x| <= 2^22 in float, 2^51 in double.
+/// NaN: stays NaN.
+fn nearest_integer(x: f32) -> f32
+{
+    let rounder = -12582912.0;
+    return gnomon_difference(x, rounder) + rounder;
+}
+
 // storage/moments4.h --------------------------------------------------------------------------------------------------
 // Four moments in a storage format: from a depth to the channels of a texel, and from filtered channels to a shadow.
 // Each format undoes its own transform and allows for what its storage rounds, so that nobody pairs the wrong ones.
@@ -795,8 +808,8 @@ fn moments4_rounding_filtered(b: moments4_, delta: f32) -> moments4_
 // Filters are linear: average channels as they are. X_intensity and hankel4_from_X allow for one rounding: of channels
 // that are stored once and filtered without further rounding, as 16-bit texels by a texture unit that returns floats.
 // Texels of floats round again there and need X_filtered. X_filtered_intensity and hankel4_from_X_filtered allow for a
-// pass along rows and one along columns, of nine taps at most, that store their results in the format again.
-// Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at most
+// pass along rows and one along columns, of nine taps at most, that store their results in the format again, half
+// floats truncated or rounded. Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at most
 //   X_intensity         gnomon_stored4_arithmetic_weight, the error of float arithmetic
 //   hankel4_from_X      the weight of the constant bias, roundings * delta / r (bias.h), and that of arithmetic
 // Tests search for the largest excess by hill climbing (tests/moments/honest_four.cpp). Certificates (certified4.h)
@@ -826,11 +839,23 @@ fn gnomon_channels4_shifted(given_c: channels4_, shift: f32) -> channels4_
     return c;
 }
 
-/// The four channels of a 4 x half texel of a depth z, each in [-1/2, 1/2], where half floats are off by 2^-13 at most.
+/// The multiple of 2^-12 that is nearest to x. In [-1/2, 1/2] half floats hold every multiple.
+fn gnomon_half_nearest(x: f32) -> f32 { return 0.000244140625 * nearest_integer(4096.0 * x); }
+
+/// The four channels of a 4 x half texel of a depth z, each in [-1/2, 1/2]. They are half floats already, since devices
+/// may truncate what they store.
 /// Domain: any z, limited to [-1, 1].
 /// NaN: the far plane, which shadows nothing.
 /// Source: Peters 2017, Eq. 3
-fn moments4_half_encode(z: f32) -> channels4_ { return gnomon_channels4_shifted(moments4_unorm16_encode(z), -0.5); }
+fn moments4_half_encode(z: f32) -> channels4_
+{
+    var c = gnomon_channels4_shifted(moments4_unorm16_encode(z), -0.5);
+    c.c1_ = gnomon_half_nearest(c.c1_);
+    c.c2_ = gnomon_half_nearest(c.c2_);
+    c.c3_ = gnomon_half_nearest(c.c3_);
+    c.c4_ = gnomon_half_nearest(c.c4_);
+    return c;
+}
 
 /// The four channels of a 4 x float texel of a depth z.
 /// Domain: any z, limited to [-1, 1].
@@ -843,7 +868,7 @@ fn moments4_float_encode(z: f32) -> channels4_
 const gnomon_stored4_unorm16_weight: f32 = 0x1.2dfd6ap-15; // 3.6e-5
 const gnomon_stored4_unorm16_filtered_weight: f32 = 0x1.cd5f9ap-14; // 1.1e-4
 const gnomon_stored4_half_weight: f32 = 0x1.2ad81ap-11; // 5.7e-4
-const gnomon_stored4_half_filtered_weight: f32 = 0x1.c04428p-10; // 1.71e-3
+const gnomon_stored4_half_filtered_weight: f32 = 0x1.758e22p-9; // 2.85e-3
 const gnomon_stored4_float_weight: f32 = 0x1.421f6p-22; // 3e-7
 const gnomon_stored4_float_filtered_weight: f32 = 0x1.0c6f7ap-19; // 2e-6
 const gnomon_stored4_arithmetic_weight: f32 = 0x1.0c6f7ap-20; // 1e-6
@@ -900,9 +925,9 @@ const certified4_unorm16_filtered_noise: f32 = 0x1.92a738p-16; // 2.4e-5
 const certified4_unorm16_weight: f32 = 0x1.2dfd6ap-15; // 3.6e-5
 const certified4_unorm16_filtered_weight: f32 = 0x1.797cc4p-14; // 9e-5
 const certified4_half_noise: f32 = 0x1.00e6bp-13; // 1.225e-4, 2^-13, and the error of theta4_ in float
-const certified4_half_filtered_noise: f32 = 0x1.815a08p-12; // 3.675e-4
+const certified4_half_filtered_noise: f32 = 0x1.40dd4p-11; // 6.12e-4, passes may truncate: 2^-12 each
 const certified4_half_weight: f32 = 0x1.3a92a4p-11; // 6e-4
-const certified4_half_filtered_weight: f32 = 0x1.6f0068p-10; // 1.4e-3
+const certified4_half_filtered_weight: f32 = 0x1.2d7732p-9; // 2.3e-3
 const certified4_float_noise: f32 = 0x1.1b77c4p-25; // 3.3e-8, 1.1 times 2^-25
 const certified4_float_filtered_noise: f32 = 2.384185791015625e-7; // 8 times: sums of nine taps round, too
 const certified4_float_weight: f32 = 0x1.421f6p-22; // 3e-7
