@@ -880,7 +880,7 @@ static inline moments4 moments4_rounding_filtered(moments4 b, float delta)
 static inline float nearest_integer(float x)
 {
     float rounder = -12582912.0f;
-    return gnomon_difference(x, rounder) + rounder;
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
 }
 
 #endif

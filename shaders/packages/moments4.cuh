@@ -1340,7 +1340,7 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real n
     if (std::numeric_limits<lane_t<Real>>::digits > 24) {
         rounder = Real(-6755399441055744.0);
     }
-    return gnomon_difference(x, rounder) + rounder;
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon

@@ -873,7 +873,7 @@ moments4 moments4_rounding_filtered(moments4 b, float delta)
 float nearest_integer(float x)
 {
     float rounder = -12582912.0;
-    return gnomon_difference(x, rounder) + rounder;
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
 }
 
 #endif

@@ -920,7 +920,7 @@ namespace gnomon {
 inline float nearest_integer(float x)
 {
     float rounder = -12582912.0f;
-    return gnomon_difference(x, rounder) + rounder;
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
 }
 
 } // namespace gnomon

@@ -793,7 +793,7 @@ fn moments4_rounding_filtered(b: moments4_, delta: f32) -> moments4_
 fn nearest_integer(x: f32) -> f32
 {
     let rounder = -12582912.0;
-    return gnomon_difference(x, rounder) + rounder;
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
 }
 
 // storage/moments4.h --------------------------------------------------------------------------------------------------
