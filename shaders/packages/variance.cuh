@@ -269,20 +269,48 @@ template <class M> GNOMON_INLINE constexpr bool gnomon_any(M mask)
     else return any GNOMON_NO_MACRO(mask);
 }
 
+/// x, of which the optimizer knows nothing.
+template <class T> GNOMON_INLINE constexpr T opaque(T x)
+{
+#if defined(__GNUC__) && !defined(__CUDA_ARCH__)
+    if (!__builtin_is_constant_evaluated()) {
+        auto bits = __builtin_bit_cast(std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>, x);
+        __asm__("" : "+r"(bits));
+        return __builtin_bit_cast(T, bits);
+    }
+#endif
+    return x;
+}
+
+// Where clang sees that the second operand of a minimum or a maximum is no NaN, it takes an instruction of Arm or PowerPC that
+// returns the second operand for a quiet NaN, but a NaN for a signalling one. It does not see through this sum.
+template <class T> GNOMON_INLINE constexpr T second_operand(T x)
+{
+#if defined(__clang__) && (defined(__aarch64__) || defined(__powerpc__))
+    return x + opaque(T(-0.0));
+#else
+    return x;
+#endif
+}
+
 template <class T> GNOMON_INLINE constexpr T gnomon_min(T a, T b)
 {
     if constexpr (requires { pack_operations<T>::min GNOMON_NO_MACRO(a, b); })
         return pack_operations<T>::min GNOMON_NO_MACRO(a, b);
-    else if constexpr (std::is_floating_point_v<T>) return a < b ? a : b; // one instruction
-    else return gnomon_select(a < b, a, b);
+    else if constexpr (std::is_floating_point_v<T>) {
+        const T second = second_operand(b); // above, or clang would make a branch of the choice
+        return a < b ? a : second;
+    } else return gnomon_select(a < b, a, b);
 }
 
 template <class T> GNOMON_INLINE constexpr T gnomon_max(T a, T b)
 {
     if constexpr (requires { pack_operations<T>::max GNOMON_NO_MACRO(a, b); })
         return pack_operations<T>::max GNOMON_NO_MACRO(a, b);
-    else if constexpr (std::is_floating_point_v<T>) return b < a ? a : b;
-    else return gnomon_select(b < a, a, b);
+    else if constexpr (std::is_floating_point_v<T>) {
+        const T second = second_operand(b);
+        return b < a ? a : second;
+    } else return gnomon_select(b < a, a, b);
 }
 
 template <class T> GNOMON_INLINE constexpr T gnomon_saturate(T x)
@@ -348,19 +376,6 @@ template <class T> GNOMON_INLINE constexpr T gnomon_power_of_two(T n)
         }
         return power;
     }
-}
-
-/// x, of which the optimizer knows nothing.
-template <class T> GNOMON_INLINE constexpr T opaque(T x)
-{
-#if defined(__GNUC__) && !defined(__CUDA_ARCH__)
-    if (!__builtin_is_constant_evaluated()) {
-        auto bits = __builtin_bit_cast(std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>, x);
-        __asm__("" : "+r"(bits));
-        return __builtin_bit_cast(T, bits);
-    }
-#endif
-    return x;
 }
 
 // Contraction would fold a plain product into a later sum, and the error of the product, which two_product returns, would

@@ -91,14 +91,14 @@ def main():
     has_fma = " fma " in Path("/proc/cpuinfo").read_text()
     faults, count = [], 0
     with tempfile.TemporaryDirectory() as folder:
-        right = Build.by([compiler, "-O1", "-ffp-contract=off"], include, folder)
+        right = Build.by([compiler, "-O1", "-ffp-contract=off"], [include], folder)
         faults += right.errors
         for table in (HELD, EITHER, REFUSED):
             for flags in families(table, compiler) + (flush_at_start(compiler) if table is HELD else []):
                 if "-mfma" in flags and not has_fma:
                     continue
                 count += 1
-                build = Build.by([compiler, *flags], include, folder)
+                build = Build.by([compiler, *flags], [include], folder)
                 if build.refusal() and table is not HELD:
                     continue
                 wrong = build.errors if build.errors else ["compiles"] if table is REFUSED else build.differences(right)
