@@ -19,6 +19,10 @@
 #ifndef GNOMON_PORTABLE_MSL_H
 #define GNOMON_PORTABLE_MSL_H
 
+#if defined(__FAST_MATH__)
+#error "gnomon: fast mathematics voids the treatment of NaN: compile with -fno-fast-math, or mathMode = .safe"
+#endif
+
 #include <metal_stdlib>
 
 namespace gnomon {

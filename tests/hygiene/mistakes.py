@@ -43,6 +43,7 @@ def mistakes(include, packages):
     yield "C++ -ffast-math", [*CPP, "-std=c++20", "-ffast-math"], ".cpp", EVERYTHING, "gnomon: fast mathematics voids"
     yield "OpenCL C 1.1", [*OPENCL, "-cl-std=CL1.1"], ".cl", EVERYTHING, "gnomon: -cl-std=CL1.2 or later"
     yield "OpenCL, relaxed", [*OPENCL, "-cl-fast-relaxed-math"], ".cl", EVERYTHING, "gnomon: -cl-fast-relaxed-math voids"
+    yield "Metal, fast", [*ROUTES["metal"].compiler, "-ffast-math"], ".metal", EVERYTHING, "gnomon: fast mathematics voids"
     yield "OpenCL, embedded", [*OPENCL, "-D__EMBEDDED_PROFILE__"], ".cl", EVERYTHING, "gnomon: the full profile needed"
     for version, answer in {"150": "gnomon: #version 330", "100": "gnomon: #version 300 es"}.items():
         begin = f"#version {version}\n"

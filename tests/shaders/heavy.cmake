@@ -64,3 +64,62 @@ if(GNOMON_NODE AND GNOMON_NPM)
 endif()
 heavy_test(wgsl wgsl-dawn naga-dawn)
 heavy_test(wgsl_plain wgsl-plain wgsl-plain-gles KERNELS ${plain_kernels})
+
+# What translators make of the modules of parity/plain, as engines hand it to other compilers: translated_shaders(NAME ROUTE
+# COMMAND...) with a route of translated.py, and the command that runs naga. The kernels of parity/plain have the same bits, all
+# others keep the contract. Metal's text is compiled under fast mathematics, which loses NaN: kernels without products alone.
+find_program(GNOMON_SPIRV_CROSS spirv-cross)
+function(translated_shaders name route)
+    set(folder ${CMAKE_CURRENT_BINARY_DIR}/translated/${name})
+    set(modules ${CMAKE_CURRENT_BINARY_DIR}/glsl)
+    add_custom_command(OUTPUT ${folder}/modules
+        COMMAND python3 ${CMAKE_CURRENT_SOURCE_DIR}/translated.py ${route} ${modules} ${folder} ${ARGN}
+        DEPENDS translated.py dawn/translate.mjs ${modules}/modules)
+    add_custom_target(parity_translated_${name} DEPENDS ${folder}/modules)
+    add_dependencies(parity_translated_${name} parity_glsl_shaders)
+    add_dependencies(gnomon_heavy parity_translated_${name})
+    if(route STREQUAL "msl" AND GNOMON_CLANG)
+        if(ARGN)
+            set(main main_)
+        else()
+            set(main main0)
+        endif()
+        # -ffast-math at the link would make the whole process flush denormals.
+        add_custom_command(OUTPUT ${folder}.so
+            COMMAND ${GNOMON_CLANG} -x c++ -std=c++17 -O2 -ffast-math -U__FAST_MATH__ -DMAIN=${main} -w -fPIC
+                -Xclang -cl-single-precision-constant -fno-strict-aliasing -fvisibility=hidden
+                -I${CMAKE_CURRENT_SOURCE_DIR}/../hygiene/metal -I${folder} -c
+                ${CMAKE_CURRENT_SOURCE_DIR}/translated_metal.cpp -o ${folder}.o
+            COMMAND ${GNOMON_CLANG} -shared ${folder}.o -o ${folder}.so
+            DEPENDS translated_metal.cpp module.hpp ../hygiene/metal/metal_stdlib ${folder}/modules)
+        add_custom_target(parity_${name} DEPENDS ${folder}.so)
+        add_dependencies(parity_${name} parity_translated_${name})
+        add_dependencies(gnomon_heavy parity_${name})
+    endif()
+endfunction()
+set(translators "")
+if(GNOMON_GLSLANG AND GNOMON_SPIRV_AS AND GNOMON_SPIRV_CROSS)
+    list(APPEND translators cross)
+endif()
+if(GNOMON_GLSLANG AND GNOMON_SPIRV_AS AND TARGET gnomon_dawn)
+    list(APPEND translators naga)
+endif()
+foreach(translator IN LISTS translators)
+    set(command "")
+    if(translator STREQUAL "naga")
+        set(command ${GNOMON_NODE} ${dawn}/translate.mjs)
+    endif()
+    set(routes hlsl msl)
+    if(translator STREQUAL "cross") # naga's GLSL has no bindings
+        list(APPEND routes essl310)
+    endif()
+    foreach(route IN LISTS routes)
+        translated_shaders(${translator}_${route} ${route} ${command})
+        if(command)
+            add_dependencies(parity_translated_${translator}_${route} gnomon_dawn)
+        endif()
+    endforeach()
+endforeach()
+heavy_test(translated cross-essl310 cross-hlsl naga-hlsl KERNELS ${plain_kernels} ROWS 65536)
+heavy_test(translated_contract cross-essl310 cross-hlsl naga-hlsl CONTRACT ROWS 16384)
+heavy_test(translated_metal cross-msl naga-msl KERNELS nearest_integer two_difference two_difference_ordered ROWS 65536)

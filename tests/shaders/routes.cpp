@@ -58,6 +58,13 @@ std::unique_ptr<route> webgl_route(const std::filesystem::path& shaders)
     return served_route("python3 '" + std::string(GNOMON_WEBGL) + "/serve.py' '" + shaders.string() + '\'');
 }
 
+std::unique_ptr<route> translated_module(const std::string& name)
+{
+    const auto file = built("translated/" + name + ".so");
+    if (!exists(file)) throw unavailable("not built: target gnomon_heavy");
+    return module_route(file);
+}
+
 } // namespace
 
 const std::vector<named_route>& all_routes()
@@ -67,7 +74,7 @@ const std::vector<named_route>& all_routes()
     };
     // Mesa's driver on the CPU, wherever Debian's architectures put it.
     const auto lavapipe = [](const std::string& language, const std::string& name, const std::string& ending) {
-        return named_route{language + name, [language, ending] {
+        return named_route{name.front() == '-' ? language + name : name, [language, ending] {
                                for (const auto* machine : {"x86_64", "aarch64"}) {
                                    const auto icd = std::string("/usr/share/vulkan/icd.d/lvp_icd.") + machine + ".json";
                                    if (std::filesystem::exists(icd)) return vulkan_route(built(language), icd, ending);
@@ -97,6 +104,11 @@ const std::vector<named_route>& all_routes()
         {"essl300-gles-plain", [] { return fragment_route(built("essl300"), true); }},
         {"essl300-webgl", [] { return webgl_route(built("essl300_kept")); }},
         {"essl300-webgl-plain", [] { return webgl_route(built("essl300")); }},
+        {"cross-essl310", [] { return gles_route(built("translated/cross_essl310")); }},
+        lavapipe("translated/cross_hlsl", "cross-hlsl", ".spv"),
+        lavapipe("translated/naga_hlsl", "naga-hlsl", ".spv"),
+        {"cross-msl", [] { return translated_module("cross_msl"); }},
+        {"naga-msl", [] { return translated_module("naga_msl"); }},
         {"opencl-pocl", [] { return opencl_route(built("opencl/kernels.cl"), "Portable Computing Language"); }},
         {"metal-shim", [] { return module_route(built("metal.so")); }},
         {"cuda", [] { return module_route(built("cuda.so")); }},
