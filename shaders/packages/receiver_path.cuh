@@ -193,7 +193,7 @@ template <class T> struct pack_operations {};
 /// False for a pack of another library that is no Real by itself, since its operators lack something or round otherwise:
 /// gnomon::pack of it is (simd/pack.hpp). The library's adapter knows, so without it no pack of xsimd or of the standard
 /// library is one.
-template <class T> constexpr bool is_native_real()
+template <class T> GNOMON_INLINE constexpr bool is_native_real()
 {
     constexpr bool is_of_xsimd = requires { typename T::arch_type; };
     constexpr bool is_of_std = requires { typename T::abi_type; };
