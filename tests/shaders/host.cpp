@@ -10,7 +10,7 @@
 
 using namespace gnomon;
 
-template <std::size_t lanes> using pack = xsimd::make_sized_batch_t<float, lanes>;
+template <std::size_t count> using lanes = pack<xsimd::make_sized_batch_t<float, count>>;
 using number = REAL;
 
 GNOMON_PARITY_EXPORT const char* parity_device() { return is_fused<number> ? "fused host" : "split host"; }
