@@ -7,6 +7,7 @@
 #include <gnomon/storage/format.hpp>
 
 #include <array>
+#include <bit>
 
 namespace gnomon::test {
 
