@@ -25,6 +25,10 @@
 
 #include <metal_stdlib>
 
+#if __METAL_VERSION__ >= 320 // to the end of the file
+#pragma METAL fp math_mode(safe)
+#endif
+
 namespace gnomon {
 
 constant constexpr float gnomon_pivot_floor = 9.31322574615478515625e-10f; // 2^-30

@@ -23,8 +23,8 @@
 #error "gnomon: -cl-std=CL1.2 or later needed"
 #elif defined(__EMBEDDED_PROFILE__)
 #error "gnomon: the full profile needed: the embedded one rounds as it likes"
-#elif defined(__FAST_RELAXED_MATH__)
-#error "gnomon: -cl-fast-relaxed-math voids the treatment of NaN and the exact products; build without it"
+#elif defined(__FAST_RELAXED_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "gnomon: -cl-fast-relaxed-math and -cl-finite-math-only void the treatment of NaN; build without them"
 #endif
 
 __constant float gnomon_pivot_floor = 9.31322574615478515625e-10f; // 2^-30

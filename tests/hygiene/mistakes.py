@@ -42,7 +42,8 @@ def mistakes(include, packages):
     yield "C++17", [*CPP, "-std=c++17"], ".cpp", EVERYTHING, "gnomon: C++20 needed"
     yield "C++ -ffast-math", [*CPP, "-std=c++20", "-ffast-math"], ".cpp", EVERYTHING, "gnomon: fast mathematics voids"
     yield "OpenCL C 1.1", [*OPENCL, "-cl-std=CL1.1"], ".cl", EVERYTHING, "gnomon: -cl-std=CL1.2 or later"
-    yield "OpenCL, relaxed", [*OPENCL, "-cl-fast-relaxed-math"], ".cl", EVERYTHING, "gnomon: -cl-fast-relaxed-math voids"
+    for flag in ("-cl-fast-relaxed-math", "-cl-finite-math-only"):
+        yield f"OpenCL, {flag}", [*OPENCL, flag], ".cl", EVERYTHING, "gnomon: -cl-fast-relaxed-math and -cl-finite-math-only void"
     yield "Metal, fast", [*ROUTES["metal"].compiler, "-ffast-math"], ".metal", EVERYTHING, "gnomon: fast mathematics voids"
     yield "OpenCL, embedded", [*OPENCL, "-D__EMBEDDED_PROFILE__"], ".cl", EVERYTHING, "gnomon: the full profile needed"
     for version, answer in {"150": "gnomon: #version 330", "100": "gnomon: #version 300 es"}.items():

@@ -123,3 +123,35 @@ endforeach()
 heavy_test(translated cross-essl310 cross-hlsl naga-hlsl KERNELS ${plain_kernels} ROWS 65536)
 heavy_test(translated_contract cross-essl310 cross-hlsl naga-hlsl CONTRACT ROWS 16384)
 heavy_test(translated_metal cross-msl naga-msl KERNELS nearest_integer two_difference two_difference_ordered ROWS 65536)
+
+# The headers as they are, under liberties that no macro tells of: Metal's text by clang under fast mathematics, and OpenCL's
+# flags, which PoCL takes from its environment. Exact products, rounding and clamps have their bits, and intensities of filters
+# keep the contract. The kernels of motion that compare a NaN may lose it, in Metal.
+set(held_kernels nearest_integer two_product two_difference two_difference_ordered subtract_product subtract_product_ordered
+    subtract_product_rounded clamp_or_nan clamp_or_high saturate_or_zero)
+file(STRINGS ${table} intensities REGEX "^[a-z0-9_]+_(intensity(_within)?|lower|bounds|side|end):.* -> unit")
+list(TRANSFORM intensities REPLACE ":.*" "")
+list(FILTER intensities EXCLUDE REGEX "^range_")
+if(GNOMON_CLANG)
+    set(metal_fast ${CMAKE_CURRENT_BINARY_DIR}/metal_fast)
+    # -ffast-math at the link would make the whole process flush denormals.
+    add_custom_command(OUTPUT ${metal_fast}.so
+        COMMAND ${GNOMON_CLANG} -x c++ -std=c++14 -D__METAL_VERSION__=300 -O2 $<$<BOOL:${GNOMON_NATIVE}>:-march=native>
+            -ffast-math -U__FAST_MATH__ -w -fPIC -fvisibility=hidden
+            -I${CMAKE_CURRENT_SOURCE_DIR}/../hygiene/metal -I${include} -I${CMAKE_CURRENT_BINARY_DIR}
+            -I${PROJECT_BINARY_DIR}/tests/support/include -c ${CMAKE_CURRENT_SOURCE_DIR}/metal.cpp -o ${metal_fast}.o
+        COMMAND ${GNOMON_CLANG} -shared ${metal_fast}.o -o ${metal_fast}.so
+        DEPENDS metal.cpp module.hpp ../hygiene/metal/metal_stdlib metal/kernels.metal parity_metal_shaders gnomon_kernel_table)
+    add_custom_target(parity_metal_fast DEPENDS ${metal_fast}.so)
+    add_dependencies(gnomon_heavy parity_metal_fast)
+endif()
+heavy_test(metal_fast metal-fast KERNELS ${held_kernels} ROWS 65536)
+heavy_test(metal_fast_contract metal-fast CONTRACT KERNELS ${intensities} ROWS 16384)
+heavy_test(opencl_fast opencl-pocl KERNELS ${held_kernels} ROWS 65536)
+heavy_test(opencl_fast_contract opencl-pocl CONTRACT KERNELS ${intensities} ROWS 16384)
+set_tests_properties(parity/opencl_fast parity/opencl_fast_contract PROPERTIES ENVIRONMENT
+    "POCL_EXTRA_BUILD_FLAGS=-cl-unsafe-math-optimizations -cl-mad-enable -cl-no-signed-zeros -cl-denorms-are-zero")
+# The control: PoCL does read its environment.
+heavy_test(opencl_fast_control opencl-pocl KERNELS nearest_integer ROWS 64)
+set_tests_properties(parity/opencl_fast_control PROPERTIES ENVIRONMENT POCL_EXTRA_BUILD_FLAGS=-cl-finite-math-only
+    PASS_REGULAR_EXPRESSION "gnomon: -cl-fast-relaxed-math and -cl-finite-math-only void")

@@ -58,9 +58,9 @@ std::unique_ptr<route> webgl_route(const std::filesystem::path& shaders)
     return served_route("python3 '" + std::string(GNOMON_WEBGL) + "/serve.py' '" + shaders.string() + '\'');
 }
 
-std::unique_ptr<route> translated_module(const std::string& name)
+std::unique_ptr<route> heavy_module(const std::string& name)
 {
-    const auto file = built("translated/" + name + ".so");
+    const auto file = built(name + ".so");
     if (!exists(file)) throw unavailable("not built: target gnomon_heavy");
     return module_route(file);
 }
@@ -107,10 +107,11 @@ const std::vector<named_route>& all_routes()
         {"cross-essl310", [] { return gles_route(built("translated/cross_essl310")); }},
         lavapipe("translated/cross_hlsl", "cross-hlsl", ".spv"),
         lavapipe("translated/naga_hlsl", "naga-hlsl", ".spv"),
-        {"cross-msl", [] { return translated_module("cross_msl"); }},
-        {"naga-msl", [] { return translated_module("naga_msl"); }},
+        {"cross-msl", [] { return heavy_module("translated/cross_msl"); }},
+        {"naga-msl", [] { return heavy_module("translated/naga_msl"); }},
         {"opencl-pocl", [] { return opencl_route(built("opencl/kernels.cl"), "Portable Computing Language"); }},
         {"metal-shim", [] { return module_route(built("metal.so")); }},
+        {"metal-fast", [] { return heavy_module("metal_fast"); }},
         {"cuda", [] { return module_route(built("cuda.so")); }},
     };
     return routes;

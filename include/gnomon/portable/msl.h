@@ -11,6 +11,10 @@
 
 #include <metal_stdlib>
 
+#if __METAL_VERSION__ >= 320 // to the end of the file
+#pragma METAL fp math_mode(safe)
+#endif
+
 #define Real float
 #define GNOMON_NAMESPACE_BEGIN namespace gnomon {
 #define GNOMON_NAMESPACE_END }
