@@ -67,7 +67,7 @@ heavy_test(wgsl_plain wgsl-plain wgsl-plain-gles KERNELS ${plain_kernels})
 
 # What translators make of the modules of parity/plain, as engines hand it to other compilers: translated_shaders(NAME ROUTE
 # COMMAND...) with a route of translated.py, and the command that runs naga. The kernels of parity/plain have the same bits, all
-# others keep the contract. Metal's text is compiled under fast mathematics, which loses NaN: kernels without products alone.
+# others keep the contract. Metal's text is compiled under fast mathematics, which loses NaN.
 find_program(GNOMON_SPIRV_CROSS spirv-cross)
 function(translated_shaders name route)
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/translated/${name})
@@ -120,18 +120,21 @@ foreach(translator IN LISTS translators)
         endif()
     endforeach()
 endforeach()
+# What holds under fast mathematics, and the intensities of filters.
+set(held_kernels nearest_integer two_product two_difference two_difference_ordered subtract_product subtract_product_ordered
+    subtract_product_rounded saturate_or_zero)
+file(STRINGS ${table} intensities REGEX "^[a-z0-9_]+_(intensity(_within)?|lower|bounds|side|end):.* -> unit")
+list(TRANSFORM intensities REPLACE ":.*" "")
+list(FILTER intensities EXCLUDE REGEX "^range_")
 heavy_test(translated cross-essl310 cross-hlsl naga-hlsl KERNELS ${plain_kernels} ROWS 65536)
 heavy_test(translated_contract cross-essl310 cross-hlsl naga-hlsl CONTRACT ROWS 16384)
-heavy_test(translated_metal cross-msl naga-msl KERNELS nearest_integer two_difference two_difference_ordered ROWS 65536)
+heavy_test(translated_metal cross-msl naga-msl KERNELS ${held_kernels} ROWS 65536)
+heavy_test(translated_metal_range cross-msl naga-msl RANGE KERNELS ${intensities} ROWS 16384)
 
 # The headers as they are, under liberties that no macro tells of: Metal's text by clang under fast mathematics, and OpenCL's
 # flags, which PoCL takes from its environment. Exact products, rounding and clamps have their bits, and intensities of filters
 # keep the contract. The kernels of motion that compare a NaN may lose it, in Metal.
-set(held_kernels nearest_integer two_product two_difference two_difference_ordered subtract_product subtract_product_ordered
-    subtract_product_rounded clamp_or_nan clamp_or_high saturate_or_zero)
-file(STRINGS ${table} intensities REGEX "^[a-z0-9_]+_(intensity(_within)?|lower|bounds|side|end):.* -> unit")
-list(TRANSFORM intensities REPLACE ":.*" "")
-list(FILTER intensities EXCLUDE REGEX "^range_")
+set(clamps clamp_or_nan clamp_or_high)
 if(GNOMON_CLANG)
     set(metal_fast ${CMAKE_CURRENT_BINARY_DIR}/metal_fast)
     # -ffast-math at the link would make the whole process flush denormals.
@@ -145,9 +148,10 @@ if(GNOMON_CLANG)
     add_custom_target(parity_metal_fast DEPENDS ${metal_fast}.so)
     add_dependencies(gnomon_heavy parity_metal_fast)
 endif()
-heavy_test(metal_fast metal-fast KERNELS ${held_kernels} ROWS 65536)
+heavy_test(metal_fast metal-fast KERNELS ${held_kernels} ${clamps} ROWS 65536)
 heavy_test(metal_fast_contract metal-fast CONTRACT KERNELS ${intensities} ROWS 16384)
-heavy_test(opencl_fast opencl-pocl KERNELS ${held_kernels} ROWS 65536)
+heavy_test(metal_fast_range metal-fast RANGE ROWS 16384)
+heavy_test(opencl_fast opencl-pocl KERNELS ${held_kernels} ${clamps} ROWS 65536)
 heavy_test(opencl_fast_contract opencl-pocl CONTRACT KERNELS ${intensities} ROWS 16384)
 set_tests_properties(parity/opencl_fast parity/opencl_fast_contract PROPERTIES ENVIRONMENT
     "POCL_EXTRA_BUILD_FLAGS=-cl-unsafe-math-optimizations -cl-mad-enable -cl-no-signed-zeros -cl-denorms-are-zero")
