@@ -69,14 +69,21 @@ heavy_test(wgsl_plain wgsl-plain wgsl-plain-gles KERNELS ${plain_kernels})
 # COMMAND...) with a route of translated.py, and the command that runs naga. The kernels of parity/plain have the same bits, all
 # others keep the contract. Metal's text is compiled under fast mathematics, which loses NaN.
 find_program(GNOMON_SPIRV_CROSS spirv-cross)
+if(GNOMON_GLSLANG AND GNOMON_SPIRV_AS)
+    parity_shaders(glsl_fragment modules gnomon_heavy)
+endif()
 function(translated_shaders name route)
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/translated/${name})
-    set(modules ${CMAKE_CURRENT_BINARY_DIR}/glsl)
+    set(language glsl)
+    if(route MATCHES "essl300|glsl330") # no compute shaders
+        set(language glsl_fragment)
+    endif()
+    set(modules ${CMAKE_CURRENT_BINARY_DIR}/${language})
     add_custom_command(OUTPUT ${folder}/modules
         COMMAND python3 ${CMAKE_CURRENT_SOURCE_DIR}/translated.py ${route} ${modules} ${folder} ${ARGN}
         DEPENDS translated.py dawn/translate.mjs ${modules}/modules)
     add_custom_target(parity_translated_${name} DEPENDS ${folder}/modules)
-    add_dependencies(parity_translated_${name} parity_glsl_shaders)
+    add_dependencies(parity_translated_${name} parity_${language}_shaders)
     add_dependencies(gnomon_heavy parity_translated_${name})
     if(route STREQUAL "msl" AND GNOMON_CLANG)
         if(ARGN)
@@ -109,8 +116,8 @@ foreach(translator IN LISTS translators)
     if(translator STREQUAL "naga")
         set(command ${GNOMON_NODE} ${dawn}/translate.mjs)
     endif()
-    set(routes hlsl msl)
-    if(translator STREQUAL "cross") # naga's GLSL has no bindings
+    set(routes essl300 glsl330 hlsl msl)
+    if(translator STREQUAL "cross") # naga writes no bindings, which two buffers need
         list(APPEND routes essl310)
     endif()
     foreach(route IN LISTS routes)
@@ -126,8 +133,9 @@ set(held_kernels nearest_integer two_product two_difference two_difference_order
 file(STRINGS ${table} intensities REGEX "^[a-z0-9_]+_(intensity(_within)?|lower|bounds|side|end):.* -> unit")
 list(TRANSFORM intensities REPLACE ":.*" "")
 list(FILTER intensities EXCLUDE REGEX "^range_")
-heavy_test(translated cross-essl310 cross-hlsl naga-hlsl KERNELS ${plain_kernels} ROWS 65536)
-heavy_test(translated_contract cross-essl310 cross-hlsl naga-hlsl CONTRACT ROWS 16384)
+set(routes cross-essl300 cross-essl310 cross-glsl330 cross-hlsl naga-essl300 naga-glsl330 naga-hlsl)
+heavy_test(translated ${routes} KERNELS ${plain_kernels} ROWS 65536)
+heavy_test(translated_contract ${routes} CONTRACT ROWS 16384)
 heavy_test(translated_metal cross-msl naga-msl KERNELS ${held_kernels} ROWS 65536)
 heavy_test(translated_metal_range cross-msl naga-msl RANGE KERNELS ${intensities} ROWS 16384)
 

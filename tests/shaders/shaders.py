@@ -5,11 +5,12 @@ usage: shaders.py LANGUAGE OUTPUT TABLE INCLUDE    LANGUAGE is a key of LANGUAGE
 
 glsl, hlsl: for each kernel OUTPUT/KERNEL.spv, as the compiler gives it, and OUTPUT/KERNEL.exact.spv, bound to the text's
     arithmetic (exact_arithmetic.py); then OUTPUT/modules, the kernels' names.
-naga: the same from ESSL 310, every operation kept (kept.py): naga turns KERNEL.spv into WGSL, which has no decorations.
+naga: KERNEL.spv alone, from ESSL 310, every operation kept (kept.py): naga turns it into WGSL, which has no decorations.
 essl: OUTPUT/KERNEL.comp, one text for each kernel, precise throughout, and then OUTPUT/modules too.
 essl300: the same as OUTPUT/KERNEL.frag, for OpenGL ES 3.0 and WebGL 2, which have no compute shaders: fragment_route in route.hpp
     says where a fragment finds its numbers. A text holds the headers that its kernel needs.
 essl300_kept: the same, every operation kept.
+glsl_fragment: the same for Vulkan, also as OUTPUT/KERNEL.spv, of which translators make texts for OpenGL.
 opencl, metal, wgsl: OUTPUT/kernels.cl, .metal, .wgsl, one text with a function parity_KERNEL for each kernel; in WGSL every
     operation is kept, unless it is wgsl_plain.
 
@@ -50,12 +51,14 @@ class Language(NamedTuple):
     changed: Callable = str # what becomes of the package's text
     partly: bool = False # only the headers that a kernel needs, of the package
     compiler: list = [] # to SPIR-V, one module per kernel
+    exact: bool = False # a module bound to the text's arithmetic, too
 
 
 def spelled_in_wgsl(text):
     return re.sub(r"[A-Za-z]\w*", lambda word: spelled(word[0]), text)
 
 
+GLSL_HEAD = "#version 450\n#extension GL_GOOGLE_include_directive : require\n"
 GLSL_BUFFERS = """layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Inputs { uint x[]; };
 layout(std430, binding = 1) buffer Outputs { uint y[]; };
@@ -74,16 +77,19 @@ FRAGMENT_ENTRY = """void main()
     uint fragment = uint(gl_FragCoord.y) * 2048u + uint(gl_FragCoord.x), row = fragment / PARTSu, part = fragment % PARTSu;
     uint group = row / 64u, lane = row % 64u;
     y = uvec4(0u);"""
+FRAGMENT_STORE = "if (part == {2}u / 4u) y[{2} % 4] = floatBitsToUint({1})"
+# For naga, which reads no texture and sampler in one.
+SEPARATE = "#extension GL_EXT_samplerless_texture_functions : require\n"
+TEXTURE = "layout(binding = 0) uniform utexture2D"
 
 LANGUAGES = {
-    "glsl": Language(".comp", """#version 450
-#extension GL_GOOGLE_include_directive : require
-""" + GLSL_BUFFERS, GLSL_ENTRY, load="uintBitsToFloat(x[{}])",
-        store="y[{}] = floatBitsToUint({})", compiler=GLSLANG),
+    "glsl": Language(".comp", GLSL_HEAD + GLSL_BUFFERS, GLSL_ENTRY, load="uintBitsToFloat(x[{}])",
+        store="y[{}] = floatBitsToUint({})", compiler=GLSLANG, exact=True),
     "hlsl": Language(".hlsl", """[[vk::binding(0)]] StructuredBuffer<uint> x;
 [[vk::binding(1)]] RWStructuredBuffer<uint> y;
 """, "[numthreads(64, 1, 1)] void main(uint3 groups : SV_GroupID, uint lane : SV_GroupIndex)\n{\n    uint group = groups.x;",
-        load="asfloat(x[{}])", store="y[{}] = asuint({})", compiler=GLSLANG + ["-D", "-Od", "-DGNOMON_HLSL", "-e", "main", "-S", "comp"]),
+        load="asfloat(x[{}])", store="y[{}] = asuint({})", compiler=GLSLANG + ["-D", "-Od", "-DGNOMON_HLSL", "-e", "main", "-S", "comp"],
+        exact=True),
     "opencl": Language(".cl", "#pragma OPENCL FP_CONTRACT OFF\n",
         "kernel __attribute__((reqd_work_group_size(64, 1, 1))) void parity_{}(global const float* x, global float* y)\n"
         "{{\n    uint group = get_group_id(0), lane = get_local_id(0);", struct="struct {}"),
@@ -94,7 +100,9 @@ LANGUAGES = {
     "essl": Language(".comp", "#version 320 es\n" + GLSL_BUFFERS, GLSL_ENTRY, load="uintBitsToFloat(x[{}])",
         store="y[{}] = floatBitsToUint({})", package="gnomon.glsl", changed=precise),
     "essl300": Language(".frag", "#version 300 es\n" + FRAGMENT, FRAGMENT_ENTRY, load="number_at({})",
-        store="if (part == {2}u / 4u) y[{2} % 4] = floatBitsToUint({1})", package="gnomon.glsl", partly=True),
+        store=FRAGMENT_STORE, package="gnomon.glsl", partly=True),
+    "glsl_fragment": Language(".frag", GLSL_HEAD + SEPARATE + FRAGMENT.replace("uniform highp usampler2D", TEXTURE), FRAGMENT_ENTRY,
+        load="number_at({})", store=FRAGMENT_STORE, compiler=GLSLANG),
     "naga": Language(".comp", "#version 310 es\n" + GLSL_BUFFERS, GLSL_ENTRY, load="uintBitsToFloat(x[{}])",
         store="y[{}] = floatBitsToUint({})", package="gnomon.glsl", changed=kept, compiler=GLSLANG),
     "wgsl": Language(".wgsl", """alias uint = u32;
@@ -162,7 +170,8 @@ def compile_module(language, source, include):
     run = subprocess.run([*language.compiler, f"-I{include}", "-o", module, source], capture_output=True, text=True)
     if run.returncode:
         raise ValueError(f"{source}: {next((line for line in run.stdout.splitlines() if 'ERROR' in line), run.stderr)}")
-    exact_arithmetic.rewrite(module, source.with_suffix(".exact.spv"))
+    if language.exact:
+        exact_arithmetic.rewrite(module, source.with_suffix(".exact.spv"))
 
 
 def main():

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Modules of SPIR-V as translators write them for other compilers: no text of theirs has the word precise.
 
-usage: translated.py ROUTE MODULES OUTPUT [NODE]    ROUTE is a key of ROUTES, MODULES what shaders.py wrote for glsl, NODE the
-                                                    command that runs dawn/translate.mjs for naga
+usage: translated.py ROUTE MODULES OUTPUT [NODE]    ROUTE is a key of ROUTES, MODULES what shaders.py wrote, for glsl_fragment if
+                                                    the route has fragment shaders alone, else for glsl; NODE is the command
+                                                    that runs dawn/translate.mjs for naga
 
-essl310, glsl330: OUTPUT/KERNEL.comp. hlsl: OUTPUT/KERNEL.hlsl, and KERNEL.spv, which glslang makes of it. msl:
-OUTPUT/translated.metal, a namespace for each kernel with its entry point, and FOR_EACH_TRANSLATED, which names them; kernels with
-arrays, whose address spaces no C++ compiler knows, are left out. Last, OUTPUT/modules, the kernels' names.
+essl300, glsl330: OUTPUT/KERNEL.frag. essl310: OUTPUT/KERNEL.comp. hlsl: OUTPUT/KERNEL.hlsl, and KERNEL.spv, which glslang makes
+of it. msl: OUTPUT/translated.metal, a namespace for each kernel with its entry point, and FOR_EACH_TRANSLATED, which names them;
+kernels with arrays, whose address spaces no C++ compiler knows, are left out. Last, OUTPUT/modules, the kernels' names.
 """
 import re
 import subprocess
@@ -30,7 +31,8 @@ class Route(NamedTuple):
 
 ROUTES = {
     "essl310": Route(".comp", ["--es", "--version", "310"], "310 es"),
-    "glsl330": Route(".comp", ["--no-es", "--version", "330"], "430"), # naga has no compute shaders in 330
+    "essl300": Route(".frag", ["--es", "--version", "300"], "300 es"),
+    "glsl330": Route(".frag", ["--no-es", "--version", "330", "--no-420pack-extension"], "330"), # bindings are of 4.2
     "hlsl": Route(".hlsl", ["--hlsl", "--shader-model", "60"], "hlsl"),
     "msl": Route(".metal", ["--msl"], "msl"),
 }

@@ -10,7 +10,7 @@ function translated(module) {
     const info = validate(module);
     if (target === "hlsl") return writeHlsl(module, info, { shaderModel: "6_0" });
     if (target === "msl") return writeMsl(module, info, {});
-    return writeGlsl(module, info, { version: target, stage: "compute", entryPoint: "main" });
+    return writeGlsl(module, info, { version: target, stage: ending === ".frag" ? "fragment" : "compute", entryPoint: "main" });
 }
 
 for (const kernel of kernels) {
