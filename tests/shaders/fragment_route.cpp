@@ -93,7 +93,7 @@ class fragment_shaders final : public route {
     fragment_shaders(std::filesystem::path folder, bool es)
         : folder_(std::move(folder)),
           version_(es ? "#version 300 es\n" : "#version 330\n"),
-          current_(es ? gl_api::es : gl_api::desktop, 3, es ? 0 : 3)
+          context_(es ? gl_api::es : gl_api::desktop, 3, es ? 0 : 3)
     {
         GLuint name = 0;
         glGenVertexArrays(1, &name);
@@ -104,6 +104,7 @@ class fragment_shaders final : public route {
 
     void run(const kernel& k, std::span<const float> in, std::span<float> out) override
     {
+        if (!context_.use()) throw std::runtime_error("EGL has lost its context");
         const std::size_t rows = in.size() / k.inputs, parts = (k.outputs + 3) / 4;
         const program code(version_, folder_ / (std::string(k.name) + ".frag"));
         const texture target(GL_RGBA32UI, GL_RGBA_INTEGER, rows * parts, nullptr);
@@ -127,7 +128,7 @@ class fragment_shaders final : public route {
   private:
     std::filesystem::path folder_;
     std::string version_;
-    gl_context current_;
+    gl_context context_;
     std::vector<std::string> complaints_;
 };
 

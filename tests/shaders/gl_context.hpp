@@ -14,10 +14,10 @@ namespace gnomon::parity {
 
 enum class gl_api : EGLenum { es = EGL_OPENGL_ES_API, desktop = EGL_OPENGL_API };
 
-/// Current while it lives.
+/// Current from its construction, and after use(), until another is.
 class gl_context {
   public:
-    gl_context(gl_api api, EGLint major, EGLint minor)
+    gl_context(gl_api api, EGLint major, EGLint minor) : api_(api)
     {
         setenv("LIBGL_ALWAYS_SOFTWARE", "true", 1);
         display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
@@ -26,11 +26,9 @@ class gl_context {
         eglBindAPI(EGLenum(api));
         const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, major, EGL_CONTEXT_MINOR_VERSION, minor, EGL_NONE};
         context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, version);
-        if (context_ == EGL_NO_CONTEXT || !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
-            eglTerminate(display_);
+        if (context_ == EGL_NO_CONTEXT || !use()) // the display may be another context's, too
             throw unavailable("no OpenGL" + std::string(api == gl_api::es ? " ES " : " ") + std::to_string(major) +
                               '.' + std::to_string(minor) + " without surfaces");
-        }
     }
     gl_context(const gl_context&) = delete;
     gl_context& operator=(const gl_context&) = delete;
@@ -41,7 +39,13 @@ class gl_context {
         eglTerminate(display_);
     }
 
+    bool use() const
+    {
+        return eglBindAPI(EGLenum(api_)) && eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+    }
+
   private:
+    gl_api api_;
     EGLDisplay display_;
     EGLContext context_;
 };

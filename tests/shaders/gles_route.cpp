@@ -68,6 +68,7 @@ class compute_shaders final : public route {
 
     void run(const kernel& k, std::span<const float> in, std::span<float> out) override
     {
+        if (!context_.use()) throw std::runtime_error("EGL has lost its context");
         const program code(folder_ / (std::string(k.name) + ".comp"));
         const storage_buffer inputs(0, in), outputs(1, out);
         glUseProgram(code.name());
@@ -82,7 +83,7 @@ class compute_shaders final : public route {
 
   private:
     std::filesystem::path folder_;
-    gl_context current_{gl_api::es, 3, 2};
+    gl_context context_{gl_api::es, 3, 2};
     std::vector<std::string> complaints_;
 };
 
