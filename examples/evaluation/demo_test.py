@@ -76,7 +76,6 @@ class Demo(unittest.TestCase):
                 raise RuntimeError(ended.stderr)
             cls.progress = cls.progress or ended.stderr
         cls.report = json.loads((cls.out / "report.json").read_text())
-        cls.rows = cls.report
         cls.registry = json.loads(run(DEMO, "--registry").stdout)
 
     @classmethod
@@ -227,7 +226,7 @@ class Demo(unittest.TestCase):
     def test_rows_are_identified_by_what_the_registry_knows(self):
         known = {kind: {one["id"]: one for one in entries} for kind, entries in self.registry.items()}
         identities = set()
-        for row in self.rows:
+        for row in self.report:
             method = known["methods"][row["method"]]
             self.assertEqual(row["family"], method["family"], row["method"])
             if method["bytes_per_texel"]:  # one map and one format, whatever is measured
@@ -246,7 +245,7 @@ class Demo(unittest.TestCase):
     def test_every_method_has_a_row_in_every_part_for_every_reference(self):
         parts = {"fence": {"", "fence", "fence_wall", "sign_fence_wall"}, "contact": {"", "gap_1", "gap_2", "gap_3"}}
         for scene, expected in parts.items():
-            rows = [row for row in self.rows if row["scene"] == scene and row["reference"] in ("filtered", "traced")]
+            rows = [row for row in self.report if row["scene"] == scene and row["reference"] in ("filtered", "traced")]
             methods = {row["method"] for row in rows}
             self.assertGreaterEqual(len(methods), 17)
             found = {(row["method"], row["part"], row["reference"]) for row in rows}
@@ -254,7 +253,7 @@ class Demo(unittest.TestCase):
 
     def test_a_look_up_takes_longer_than_its_kernel(self):
         filterable = {m["id"] for m in self.registry["methods"] if m["map"] == "filtered"}
-        rows = [row for row in self.rows if row["method"] in filterable and row["reference"] == "filtered"]
+        rows = [row for row in self.report if row["method"] in filterable and row["reference"] == "filtered"]
         self.assertTrue(rows)
         for row in rows:
             self.assertLess(row["ns_kernel"], row["ns_per_receiver"], row["method"])

@@ -282,8 +282,8 @@ template <class T> GNOMON_INLINE constexpr T opaque(T x)
     return x;
 }
 
-// Where clang sees that the second operand of a minimum or a maximum is no NaN, it takes an instruction of Arm or PowerPC that
-// returns the second operand for a quiet NaN, but a NaN for a signalling one. It does not see through this sum.
+// The second operand of a minimum or a maximum, through a sum that clang does not see through. Otherwise, when clang knows
+// this operand to be no NaN, it takes an instruction of Arm or PowerPC that returns a NaN for a signalling one.
 template <class T> GNOMON_INLINE constexpr T second_operand(T x)
 {
 #if defined(__clang__) && (defined(__aarch64__) || defined(__powerpc__))

@@ -1,4 +1,5 @@
-// What cpp.h takes from the standard library, for NVRTC, which has none: in namespace gnomon, so that it meets no other.
+// Names that cpp.h takes from the standard library, for NVRTC, which has none. They are in namespace gnomon, so that they
+// meet no others.
 #ifndef GNOMON_PORTABLE_NVRTC_H
 #define GNOMON_PORTABLE_NVRTC_H
 

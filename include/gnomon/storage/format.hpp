@@ -134,8 +134,8 @@ template <class Channels> constexpr bool are_known(const Channels& c)
     return known;
 }
 
-/// What all formats do with a kind of texel, given from_depth: the border, the texel that shadows nothing, is that of a
-/// depth on the far plane, and stands for channels that have a NaN.
+/// A kind of texel with the border of a format that has from_depth: the texel of a depth on the far plane, which shadows
+/// nothing and is stored for channels that have a NaN.
 template <class Format, class Texel> struct stored_texel : Texel {
     using typename Texel::texel;
     static constexpr auto border() { return Format::from_depth(1.0f); }
