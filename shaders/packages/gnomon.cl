@@ -2682,7 +2682,7 @@ struct depth_change { float scale, offset; };
 /// between two others, at target_near and target_far. All distances are measured along the same axis, in any unit.
 /// Domain: near_distance < far_distance, target_near < target_far.
 /// NaN: NaN.
-/// Error: 4 2^-p of the largest distance over target_far - target_near.
+/// Error: 8 2^-p of the largest distance over target_far - target_near.
 static inline depth_change depth_change_from_planes(float near_distance, float far_distance, float target_near,
                                                     float target_far)
 {

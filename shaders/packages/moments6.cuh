@@ -782,7 +782,7 @@ template <class Real, class = require_real<Real>> struct depth_change { Real sca
 /// between two others, at target_near and target_far. All distances are measured along the same axis, in any unit.
 /// Domain: near_distance < far_distance, target_near < target_far.
 /// NaN: NaN.
-/// Error: 4 2^-p of the largest distance over target_far - target_near.
+/// Error: 8 2^-p of the largest distance over target_far - target_near.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr depth_change<Real> depth_change_from_planes(Real near_distance, Real far_distance,
                                                                     Real target_near, Real target_far)

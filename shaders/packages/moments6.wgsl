@@ -317,7 +317,7 @@ struct depth_change { scale: f32, offset: f32 }
 /// between two others, at target_near and target_far. All distances are measured along the same axis, in any unit.
 /// Domain: near_distance < far_distance, target_near < target_far.
 /// NaN: NaN.
-/// Error: 4 2^-p of the largest distance over target_far - target_near.
+/// Error: 8 2^-p of the largest distance over target_far - target_near.
 fn depth_change_from_planes(near_distance: f32, far_distance: f32, target_near: f32, target_far: f32) -> depth_change
 {
     let extent = target_far - target_near;

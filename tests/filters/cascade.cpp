@@ -78,6 +78,33 @@ TEST_CASE("weights are 1 inside, 0 beyond, and linear in the band")
     CHECK(cascade_weight_by_distance(not_a_number, 10.0, 2.0) == 0);
 }
 
+TEST_CASE_TEMPLATE("weights have at most their stated errors", T, float, double)
+{
+    bit_source bits(4);
+    double by_distance = 0, by_projection = 0;
+    for (std::int64_t i = 0; i < effort(200'000); ++i) {
+        const T end = T(bits.uniform(1, 100)), band = T(exact(end) * exact(std::exp2(bits.uniform(-10, 0))));
+        const T distance = T(exact(end) - exact(band) * exact(bits.uniform(0, 1)));
+        const exact want = (exact(end) - exact(distance)) / exact(band);
+        if (want <= 1)
+            by_distance =
+                std::max(by_distance, std::abs(double(exact(cascade_weight_by_distance(distance, end, band)) - want)) /
+                                          (u<T> * double(exact(end) / exact(band))));
+        const T margin = T(bits.uniform(0, 0.1)), edge = T(std::exp2(bits.uniform(-10, -2)));
+        const T x = T(bits.uniform(0, 1)), y = T(bits.uniform(0, 1));
+        const exact inside =
+            (exact(0.5) - exact(margin)) - std::max(std::abs(exact(x) - exact(0.5)), std::abs(exact(y) - exact(0.5)));
+        const exact weight = std::min(std::max(inside / exact(edge), exact(0)), exact(1));
+        by_projection = std::max(
+            by_projection, std::abs(double(exact(cascade_weight_by_projection(x, y, T(0), margin, edge)) - weight)) /
+                               (u<T> / double(edge)));
+    }
+    for (const double error : {by_distance, by_projection}) {
+        CHECK(error <= 2);
+        CHECK(error > 0.2); // the measure sees errors
+    }
+}
+
 TEST_CASE("a blend gives each cascade its share, and the mean over thresholds is the blend")
 {
     bit_source bits(2);

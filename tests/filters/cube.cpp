@@ -58,6 +58,38 @@ TEST_CASE_TEMPLATE("directions lead to the face and place of the specifications'
     }
 }
 
+TEST_CASE_TEMPLATE("places and directions have at most their stated errors", T, float, double)
+{
+    using exact = long double;
+    bit_source bits(3);
+    double place = 0, direction = 0;
+    for (std::int64_t i = 0; i < effort(200'000); ++i) {
+        const T x = T(bits.uniform(-1, 1)), y = T(bits.uniform(-1, 1)), z = T(bits.uniform(-1, 1));
+        const cube_position<T> p = cube_position_from_direction(x, y, z);
+        const face_axes& axis = axes[std::size_t(p.face)];
+        const auto along = [&](const std::array<int, 3>& a) {
+            return exact(a[0]) * exact(x) + exact(a[1]) * exact(y) + exact(a[2]) * exact(z);
+        };
+        REQUIRE(exact(p.distance) == along(axis.ahead));
+        for (const auto& [got, a] : {std::pair{p.u, axis.across}, {p.v, axis.down}})
+            place = std::max(place, std::abs(double(exact(got) - (along(a) / along(axis.ahead) + 1) / 2)) / u<T>);
+        // Folded over one edge or over none.
+        const T s = T(bits.uniform(-1, 2)), t = T(bits.uniform(0, 1));
+        const cube_vector<T> d = cube_direction(p.face, s, t);
+        const exact far_s = 2 * exact(s) - 1, near_s = std::min(std::max(far_s, exact(-1)), exact(1));
+        const exact ahead = 1 - std::abs(far_s - near_s), down = 2 * exact(t) - 1;
+        const std::array<T, 3> got{d.x, d.y, d.z};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const exact want = ahead * axis.ahead[k] + near_s * axis.across[k] + down * axis.down[k];
+            direction = std::max(direction, std::abs(double(exact(got[k]) - want)) / u<T>);
+        }
+    }
+    for (const double error : {place, direction}) {
+        CHECK(error <= 2);
+        CHECK(error > 0.2);
+    }
+}
+
 TEST_CASE("a face unfolds over each edge to the centres of the neighbour's texels, and back")
 {
     for (const int size : {1, 2, 3, 7, 16, 100, 1023}) {

@@ -92,6 +92,27 @@ TEST_CASE("a change of range is that of the depths, and of moments of depth in [
     }
 }
 
+TEST_CASE_TEMPLATE("a change between planes has at most its stated error", T, float, double)
+{
+    bit_source bits(5);
+    double error = 0;
+    for (std::int64_t i = 0; i < effort(200'000); ++i) {
+        const auto plane = [&](double from, double extent) { return T(from + extent * bits.uniform(0.01, 1)); };
+        const T near_distance = plane(0, 50), far_distance = plane(double(near_distance), 100);
+        const T target_near = plane(0, 50), target_far = plane(double(target_near), 100);
+        const depth_change<T> change = depth_change_from_planes(near_distance, far_distance, target_near, target_far);
+        const exact extent = exact(target_far) - exact(target_near);
+        const exact scale = (exact(far_distance) - exact(near_distance)) / extent;
+        const exact offset =
+            ((exact(near_distance) - exact(target_near)) + (exact(far_distance) - exact(target_far))) / extent;
+        const double unit = u<T> * double(std::max(exact(far_distance), exact(target_far)) / extent);
+        error = std::max({error, std::abs(double(exact(change.scale) - scale)) / unit,
+                          std::abs(double(exact(change.offset) - offset)) / unit});
+    }
+    CHECK(error <= 8); // two for the differences, and for their sum, extent and quotient two each
+    CHECK(error > 1);
+}
+
 TEST_CASE("a mixture of two cascades darkens no lit surface by more than the stated weight, by climbing")
 {
     // Each map holds two depths in 4 x 16 UNORM; the finer one is changed to the range of the coarser one.

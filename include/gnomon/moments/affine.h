@@ -27,7 +27,7 @@ GNOMON_STRUCT(depth_change) { Real scale, offset; };
 /// between two others, at target_near and target_far. All distances are measured along the same axis, in any unit.
 /// Domain: near_distance < far_distance, target_near < target_far.
 /// NaN: NaN.
-/// Error: 4 2^-p of the largest distance over target_far - target_near.
+/// Error: 8 2^-p of the largest distance over target_far - target_near.
 GNOMON_KERNEL GNOMON_T(depth_change) depth_change_from_planes(Real near_distance, Real far_distance, Real target_near,
                                                               Real target_far)
 {
