@@ -1,6 +1,7 @@
 // The program behind ./run demo.
 #include "evaluation/core/driver.hpp"
 #include "evaluation/core/registry_facts.hpp"
+#include "evaluation/core/report.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -96,6 +97,7 @@ try {
         if (wanted.size() > 1) progress(wanted[i]->id, fmt::format("driver {} of {}", i + 1, wanted.size()));
         wanted[i]->run(how);
     }
+    merge_report(how.out / "report.json", {}); // the gallery wants one, and not every driver has rows
     return 0;
 } catch (const std::exception& error) {
     fmt::print(stderr, "demo: {}\n", error.what());

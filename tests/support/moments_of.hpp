@@ -7,7 +7,6 @@
 #include <gnomon/storage/format.hpp>
 
 #include <array>
-#include <bit>
 
 namespace gnomon::test {
 
@@ -71,12 +70,12 @@ template <class Format> format_channels<Format> mixed_channels(const distributio
     std::array<double, channel_count<Format>> sum{};
     for (std::size_t i = 0; i < d.depths.size(); ++i) {
         const auto texel = Format::encode(Format::from_depth(float(d.depths[i])));
-        const auto c = std::bit_cast<channel_array<Format>>(Format::decode(texel));
+        const auto c = gnomon_bit_cast<channel_array<Format>>(Format::decode(texel));
         for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += d.weights[i] * double(c[k]);
     }
     channel_array<Format> mean{};
     for (std::size_t k = 0; k < sum.size(); ++k) mean[k] = float(sum[k]);
-    return std::bit_cast<format_channels<Format>>(mean);
+    return gnomon_bit_cast<format_channels<Format>>(mean);
 }
 
 /// The weighted sum of nine texels' channels, in float.

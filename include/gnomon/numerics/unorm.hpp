@@ -2,6 +2,7 @@
 #ifndef GNOMON_NUMERICS_UNORM_HPP
 #define GNOMON_NUMERICS_UNORM_HPP
 
+#include "../portable.h"
 #include "../portable/cpp_only.h"
 
 #include <concepts>

@@ -4,6 +4,7 @@
 #ifndef GNOMON_PASSES_EXPECTS_HPP
 #define GNOMON_PASSES_EXPECTS_HPP
 
+#include "../portable.h"
 #include "../portable/cpp_only.h"
 
 #include <cstddef>
