@@ -4,6 +4,7 @@
 #ifndef GNOMON_GNOMON_H
 #define GNOMON_GNOMON_H
 #include "comparators/hamburger_cholesky.h"
+#include "comparators/percentage_closer_soft.h"
 #include "comparators/prism.h"
 #include "comparators/three_pass_cover.h"
 #include "filters/cascade.h"

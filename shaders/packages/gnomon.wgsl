@@ -487,6 +487,69 @@ fn hamburger6_cholesky_intensity(b: moments6_, z_f: f32) -> f32
     return saturate_or_zero(((v0123 * b.b3_ + u2 * b.b2_) + u1 * b.b1_) - t0 * z_f);
 }
 
+// comparators/percentage_closer_soft.h --------------------------------------------------------------------------------
+// Percentage-closer soft shadows (Fernando 2005; Peters et al. 2017, Sec. 4.1): the mean depth of what is in front of
+// the receiver, from every texel of a search region. This is what the blocker search by moments (soft/blocker.h)
+// estimates.
+//
+//     search = percentage_closer_search_begin(z_f);
+//     search = percentage_closer_search_add(search, z, weight);     for every texel of the search region, weights
+// summing to 1
+//     blocker = percentage_closer_search_end(search);
+//     width = the width of the penumbra (soft/penumbra.h) for z_f and blocker.depth
+//     intensity = percentage_closer_begin, _add, _end (filters/percentage_closer.h) over a filter region of this width
+//
+// An intensity of 0 or 1 of the whole search region spares the filter region.
+
+const percentage_closer_search_epsilon: f32 = 0x1.0624dep-10; // 1e-3
+
+/// The receiver's depth, the weight in front of the receiver so far, and the sum of its weighted distances to the
+/// receiver.
+struct percentage_closer_search { receiver: f32, shadowed: f32, distance: f32 }
+
+/// The mean depth of the blockers, in [-1, 1] and at most z_f, and their weight in the search region, in [0, 1].
+struct percentage_closer_blocker { depth: f32, intensity: f32 }
+
+/// The state before the first texel of the search region. z_f has no bias.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: no blocker.
+fn percentage_closer_search_begin(z_f: f32) -> percentage_closer_search
+{
+    var r: percentage_closer_search;
+    r.receiver = clamp_or_nan(z_f, -1.0, 1.0);
+    r.shadowed = 0.0;
+    r.distance = 0.0;
+    return r;
+}
+
+/// The state after one more texel of depth z with its weight.
+/// Domain: any z; below the near plane as on it.
+/// NaN: a texel of depth NaN is no blocker; a weight of NaN before the receiver leaves no blocker at all.
+fn percentage_closer_search_add(given_state: percentage_closer_search, z: f32, weight: f32) -> percentage_closer_search
+{
+    var state = given_state;
+    let in_front = z < state.receiver;
+    let distance = state.receiver - gnomon_max(z, -1.0);
+    state.shadowed = state.shadowed + gnomon_select(in_front, weight, 0.0);
+    state.distance = state.distance + gnomon_select(in_front, weight * distance, 0.0);
+    return state;
+}
+
+/// Mean depth and weight of the blockers. The mean is moved towards the receiver by a weight of 1e-3, so that few
+/// blockers count for less and none leaves the receiver's own depth.
+/// NaN: for z_f the far plane; for a weight before the receiver the receiver's depth, and an intensity of 0.
+/// Error: that of the sums of weights and of weighted distances.
+/// Source: Peters 2017, Eq. 4; Fernando 2005
+fn percentage_closer_search_end(state: percentage_closer_search) -> percentage_closer_blocker
+{
+    let weight = state.shadowed + percentage_closer_search_epsilon;
+    let receiver = clamp_or_high(state.receiver, -1.0, 1.0);
+    var r: percentage_closer_blocker;
+    r.depth = gnomon_max(-1.0, gnomon_min(receiver - state.distance / weight, receiver));
+    r.intensity = saturate_or_zero(state.shadowed);
+    return r;
+}
+
 // motion/range/range.h ------------------------------------------------------------------------------------------------
 // Depth-time ranges. From time t0 to time t1 of the shutter interval [0, 1] a surface covers a texel of the shadow map,
 // at a depth that changes linearly from z0 to z1. The depth-time range of Hong & Oh ("Motion blurred shadows utilizing
