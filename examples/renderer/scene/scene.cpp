@@ -6,6 +6,37 @@
 
 namespace gnomon::renderer {
 
+namespace {
+
+scene part_of(const scene& world, bool opaque)
+{
+    scene result = world;
+    for (mesh& part : result.meshes)
+        if (part.opaque() != opaque) part.triangles.clear();
+    return result;
+}
+
+} // namespace
+
+bool mesh::opaque() const { return opacity.x >= 1 && opacity.y >= 1 && opacity.z >= 1 && !alpha; }
+
+glm::vec3 mesh::opacity_at(std::uint32_t triangle, const glm::vec3& weights) const
+{
+    float factor = 1;
+    if (alpha) {
+        const glm::uvec3 corner = triangles[triangle];
+        const auto at = [&](std::uint32_t i) {
+            return texture_coordinates.empty() ? glm::vec2(0) : texture_coordinates[i];
+        };
+        factor = alpha(weights.x * at(corner.x) + weights.y * at(corner.y) + weights.z * at(corner.z));
+    }
+    return glm::clamp(factor * opacity, 0.f, 1.f);
+}
+
+scene opaque_part(const scene& world) { return part_of(world, true); }
+
+scene translucent_part(const scene& world) { return part_of(world, false); }
+
 void bounds::include(const glm::vec3& point)
 {
     lower = glm::min(lower, point);
@@ -47,6 +78,14 @@ void add_quad(mesh& target, const glm::vec3& corner, const glm::vec3& edge_u, co
     target.positions.insert(target.positions.end(),
                             {corner, corner + edge_u, corner + edge_u + edge_v, corner + edge_v});
     target.triangles.insert(target.triangles.end(), {first + glm::uvec3(0, 1, 2), first + glm::uvec3(0, 2, 3)});
+}
+
+void add_textured_quad(mesh& target, const glm::vec3& corner, const glm::vec3& edge_u, const glm::vec3& edge_v,
+                       const glm::vec2& first, const glm::vec2& last)
+{
+    add_quad(target, corner, edge_u, edge_v);
+    target.texture_coordinates.insert(target.texture_coordinates.end(),
+                                      {first, {last.x, first.y}, last, {first.x, last.y}});
 }
 
 void add_box(mesh& target, const placement& where)

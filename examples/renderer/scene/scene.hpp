@@ -1,4 +1,4 @@
-// A scene is a list of triangle meshes, each of one albedo. y points up; units are arbitrary.
+// A scene is a list of triangle meshes, each of one albedo and opaque or translucent. y points up; units are arbitrary.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -20,6 +20,17 @@ struct mesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;    // one per position, or none: then the triangles' own normals are shaded
     std::vector<glm::uvec3> triangles; // counter-clockwise when seen from outside
+
+    // The share of red, green and blue light that a surface stops. Each triangle is a surface: a box stops light twice.
+    glm::vec3 opacity{1};
+    std::vector<glm::vec2> texture_coordinates{}; // one per position, or none
+    float (*alpha)(const glm::vec2&) = nullptr;   // factor of the opacity in [0, 1], over the texture coordinates
+
+    // True if all light is stopped everywhere.
+    bool opaque() const;
+
+    // The opacity in [0, 1] at a point of a triangle, by weights of its corners.
+    glm::vec3 opacity_at(std::uint32_t triangle, const glm::vec3& weights) const;
 };
 
 struct scene {
@@ -41,6 +52,10 @@ struct bounds {
 
 bounds bounds_of(const scene& world);
 
+// The meshes that are opaque, and those that are not. The other ones lose their triangles, so that indices stay.
+scene opaque_part(const scene& world);
+scene translucent_part(const scene& world);
+
 // The place of a solid: its centre, and its three axes as columns, each as long as half of the solid.
 struct placement {
     glm::vec3 centre{0};
@@ -53,6 +68,10 @@ placement upright(const glm::vec3& centre, const glm::vec3& size, float angle = 
 // Builders append to a mesh, so that many parts can share one albedo.
 void add_quad(mesh& target, const glm::vec3& corner, const glm::vec3& edge_u, const glm::vec3& edge_v);
 void add_box(mesh& target, const placement& where);
+
+// A quad whose texture coordinates go from `first` at the corner to `last` at the opposite one.
+void add_textured_quad(mesh& target, const glm::vec3& corner, const glm::vec3& edge_u, const glm::vec3& edge_v,
+                       const glm::vec2& first, const glm::vec2& last);
 
 // Extrudes a convex, counter-clockwise outline in [-1, 1]^2, which spans the first two half axes, along the third.
 void add_prism(mesh& target, std::span<const glm::vec2> outline, const placement& where);

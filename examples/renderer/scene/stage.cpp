@@ -134,6 +134,7 @@ stage model_stage(scene model, double aspect)
     stage result{std::move(model), {}, {}, {}};
     const std::vector<glm::vec3> of_interest = casters_and_shadows(casters, light_direction);
     result.light = orthographic_view(of_interest, light_direction);
+    result.light_size = glm::dvec2(0.06);
     const camera framed = perspective_view(of_interest, {-0.5, -0.55, -1}, field_of_view, aspect);
     result.eye = perspective_view_from(framed.position, framed.position + framed.forward,
                                        bounds_of(result.world).corners(), field_of_view, aspect);

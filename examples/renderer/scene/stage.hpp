@@ -1,6 +1,7 @@
 // A stage: a scene, a camera, a light, and the places to look at closely.
 #pragma once
 
+#include "area_light.hpp"
 #include "camera.hpp"
 #include "renderer/output/image.hpp"
 #include "scene.hpp"
@@ -23,6 +24,9 @@ struct stage {
     scene world;
     camera eye, light;
     std::vector<point_of_interest> interests;
+    glm::dvec2 light_size{0}; // of the area light around the light, 0 if the stage is made for hard shadows
+
+    area_light area() const { return {light, light_size}; }
 };
 
 // The square of size x size pixels that the camera sees around a point.
@@ -40,7 +44,7 @@ stage fence_stage(double aspect);
 inline constexpr std::array contact_gaps{0.01, 0.02, 0.03};
 stage contact_stage(double aspect);
 
-// A model of unit size (see model.hpp) on a ground plane, camera and light framed by its bounds.
+// A model of unit size (see model.hpp) on a ground plane, camera and area light framed by its bounds.
 stage model_stage(scene model, double aspect);
 
 } // namespace gnomon::renderer

@@ -13,9 +13,14 @@ bool faces_light(const camera& light, const surface& seen)
     return glm::dot(direction_towards(light, seen.position), glm::dvec3(seen.normal)) > 0;
 }
 
-glm::vec3 radiance(const glm::vec3& albedo, const glm::vec3& normal, float sunlight)
+glm::vec3 radiance(const glm::vec3& albedo, const glm::vec3& normal, const glm::vec3& sunlight)
 {
     return albedo * (glm::mix(daylight.earth, daylight.sky, 0.5f + 0.5f * normal.y) + sunlight * daylight.sun);
+}
+
+glm::vec3 radiance(const glm::vec3& albedo, const glm::vec3& normal, float sunlight)
+{
+    return radiance(albedo, normal, glm::vec3(sunlight));
 }
 
 picture shade(const scene& world, const camera& light, const image<surface>& seen, const image<float>& visibility)

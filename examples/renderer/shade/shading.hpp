@@ -19,6 +19,7 @@ inline constexpr illumination daylight;
 bool faces_light(const camera& light, const surface& seen);
 
 // Radiance of a matt surface; sunlight is the fraction of the sun's radiance at normal incidence that reaches it.
+glm::vec3 radiance(const glm::vec3& albedo, const glm::vec3& normal, const glm::vec3& sunlight);
 glm::vec3 radiance(const glm::vec3& albedo, const glm::vec3& normal, float sunlight);
 
 // The picture of the seen surfaces. Visibility attenuates the sun and not the sky.

@@ -7,9 +7,27 @@
 #include <embree4/rtcore.h>
 #endif
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
 namespace gnomon::renderer {
 
+// A point of a translucent triangle that a ray crosses, by the weights of its second and third corner.
+struct crossing {
+    std::uint32_t mesh, triangle;
+    float u, v;
+};
+
+// For each lane of a packet, in no order.
+using crossings = std::array<std::vector<crossing>, 16>;
+
 #if GNOMON_EMBREE == 3
+
+struct ray_query {
+    RTCIntersectContext context;
+    crossings* gathered;
+};
 
 inline RTCIntersectContext coherent()
 {
@@ -26,14 +44,20 @@ inline void intersect(const int* valid, RTCScene scene, RTCRayHit16& rays)
     rtcIntersect16(valid, scene, &context, &rays);
 }
 
-// Ends the coherent rays that meet something: tfar becomes -infinity.
-inline void occlude(const int* valid, RTCScene scene, RTCRay16& rays)
+// Ends the coherent rays that meet something: tfar becomes -infinity. If crossings are gathered, a ray's index is its
+// lane, and translucent triangles do not end it.
+inline void occlude(const int* valid, RTCScene scene, RTCRay16& rays, crossings* gathered)
 {
-    RTCIntersectContext context = coherent();
-    rtcOccluded16(valid, scene, &context, &rays);
+    ray_query query{coherent(), gathered};
+    rtcOccluded16(valid, scene, &query.context, &rays);
 }
 
 #else
+
+struct ray_query {
+    RTCRayQueryContext context;
+    crossings* gathered;
+};
 
 inline void intersect(const int* valid, RTCScene scene, RTCRayHit16& rays)
 {
@@ -43,14 +67,32 @@ inline void intersect(const int* valid, RTCScene scene, RTCRayHit16& rays)
     rtcIntersect16(valid, scene, &rays, &how);
 }
 
-inline void occlude(const int* valid, RTCScene scene, RTCRay16& rays)
+inline void occlude(const int* valid, RTCScene scene, RTCRay16& rays, crossings* gathered)
 {
+    ray_query query{{}, gathered};
+    rtcInitRayQueryContext(&query.context);
     RTCOccludedArguments how;
     rtcInitOccludedArguments(&how);
     how.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    how.context = &query.context;
     rtcOccluded16(valid, scene, &rays, &how);
 }
 
 #endif
+
+// The occlusion filter of translucent geometry: notes a crossing and lets the ray pass, if crossings are gathered.
+inline void gather(const RTCFilterFunctionNArguments* args)
+{
+    // The context is the first member of the query that occlude() has passed.
+    crossings* gathered = reinterpret_cast<const ray_query*>(args->context)->gathered;
+    if (!gathered) return;
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] != -1) continue;
+        (*gathered)[RTCRayN_id(args->ray, args->N, i)].push_back(
+            {RTCHitN_geomID(args->hit, args->N, i), RTCHitN_primID(args->hit, args->N, i),
+             RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)});
+        args->valid[i] = 0;
+    }
+}
 
 } // namespace gnomon::renderer

@@ -1,12 +1,5 @@
-#include "tracer.hpp"
+#include "tracer_state.hpp"
 
-#include "embree.hpp"
-#include "ray_packet.hpp"
-#include "renderer/shade/shading.hpp"
-
-#include <fmt/format.h>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -23,13 +16,6 @@ namespace {
 // Float positions within the bounds are exact to 6e-8 of the diagonal, Embree's intersections to a few times that.
 constexpr float relative_offset = 2e-6f;
 
-struct release {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-
-template <class T> using owned = std::unique_ptr<std::remove_pointer_t<T>, release>;
-
 template <class T>
 void upload(RTCGeometry geometry, RTCBufferType type, unsigned slot, RTCFormat format, const std::vector<T>& values)
 {
@@ -45,121 +31,13 @@ moving_scene at_rest(const scene& world)
     return result;
 }
 
-glm::vec3 unit(const glm::vec3& v)
-{
-    const float length = glm::length(v);
-    return length > 0 ? v / length : v;
-}
-
 receiver between(const receiver_motion& moving, float t)
 {
     return {glm::mix(moving.open.position, moving.closing.position, t),
             unit(glm::mix(moving.open.normal, moving.closing.normal, t))};
 }
 
-struct corners {
-    std::array<glm::vec3, 3> at;
-
-    glm::vec3 inside(const glm::vec3& weights) const
-    {
-        return weights.x * at[0] + weights.y * at[1] + weights.z * at[2];
-    }
-    glm::vec3 normal() const
-    {
-        return unit(
-            glm::vec3(glm::cross(glm::dvec3(at[1]) - glm::dvec3(at[0]), glm::dvec3(at[2]) - glm::dvec3(at[0]))));
-    }
-};
-
-void check_samples(int samples)
-{
-    if (samples < 1) throw std::invalid_argument(fmt::format("tracer: {} times, at least one expected", samples));
-}
-
-void check_room(std::size_t receivers, std::size_t results)
-{
-    if (receivers != results)
-        throw std::invalid_argument(fmt::format("tracer: {} receivers, room for {} results", receivers, results));
-}
-
 } // namespace
-
-struct tracer::state {
-    moving_scene world;
-    std::vector<bool> moves;
-    std::vector<bounds> swept; // all places of each mesh that moves
-    owned<RTCDevice> device{rtcNewDevice(nullptr)};
-    owned<RTCScene> scene;
-    float offset = 0;
-
-    // A spot light's ray is the segment up to the light, a directional one has no end.
-    segment to_light(const receiver& from, const moving_camera& light, float time) const
-    {
-        const glm::vec3 origin = from.position + offset * from.normal;
-        if (!light.open.perspective()) return {origin, glm::vec3(-light.open.forward), endless};
-        const glm::dvec3 place = light.open.position + static_cast<double>(time) * light.motion;
-        return {origin, glm::vec3(place - glm::dvec3(origin)), 1};
-    }
-
-    // The cosine between the receiver's normal and the direction to the light.
-    float aim(RTCRay16& rays, int lane, const receiver& from, const moving_camera& light, float time) const
-    {
-        const segment ray = to_light(from, light, time);
-        set_ray(rays, lane, ray, time);
-        return glm::dot(from.normal, unit(ray.direction));
-    }
-
-    // True if no moving mesh comes near the ray: then the ray meets the same point at all times. Boxes are farther away
-    // than the rounding of the test.
-    bool always_alike(const segment& ray) const
-    {
-        return std::ranges::none_of(swept, [&](const bounds& box) { return crosses(ray, box, 10 * offset); });
-    }
-
-    bool always_alike(const receiver& from, const moving_camera& light) const
-    {
-        return light.motion == glm::dvec3(0) && always_alike(to_light(from, light, 0));
-    }
-
-    // Ends the rays of a packet that meet something: tfar becomes -infinity.
-    void trace(const mask& valid, RTCRay16& rays) const { occlude(valid.data(), scene.get(), rays); }
-
-    void look(const mask& valid, RTCRayHit16& rays) const { intersect(valid.data(), scene.get(), rays); }
-
-    glm::vec3 colour(const hit& seen, float sunlight) const
-    {
-        if (!seen.valid()) return daylight.background;
-        return radiance(world.open.meshes[static_cast<std::size_t>(seen.mesh)].albedo, seen.normal, sunlight);
-    }
-
-    corners triangle(std::size_t mesh, std::uint32_t index, float time) const
-    {
-        const auto& part = world.open.meshes[mesh];
-        const glm::uvec3 t = part.triangles[index];
-        corners result;
-        for (int i = 0; i < 3; ++i) {
-            const glm::vec3& open = part.positions[t[i]];
-            result.at[static_cast<std::size_t>(i)] =
-                moves[mesh] ? glm::mix(open, world.closing[mesh][t[i]], time) : open;
-        }
-        return result;
-    }
-
-    // The first point that a ray of a packet has met in this direction.
-    hit met(const RTCRayHit16& rays, int lane, const glm::dvec3& direction) const
-    {
-        hit result;
-        if (rays.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) return result;
-        const float u = rays.hit.u[lane], v = rays.hit.v[lane];
-        const corners at = triangle(rays.hit.geomID[lane], rays.hit.primID[lane], rays.ray.time[lane]);
-        result.mesh = static_cast<int>(rays.hit.geomID[lane]), result.triangle = rays.hit.primID[lane];
-        result.weights = {1 - u - v, u, v};
-        result.position = at.inside(result.weights);
-        result.normal = at.normal();
-        if (glm::dot(glm::dvec3(result.normal), direction) > 0) result.normal = -result.normal;
-        return result;
-    }
-};
 
 tracer::tracer(const renderer::scene& world) : tracer(at_rest(world)) {}
 
@@ -179,6 +57,7 @@ tracer::tracer(moving_scene world) : state_(std::make_unique<state>())
         upload(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, part.positions);
         if (all.moves(m)) upload(geometry, RTC_BUFFER_TYPE_VERTEX, 1, RTC_FORMAT_FLOAT3, all.closing[m]);
         upload(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, part.triangles);
+        if (!part.opaque()) rtcSetGeometryOccludedFilterFunction(geometry, gather);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(state_->scene.get(), geometry);
         rtcReleaseGeometry(geometry);
@@ -323,20 +202,6 @@ reference_picture tracer::photograph(const moving_camera& light, const camera& e
     tbb::parallel_for(0, height, [&](int y) {
         for (int x = 0; x < width; ++x) expose(x, y);
     });
-    return result;
-}
-
-image<float> traced_visibility(const tracer& rays, const camera& light, const image<surface>& seen)
-{
-    std::vector<receiver> receivers;
-    std::vector<std::size_t> pixels;
-    for (std::size_t i = 0; i < seen.pixels.size(); ++i)
-        if (const surface& s = seen.pixels[i]; s.valid())
-            receivers.push_back({s.position, s.normal}), pixels.push_back(i);
-    std::vector<float> visible(receivers.size());
-    rays.visibility(light, receivers, visible);
-    image<float> result(seen.width, seen.height, 1);
-    for (std::size_t i = 0; i < pixels.size(); ++i) result.pixels[pixels[i]] = visible[i];
     return result;
 }
 

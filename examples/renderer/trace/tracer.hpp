@@ -1,11 +1,16 @@
-// The reference: hard shadows by ray tracing with Embree, of a static scene and while the shutter is open.
+// The reference by ray tracing with Embree: hard shadows of a static scene and while the shutter is open, the shadows of
+// lights with an area, and those of translucent meshes.
+//
+// Translucent meshes cast shadows like opaque ones, except where a function says otherwise.
 #pragma once
 
 #include "renderer/output/image.hpp"
 #include "renderer/raster/rasterizer.hpp"
+#include "renderer/scene/area_light.hpp"
 #include "renderer/scene/camera.hpp"
 #include "renderer/scene/moving_scene.hpp"
 #include "renderer/scene/scene.hpp"
+#include "renderer/shade/layers.hpp"
 
 #include <glm/vec3.hpp>
 
@@ -57,6 +62,21 @@ class tracer {
     // surface, so that it does not meet that surface again. Parallel over receivers.
     void visibility(const camera& light, std::span<const receiver> receivers, std::span<float> result) const;
 
+    // The share of red, green and blue light that reaches a receiver through translucent meshes: the product of
+    // 1 - opacity over all crossings of its ray, 0 behind an opaque mesh. A crossing at an edge that two triangles share is
+    // one. Parallel over receivers.
+    void transmittance(const camera& light, std::span<const receiver> receivers, std::span<glm::vec3> result) const;
+
+    // The fraction of an area light that a receiver sees, by rays to `samples` places of the light, stratified; those of a
+    // receiver depend on its index alone. The part of the light below the plane of a receiver is not seen. Parallel over
+    // receivers.
+    void visibility(const area_light& light, std::span<const receiver> receivers, int samples,
+                    std::span<float> result) const;
+
+    // The same with translucent meshes: the mean transmittance of the rays.
+    void transmittance(const area_light& light, std::span<const receiver> receivers, int samples,
+                       std::span<glm::vec3> result) const;
+
     // The visibility of each receiver at a time of its own, in [0, 1].
     void visibility(const moving_camera& light, std::span<const receiver> receivers, std::span<const float> times,
                     std::span<float> result) const;
@@ -89,5 +109,11 @@ class tracer {
 
 // The visibility of each pixel's surface; 1 for the background.
 image<float> traced_visibility(const tracer& rays, const camera& light, const image<surface>& seen);
+
+// The visibility of each pixel's surface by rays to an area light.
+image<float> traced_visibility(const tracer& rays, const area_light& light, const image<surface>& seen, int samples);
+
+// The transmittance at each surface. At translucent ones the rays start on the side of the light.
+layer_visibility traced_transmittance(const tracer& rays, const camera& light, const surface_layers& seen);
 
 } // namespace gnomon::renderer

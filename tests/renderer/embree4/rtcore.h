@@ -9,11 +9,17 @@ struct RTCIntersectArguments {
     RTCRayQueryFlags flags;
 };
 
+struct RTCRayQueryContext {
+    unsigned instID;
+};
+
 struct RTCOccludedArguments {
     RTCRayQueryFlags flags;
+    RTCRayQueryContext* context;
 };
 
 void rtcInitIntersectArguments(RTCIntersectArguments* args);
+void rtcInitRayQueryContext(RTCRayQueryContext* context);
 void rtcInitOccludedArguments(RTCOccludedArguments* args);
 void rtcIntersect16(const int* valid, RTCScene scene, RTCRayHit16* rayhit, RTCIntersectArguments* args = nullptr);
 void rtcOccluded16(const int* valid, RTCScene scene, RTCRay16* ray, RTCOccludedArguments* args = nullptr);
