@@ -30,7 +30,7 @@ glm::dvec3 transmitted(const scene& world, const std::vector<crossing>& ray)
     struct shared {
         std::uint32_t mesh;
         glm::uvec3 corners;
-        bool operator==(const shared&) const = default;
+        bool operator==(const shared& other) const { return mesh == other.mesh && corners == other.corners; }
     };
     glm::dvec3 result(1);
     std::vector<shared> edges;
