@@ -44,6 +44,8 @@
 #include "motion/triangle/edge_widening.h"
 #include "motion/triangle/moving_triangle.h"
 #include "motion/triangle/triangle_setup.h"
+#include "soft/depth_interval.h"
+#include "soft/fusion.h"
 #include "storage/convolution.h"
 #include "storage/exponential.h"
 #include "storage/exponential_variance.h"

@@ -6022,6 +6022,111 @@ static inline gnomon_edge_equation edge_equation_widen(gnomon_edge_equation f, f
 
 #endif
 
+// soft/depth_interval.h -----------------------------------------------------------------------------------------------
+// Shadow of a receiver that the least and the greatest depth of its search region decide (passes/depth_pyramid.hpp).
+//
+// All filter regions of a soft shadow lie in its search region. Where no depth of the search region is before the
+// receiver, none of a filter region is: the receiver is lit. Where all depths are before the receiver after its bias,
+// all of a filter region are: the receiver is in the umbra. Both equal exact percentage-closer soft shadows. Moments
+// alone cannot say so: a mean blocker depth does not tell whether there is a blocker (Peters et al. 2017, Sec. 4.5).
+#ifndef GNOMON_SOFT_DEPTH_INTERVAL_H
+#define GNOMON_SOFT_DEPTH_INTERVAL_H
+
+/// The shadow intensity, 0 or 1, where decided is 1. Where decided is 0 the depths leave the intensity open, and it is
+/// 0.
+typedef struct gnomon_decided_shadow gnomon_decided_shadow;
+struct gnomon_decided_shadow { float intensity, decided; };
+
+/// The shadow of a receiver at z_f from the least and the greatest depth of its search region. bias is the most that a
+/// filter moves the receiver towards the light. Both members are 0 or 1.
+/// Domain: any z_f, limited to [-1, 1]; least <= greatest, else open; a negative bias counts for nothing.
+/// NaN: open.
+/// Source: Peters 2017, Sec. 4.5
+static inline gnomon_decided_shadow depth_interval_shadow(float least, float greatest, float z_f, float bias)
+{
+    float z = clamp_or_nan(z_f, -1.0f, 1.0f);
+    bool ordered = least <= greatest;
+    bool umbra = ordered && (bias <= bias) && (greatest < z - gnomon_max(0.0f, bias));
+    bool lit = ordered && (z <= least);
+    gnomon_decided_shadow r;
+    r.intensity = gnomon_select(umbra, 1.0f, 0.0f);
+    r.decided = gnomon_select(umbra || lit, 1.0f, 0.0f);
+    return r;
+}
+
+#endif
+
+// soft/fusion.h -------------------------------------------------------------------------------------------------------
+// Soft shadows of two occluders, one behind the other, of which each has a penumbra of its own. A single mean blocker
+// depth gives both the same width, so that the contact of the one is as soft as that of the other (Peters et al. 2017,
+// Fig. 10).
+//
+// The canonical distribution of the search region with a node at z_f (hamburger4.h) has two other nodes. Where both are
+// before z_f they are the two occluders, first and second:
+//     between  the middle of their depths
+//     k1, k2   filter regions of the penumbrae of the first and of the second occluder (penumbra.h)
+//     I1       intensity of k1 at between: the share of the light that the first occluder blocks
+//     c        intensity of k2 at between: the share of k2 that the first occluder covers
+//     I2       intensity of k2 at z_f: the share that either covers
+// Of the part of k2 that the first occluder leaves, the second covers (I2 - c) / (1 - c). Both block light
+// independently of one another, so the visibility is (1 - I1) (1 - (I2 - c) / (1 - c)). It is 1 - I2 where the
+// occluders coincide, and where the first one is missing.
+//
+// Costs beside those of one occluder: one root for the nodes, a second filter region and two more intensities, only
+// where fusion_occluders found two.
+#ifndef GNOMON_SOFT_FUSION_H
+#define GNOMON_SOFT_FUSION_H
+
+__constant float fusion_least_epsilon = 7.8886090522101181e-31f; // 2^-100, which keeps quotients finite
+
+/// The depths of two occluders, first <= second, and the depth between that parts them. A between of -1 says that there
+/// is one occluder, the second, or none.
+typedef struct gnomon_occluder_pair gnomon_occluder_pair;
+struct gnomon_occluder_pair { float first, second, between; };
+
+/// The depth of an occluder at depth z with a weight, in [-1, z_f]: near z_f where the weight is not far above epsilon.
+static inline float gnomon_fusion_depth(float z, float weight, float z_f, float epsilon)
+{
+    float distance = gnomon_max(0.0f, z_f - z);
+    distance = distance * (weight / (weight + epsilon));
+    return gnomon_max(-1.0f, z_f - distance);
+}
+
+/// The two occluders before z_f in a search region, from the canonical distribution d with depth0 = z_f. Each is moved
+/// towards z_f as epsilon / weight grows, like the mean blocker depth of blocker.h. One occluder is the second, and
+/// first equals second.
+/// Domain: epsilon above 0; 1e-3 suits moments that are stored in 32 bits a channel.
+/// NaN: no occluder, both at the depth of the receiver.
+static inline gnomon_occluder_pair fusion_occluders(gnomon_distribution3 d, float epsilon)
+{
+    float z_f = clamp_or_high(d.depth0, -1.0f, 1.0f);
+    float z1 = clamp_or_high(d.depth1, -1.0f, z_f);
+    float z2 = clamp_or_high(d.depth2, -1.0f, z_f);
+    float e = gnomon_max(epsilon, fusion_least_epsilon);
+    bool two = d.depth1 < d.depth2 && d.depth2 < z_f;
+    float first = gnomon_fusion_depth(z1, saturate_or_zero(d.weight1), z_f, e);
+    float second = gnomon_fusion_depth(z2, saturate_or_zero(d.weight2), z_f, e);
+    gnomon_occluder_pair r;
+    r.second = gnomon_select(two, second, first);
+    r.first = gnomon_min(first, r.second);
+    r.between = gnomon_select(two, 0.5f * (z1 + z2), -1.0f);
+    return r;
+}
+
+/// Shadow intensity in [0, 1] of two occluders: blocked is I1, covered is c and either is I2 of the first comment of
+/// this file. With covered 0 and blocked 0 it is either.
+/// Domain: each in [0, 1], clamped.
+/// NaN: counts as 0, lit.
+static inline float fusion_intensity(float blocked, float covered, float either)
+{
+    float one = saturate_or_zero(blocked);
+    float c = saturate_or_zero(covered);
+    float two = saturate_or_zero((saturate_or_zero(either) - c) / (1.0f - c));
+    return saturate_or_zero(one + (1.0f - one) * two);
+}
+
+#endif
+
 // storage/convolution.h -----------------------------------------------------------------------------------------------
 // Convolution shadow maps in a storage format: from a depth to the channels of a texel, and from filtered channels to a
 // shadow, with the settings of the format.

@@ -7030,6 +7030,121 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif
 
+// soft/depth_interval.h -----------------------------------------------------------------------------------------------
+// Shadow of a receiver that the least and the greatest depth of its search region decide (passes/depth_pyramid.hpp).
+//
+// All filter regions of a soft shadow lie in its search region. Where no depth of the search region is before the
+// receiver, none of a filter region is: the receiver is lit. Where all depths are before the receiver after its bias,
+// all of a filter region are: the receiver is in the umbra. Both equal exact percentage-closer soft shadows. Moments
+// alone cannot say so: a mean blocker depth does not tell whether there is a blocker (Peters et al. 2017, Sec. 4.5).
+#ifndef GNOMON_SOFT_DEPTH_INTERVAL_H
+#define GNOMON_SOFT_DEPTH_INTERVAL_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The shadow intensity, 0 or 1, where decided is 1. Where decided is 0 the depths leave the intensity open, and it is
+/// 0.
+template <class Real, class = require_real<Real>> struct decided_shadow { Real intensity, decided; };
+
+/// The shadow of a receiver at z_f from the least and the greatest depth of its search region. bias is the most that a
+/// filter moves the receiver towards the light. Both members are 0 or 1.
+/// Domain: any z_f, limited to [-1, 1]; least <= greatest, else open; a negative bias counts for nothing.
+/// NaN: open.
+/// Source: Peters 2017, Sec. 4.5
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr decided_shadow<Real> depth_interval_shadow(Real least, Real greatest, Real z_f, Real bias)
+{
+    Real z = clamp_or_nan(z_f, Real(-1), Real(1));
+    mask_t<Real> ordered = least <= greatest;
+    mask_t<Real> umbra = ordered && (bias <= bias) && (greatest < z - gnomon_max(Real(0), bias));
+    mask_t<Real> lit = ordered && (z <= least);
+    decided_shadow<Real> r;
+    r.intensity = gnomon_select(umbra, Real(1), Real(0));
+    r.decided = gnomon_select(umbra || lit, Real(1), Real(0));
+    return r;
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// soft/fusion.h -------------------------------------------------------------------------------------------------------
+// Soft shadows of two occluders, one behind the other, of which each has a penumbra of its own. A single mean blocker
+// depth gives both the same width, so that the contact of the one is as soft as that of the other (Peters et al. 2017,
+// Fig. 10).
+//
+// The canonical distribution of the search region with a node at z_f (hamburger4.h) has two other nodes. Where both are
+// before z_f they are the two occluders, first and second:
+//     between  the middle of their depths
+//     k1, k2   filter regions of the penumbrae of the first and of the second occluder (penumbra.h)
+//     I1       intensity of k1 at between: the share of the light that the first occluder blocks
+//     c        intensity of k2 at between: the share of k2 that the first occluder covers
+//     I2       intensity of k2 at z_f: the share that either covers
+// Of the part of k2 that the first occluder leaves, the second covers (I2 - c) / (1 - c). Both block light
+// independently of one another, so the visibility is (1 - I1) (1 - (I2 - c) / (1 - c)). It is 1 - I2 where the
+// occluders coincide, and where the first one is missing.
+//
+// Costs beside those of one occluder: one root for the nodes, a second filter region and two more intensities, only
+// where fusion_occluders found two.
+#ifndef GNOMON_SOFT_FUSION_H
+#define GNOMON_SOFT_FUSION_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+inline constexpr double fusion_least_epsilon = 7.8886090522101181e-31; // 2^-100, which keeps quotients finite
+
+/// The depths of two occluders, first <= second, and the depth between that parts them. A between of -1 says that there
+/// is one occluder, the second, or none.
+template <class Real, class = require_real<Real>> struct occluder_pair { Real first, second, between; };
+
+/// The depth of an occluder at depth z with a weight, in [-1, z_f]: near z_f where the weight is not far above epsilon.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real fusion_depth(Real z, Real weight, Real z_f, std::type_identity_t<Real> epsilon)
+{
+    Real distance = gnomon_max(Real(0), z_f - z);
+    distance = distance * (weight / (weight + epsilon));
+    return gnomon_max(Real(-1), z_f - distance);
+}
+
+/// The two occluders before z_f in a search region, from the canonical distribution d with depth0 = z_f. Each is moved
+/// towards z_f as epsilon / weight grows, like the mean blocker depth of blocker.h. One occluder is the second, and
+/// first equals second.
+/// Domain: epsilon above 0; 1e-3 suits moments that are stored in 32 bits a channel.
+/// NaN: no occluder, both at the depth of the receiver.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr occluder_pair<Real> fusion_occluders(distribution3<Real> d, std::type_identity_t<Real> epsilon)
+{
+    Real z_f = clamp_or_high(d.depth0, Real(-1), Real(1));
+    Real z1 = clamp_or_high(d.depth1, Real(-1), z_f);
+    Real z2 = clamp_or_high(d.depth2, Real(-1), z_f);
+    Real e = gnomon_max(epsilon, literal<Real>(fusion_least_epsilon));
+    mask_t<Real> two = d.depth1 < d.depth2 && d.depth2 < z_f;
+    Real first = fusion_depth(z1, saturate_or_zero(d.weight1), z_f, e);
+    Real second = fusion_depth(z2, saturate_or_zero(d.weight2), z_f, e);
+    occluder_pair<Real> r;
+    r.second = gnomon_select(two, second, first);
+    r.first = gnomon_min(first, r.second);
+    r.between = gnomon_select(two, Real(0.5) * (z1 + z2), Real(-1));
+    return r;
+}
+
+/// Shadow intensity in [0, 1] of two occluders: blocked is I1, covered is c and either is I2 of the first comment of
+/// this file. With covered 0 and blocked 0 it is either.
+/// Domain: each in [0, 1], clamped.
+/// NaN: counts as 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real fusion_intensity(Real blocked, Real covered, Real either)
+{
+    Real one = saturate_or_zero(blocked);
+    Real c = saturate_or_zero(covered);
+    Real two = saturate_or_zero((saturate_or_zero(either) - c) / (Real(1) - c));
+    return saturate_or_zero(one + (Real(1) - one) * two);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
 // storage/convolution.h -----------------------------------------------------------------------------------------------
 // Convolution shadow maps in a storage format: from a depth to the channels of a texel, and from filtered channels to a
 // shadow, with the settings of the format.

@@ -110,6 +110,19 @@ TEST_CASE_TEMPLATE("no pass allocates", Format, gnomon::exponential_variance_hal
     CHECK(behind >= 0);
 }
 
+TEST_CASE("no pass of soft shadows allocates")
+{
+    using namespace gnomon;
+    std::array<float, 40 * 9> depths{};
+    std::array<depth_interval, depth_pyramid_blocks(40, 9)> blocks{};
+    const depth_pyramid_view<depth_interval> pyramid{blocks, 40, 9};
+    const long before = allocations;
+    build_depth_pyramid<float>({depths, 40, 9}, pyramid);
+    const depth_interval interval = depth_interval_in(pyramid, 1, 2, 33, 4);
+    CHECK(allocations == before);
+    CHECK(interval.greatest == 0);
+}
+
 TEST_CASE("no pass over ranges allocates")
 {
     using namespace gnomon;

@@ -5,6 +5,7 @@
 #include "prisms.hpp"
 #include "situations.hpp"
 
+#include <gnomon/moments/hamburger4.h>
 #include <gnomon/storage/convolution.h>
 #include <gnomon/storage/exponential.h>
 #include <gnomon/storage/layered_variance.h>
@@ -89,6 +90,10 @@ inline constexpr input_family<T> input_families[] = {
      }},
     {"hankel4", 4, [](auto put, const situation& s, bit_source& bits) { put(any_hankel4<T>(s, bits)); }},
     {"hankel6", 8, [](auto put, const situation& s, bit_source& bits) { put(any_hankel6<T>(s, bits)); }},
+    {"distribution3", 6,
+     [](auto put, const situation& s, bit_source& bits) {
+         put(hamburger4_distribution(any_hankel4<T>(s, bits), T(s.receiver)));
+     }},
     {"bounds", 3,
      [](auto put, const situation&, bit_source& bits) {
          const double lower = bits.uniform(0, 1), weight = bits.uniform(0, 1 - lower);

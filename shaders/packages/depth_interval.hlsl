@@ -1,0 +1,105 @@
+// Gnomon 0.1.0, depth_interval.hlsl: shadow filtering in HLSL, this file alone.
+// Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
+// Written by shaders/package.py from the kernels in include/gnomon: change them there.
+#ifndef GNOMON_DEPTH_INTERVAL_HLSL
+#define GNOMON_DEPTH_INTERVAL_HLSL
+
+// the language --------------------------------------------------------------------------------------------------------
+// HLSL without templates, for old front ends too.
+// Compile with strict IEEE arithmetic (/Gis) for the same bits as on the CPU. Exact products are exact in any case.
+#if defined(GL_ES) || defined(__METAL_VERSION__) || defined(__OPENCL_C_VERSION__)
+#error "gnomon: depth_interval.hlsl is HLSL; another language's compiler reads it"
+#elif defined(GNOMON_PORTABLE_H)
+#error "gnomon: depth_interval.hlsl and the headers of include/gnomon exclude one another"
+#elif defined(GNOMON_PACKAGE) && GNOMON_PACKAGE != 100
+#error "gnomon: depth_interval.hlsl is not of the same version as a package before it"
+#endif
+#define GNOMON_PACKAGE 100 // major, minor and patch, two digits each
+
+#ifndef GNOMON_PORTABLE_HLSL_H
+#define GNOMON_PORTABLE_HLSL_H
+
+static const float gnomon_pivot_floor = 9.31322574615478515625e-10; // 2^-30
+
+float gnomon_select(bool mask, float a, float b) { return mask ? a : b; }
+bool gnomon_any(bool mask) { return mask; }
+float gnomon_abs(float a) { return abs(a); }
+float gnomon_sqrt(float a) { return sqrt(a); }
+
+// x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
+// bits of NaN are above the bound, which is one.
+float gnomon_kept(float x) { return asfloat(min(asint(x), 0x7FC00000)); }
+float gnomon_apart(float x) { return asfloat(min(asuint(x), 0xFFC00000u)); }
+// A compiler that knew both operands would write min() and max(), which lose a NaN. gnomon_kept would not hide an operand
+// that is kept already, since two minima of integers become one; gnomon_apart is another one.
+float gnomon_min(float a, float b) { return gnomon_select(a < b, a, gnomon_apart(b)); }
+float gnomon_max(float a, float b) { return gnomon_select(b < a, a, gnomon_apart(b)); }
+float gnomon_product(float a, float b) { return gnomon_kept(a * b); }
+float gnomon_sum(float a, float b) { return gnomon_kept(a + b); }
+float gnomon_difference(float a, float b) { return gnomon_kept(a - b); }
+// By integers, so that a NaN becomes 0 where a compiler assumes that there is none.
+float gnomon_saturate(float x)
+{
+    int bits = asint(x);
+    return gnomon_select(bits > 0x7F800000, 0.0, asfloat(min(max(bits, 0), 0x3F800000)));
+}
+// a without the low half of its significand.
+float gnomon_high_part(float a) { return asfloat(asuint(a) & 0xFFFFF000u); }
+// The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
+float gnomon_power_of_two(float n) { return asfloat((asuint(n + 12582912.0) << 23u) + 0x3F800000u); }
+
+#endif
+
+// numerics/select.h ---------------------------------------------------------------------------------------------------
+// Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
+#ifndef GNOMON_NUMERICS_SELECT_H
+#define GNOMON_NUMERICS_SELECT_H
+
+/// x clamped to [low, high].
+/// NaN: stays NaN, so that the last step of a kernel can answer it.
+float clamp_or_nan(float x, float low, float high) { return gnomon_min(high, gnomon_max(low, x)); }
+
+/// x clamped to [low, high].
+/// NaN: high.
+float clamp_or_high(float x, float low, float high) { return gnomon_max(low, gnomon_min(x, high)); }
+
+/// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
+/// NaN: 0, lit.
+float saturate_or_zero(float x) { return gnomon_saturate(x); }
+
+#endif
+
+// soft/depth_interval.h -----------------------------------------------------------------------------------------------
+// Shadow of a receiver that the least and the greatest depth of its search region decide (passes/depth_pyramid.hpp).
+//
+// All filter regions of a soft shadow lie in its search region. Where no depth of the search region is before the
+// receiver, none of a filter region is: the receiver is lit. Where all depths are before the receiver after its bias,
+// all of a filter region are: the receiver is in the umbra. Both equal exact percentage-closer soft shadows. Moments
+// alone cannot say so: a mean blocker depth does not tell whether there is a blocker (Peters et al. 2017, Sec. 4.5).
+#ifndef GNOMON_SOFT_DEPTH_INTERVAL_H
+#define GNOMON_SOFT_DEPTH_INTERVAL_H
+
+/// The shadow intensity, 0 or 1, where decided is 1. Where decided is 0 the depths leave the intensity open, and it is
+/// 0.
+struct gnomon_decided_shadow { float intensity, decided; };
+
+/// The shadow of a receiver at z_f from the least and the greatest depth of its search region. bias is the most that a
+/// filter moves the receiver towards the light. Both members are 0 or 1.
+/// Domain: any z_f, limited to [-1, 1]; least <= greatest, else open; a negative bias counts for nothing.
+/// NaN: open.
+/// Source: Peters 2017, Sec. 4.5
+gnomon_decided_shadow depth_interval_shadow(float least, float greatest, float z_f, float bias)
+{
+    float z = clamp_or_nan(z_f, -1.0, 1.0);
+    bool ordered = least <= greatest;
+    bool umbra = ordered && (bias <= bias) && (greatest < z - gnomon_max(0.0, bias));
+    bool lit = ordered && (z <= least);
+    gnomon_decided_shadow r;
+    r.intensity = gnomon_select(umbra, 1.0, 0.0);
+    r.decided = gnomon_select(umbra || lit, 1.0, 0.0);
+    return r;
+}
+
+#endif
+
+#endif
