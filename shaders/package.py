@@ -37,8 +37,10 @@ ENDINGS = [*LANGUAGES, "wgsl"] # which is the GLSL, translated
 # headers' includes. A header below one of FOLDERS is a technique by itself, with its storage formats.
 TECHNIQUES = {
     "moments4": (["moments/quantization.h", "moments/affine.h", "storage/moments4.h", "storage/moments4_within.h",
-                  "moments/hamburger4.h"], "4"),
-    "moments6": (["moments/quantization.h", "moments/affine.h", "storage/moments6.h", "moments/hamburger6.h"], "6"),
+                  "storage/moments4_blended.h", "moments/hamburger4.h"], "4"),
+    "moments6": (["moments/quantization.h", "moments/affine.h", "storage/moments6.h", "storage/moments6_blended.h",
+                  "moments/hamburger6.h"], "6"),
+    "absorbance": (["moments/absorbance.h"], "4"),
     "two_point": (["moments/two_point.h"], ""),
     "depth": (["moments/depth.h"], ""),
 }
@@ -112,8 +114,9 @@ class Packager:
         self.starts = TECHNIQUES | {Path(name).stem: (self.with_storage(name), "") for name in names
                                     if Path(name).parts[0] in FOLDERS}
         self.techniques = {technique: (closure(self.headers, start), count) for technique, (start, count) in self.starts.items()}
-        counted = [headers for headers, count in self.techniques.values() if count]
-        self.shared = [header for header in counted[0] if all(header in headers for headers in counted)]
+        counts = {count for _, count in self.techniques.values() if count}
+        self.shared = [header for header in everything if all(any(count == c and header in headers for headers, c in
+                                                                  self.techniques.values()) for count in counts)]
         for header in everything:
             if not any(header in headers for headers, _ in self.techniques.values()):
                 raise DialectError(f"{self.root / header.name}: in no technique of package.py")

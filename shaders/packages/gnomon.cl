@@ -2725,113 +2725,7 @@ static inline float percentage_closer_end(percentage_closer state) { return satu
 
 #endif
 
-// moments/affine.h ----------------------------------------------------------------------------------------------------
-// Moments of depth in another range: a cascade, a cube face or a cached map with planes of its own. Signed depth in one
-// range is an affine function of signed depth in another, and so the moments of one follow from those of the other
-// (Peters et al. 2017, Eq. 2). Thus moments of two cascades can be mixed, and one reconstruction serves for both.
-//
-//     change = depth_change_from_planes(near_distance, far_distance, target_near, target_far);
-//     b = moments4_affine(b, change);                 moments of depths z are now moments of z scale + offset
-//
-// Change to a range that contains the other. Then |scale| + |offset| <= 1, depths stay in [-1, 1], and what rounding
-// did to moments does not grow: an error of at most e in every moment stays at most e. Towards a narrower range errors
-// grow by (|scale| + |offset|)^j, and depths leave [-1, 1]: convert the receiver's depth instead, which costs no
-// precision.
-//
-// Honest bounds need the error of raw moments, which for 4 x 16 UNORM is larger than that of channels: the constant
-// bias of affine4_unorm16_weight covers one rounding of each mixed map.
-#ifndef GNOMON_MOMENTS_AFFINE_H
-#define GNOMON_MOMENTS_AFFINE_H
-
-/// The function z scale + offset, from signed depth in one range to signed depth in another.
-typedef struct depth_change depth_change;
-struct depth_change { float scale, offset; };
-
-/// The change from signed depth between two planes, at near_distance and far_distance from the light, to signed depth
-/// between two others, at target_near and target_far. All distances are measured along the same axis, in any unit.
-/// Domain: near_distance < far_distance, target_near < target_far.
-/// NaN: NaN.
-/// Error: 8 2^-p of the largest distance over target_far - target_near.
-static inline depth_change depth_change_from_planes(float near_distance, float far_distance, float target_near,
-                                                    float target_far)
-{
-    float extent = target_far - target_near;
-    depth_change r;
-    r.scale = (far_distance - near_distance) / extent;
-    r.offset = ((near_distance - target_near) + (far_distance - target_far)) / extent;
-    return r;
-}
-
-/// Signed depth z in the other range.
-/// NaN: NaN.
-/// Error: two roundings.
-static inline float depth_affine(float z, depth_change change) { return z * change.scale + change.offset; }
-
-#endif
-
-// moments/affine.h, four moments --------------------------------------------------------------------------------------
-#ifndef GNOMON_MOMENTS_AFFINE_4
-#define GNOMON_MOMENTS_AFFINE_4
-
-// (1/3 + sqrt 3) / (2 65535) / r, where r = 0.17678 is the distance of the bias vector (0, 0.375, 0, 0.375) to the
-// boundary of the vectors of moments, and the error of theta4_inverse and moments4_affine in float.
-__constant float affine4_unorm16_weight = 9.6e-5f;
-
-/// The moments of z scale + offset, where b are the four moments of z.
-/// Domain: |scale| + |offset| <= 1 for the error.
-/// NaN: NaN.
-/// Error: 6 2^-p, absolute.
-/// Source: Peters 2017, Eq. 2
-static inline moments4 moments4_affine(moments4 b, depth_change change)
-{
-    float s = change.scale;
-    float o = change.offset;
-    float s2 = s * s;
-    float c1 = s * b.b1;
-    float c2 = s2 * b.b2;
-    float c3 = s2 * s * b.b3;
-    moments4 r;
-    r.b1 = c1 + o;
-    r.b2 = c2 + o * (2.0f * c1 + o);
-    r.b3 = c3 + o * (3.0f * c2 + o * (3.0f * c1 + o));
-    r.b4 = s2 * s2 * b.b4 + o * (4.0f * c3 + o * (6.0f * c2 + o * (4.0f * c1 + o)));
-    return r;
-}
-
-#endif
-
-// moments/affine.h, six moments ---------------------------------------------------------------------------------------
-#ifndef GNOMON_MOMENTS_AFFINE_6
-#define GNOMON_MOMENTS_AFFINE_6
-
-/// The moments of z scale + offset, where b are the six moments of z.
-/// Domain: |scale| + |offset| <= 1 for the error.
-/// NaN: NaN.
-/// Error: 9 2^-p, absolute.
-static inline moments6 moments6_affine(moments6 b, depth_change change)
-{
-    float s = change.scale;
-    float o = change.offset;
-    float s2 = s * s;
-    float c1 = s * b.b1;
-    float c2 = s2 * b.b2;
-    float c3 = s2 * s * b.b3;
-    float c4 = s2 * s2 * b.b4;
-    float c5 = s2 * s2 * s * b.b5;
-    moments6 r;
-    r.b1 = c1 + o;
-    r.b2 = c2 + o * (2.0f * c1 + o);
-    r.b3 = c3 + o * (3.0f * c2 + o * (3.0f * c1 + o));
-    r.b4 = c4 + o * (4.0f * c3 + o * (6.0f * c2 + o * (4.0f * c1 + o)));
-    r.b5 = c5 + o * (5.0f * c4 + o * (10.0f * c3 + o * (10.0f * c2 + o * (5.0f * c1 + o))));
-    r.b6 = s2 * s2 * s2 * b.b6 + o *
-           (6.0f * c5 + o * (15.0f * c4 + o * (20.0f * c3 + o * (15.0f * c2 + o * (6.0f * c1 + o)))));
-    return r;
-}
-
-#endif
-
-// moments/bias.h, four moments ----------------------------------------------------------------------------------------
+// moments/bias.h ------------------------------------------------------------------------------------------------------
 // Biasing: rounding in storage can turn moments into numbers that belong to no distribution, so they are moved inwards
 // (Peters et al. 2017, Sec. 2.5).
 //
@@ -2850,12 +2744,29 @@ static inline moments6 moments6_affine(moments6 b, depth_change change)
 //   kept apart      hankel4_constant_bias, the same mixture with 100 times less rounding error: for floats
 // Certificates (certified4.h) leak less than a constant bias and never darken a lit surface. A bias that depends on the
 // moments leaks less still, but darkens lit surfaces by up to 0.79 (docs/decisions/2-bias.md).
+#ifndef GNOMON_MOMENTS_BIAS_H
+#define GNOMON_MOMENTS_BIAS_H
+
+/// The weight of a constant bias for n roundings, n w / (1 - w + n w), where w is the weight for one: if w >= delta /
+/// (delta + r), the result is at least n delta / (n delta + r).
+/// Domain: w in [0, 1]; n >= 1, clamped. An infinite n gives NaN, lit.
+/// NaN: NaN, lit.
+/// Error: 4 2^-p, relative.
+static inline float bias_weight_of_roundings(float w, float n)
+{
+    float nw = gnomon_max(1.0f, n) * w;
+    return nw / ((1.0f - w) + nw);
+}
+
+#endif
+
+// moments/bias.h, four moments ----------------------------------------------------------------------------------------
 #ifndef GNOMON_MOMENTS_BIAS_4
 #define GNOMON_MOMENTS_BIAS_4
 
 // Four moments without transform: r = 0.10147; the paper's vector has 0.10090.
-__constant float gnomon_bias4_raw_b2 = 0.41397147664677789f;
-__constant float gnomon_bias4_raw_b4 = 0.41397147664677789f;
+__constant float bias4_raw_b2 = 0.41397147664677789f;
+__constant float bias4_raw_b4 = 0.41397147664677789f;
 __constant float bias4_raw_paper_b2 = 0.375f;
 __constant float bias4_raw_paper_b4 = 0.375f;
 
@@ -2914,6 +2825,32 @@ static inline moments6 moments6_add_bias(moments6 b, float bias2, float bias4, f
     b.b5 = keep * b.b5;
     b.b6 = keep * b.b6 + alpha * bias6;
     return b;
+}
+
+#endif
+
+// numerics/quadratic.h ------------------------------------------------------------------------------------------------
+// Roots of a x^2 + 2 b x + c without cancellation. The sum b + sign(b) sqrt(b^2 - a c) has terms of one sign and gives
+// one root; the product of the roots, c / a, gives the other.
+#ifndef GNOMON_NUMERICS_QUADRATIC_H
+#define GNOMON_NUMERICS_QUADRATIC_H
+
+/// The two roots, in no particular order.
+typedef struct gnomon_quadratic_result gnomon_quadratic_result;
+struct gnomon_quadratic_result { float first, second; };
+
+/// Both roots of a x^2 + 2 b x + c; for complex roots, their common real part twice. One root is infinite if a is 0.
+/// Domain: b^2 and a c neither overflow nor underflow.
+/// NaN: a NaN gives at least one NaN root; a = b = c = 0 gives two.
+/// Error: 4 ulp where a c <= b^2 / 2, by as many roundings.
+static inline gnomon_quadratic_result quadratic_roots(float a, float b, float c)
+{
+    float r = gnomon_sqrt(gnomon_max(b * b - a * c, 0.0f));
+    float t = gnomon_select(b > 0.0f, -(b + r), r - b);
+    gnomon_quadratic_result x;
+    x.first = t / a;
+    x.second = c / t;
+    return x;
 }
 
 #endif
@@ -3043,6 +2980,603 @@ static inline hankel4 hankel4_constant_bias(moments4 b, float bias2, float bias4
     gnomon_double_word l = gnomon_covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
     gnomon_double_word m = gnomon_covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
     return gnomon_hankel4_make(b.b1 + e.b1, v.high + v.low, l.high + l.low, gnomon_double_word_determinant(v, l, m));
+}
+
+#endif
+
+// moments/hamburger4.h ------------------------------------------------------------------------------------------------
+// Shadow intensity from four moments: sharp bounds on Z(z < z_f) over all depth distributions Z with these moments
+// (the Hamburger moment problem; Peters et al. 2017, Eq. 1 and Alg. 1), without solving for all nodes and weights.
+//
+// The Christoffel-Darboux kernel K(x, y) = sum_k P_k(x) P_k(y) / D_k of the factored Hankel matrix (hankel4.h)
+// gives the canonical distribution with a node at z_f: the other two nodes are the roots of K(z_f, .), and a node
+// at z has the weight w(z) = 1 / K(z, z). The number of nodes above z_f is the number of sign changes in
+// P_0(z_f), P_1(z_f), P_2(z_f):
+//     no node above:      lower = 1 - w_f
+//     both nodes above:   lower = 0
+//     one node above:     lower = w(smaller root)
+// and upper = lower + w_f. Let x = z - mean, u = z_f - mean, V = D_1, N = D_1 D_2, W = V N and
+// Q(x) = V P_2 = (V x - G) x - V^2. Then
+//     w(z) = W / (W + x^2 N + Q(x)^2)
+//     K(z_f, .) = 0:    a x^2 + 2 b x + c = 0,    a = Q V,    2 b = u N - Q G,    c = W - Q V^2,    Q = Q(u)
+// If one root lies on each side, Q < 0, so r^2 = b^2 - a c is a sum of positive terms. The two nodes beside z_f have
+// the weight E / (W + E) together, E = u^2 N + Q^2, and their mean balances z_f about the mean of all, which gives the
+// weight of the smaller one without its root:
+//     w(smaller root) = (E (r + b) - W u a) / (2 r (W + E))
+// The whole takes one division and one square root.
+#ifndef GNOMON_MOMENTS_HAMBURGER4_H
+#define GNOMON_MOMENTS_HAMBURGER4_H
+
+/// The canonical distribution: depth0 at the receiver and depth1 <= depth2. The weights are in [0, 1] and sum to 1.
+typedef struct gnomon_distribution3 gnomon_distribution3;
+struct gnomon_distribution3 { float depth0, depth1, depth2, weight0, weight1, weight2; };
+
+__constant float gnomon_hamburger4_scale = 72057594037927936.0f;     // 2^56
+__constant float gnomon_hamburger4_lower_scale = 281474976710656.0f; // 2^48
+
+/// The polynomial Q(x) = V P_2(mean + x).
+static inline float gnomon_hamburger4_q(hankel4 h, float x)
+{
+    return (h.variance * x - h.third) * x - h.variance * h.variance;
+}
+
+/// The weight of the node at mean + x, where q = Q(x).
+static inline float gnomon_hamburger4_weight(hankel4 h, float x, float q)
+{
+    float w = h.variance * h.determinant;
+    return w / (w + (x * x * h.determinant + q * q));
+}
+
+/// The quadratic a x^2 + 2 b x + c.
+typedef struct hamburger4_quadratic hamburger4_quadratic;
+struct hamburger4_quadratic { float a, b, c; };
+
+/// The quadratic whose roots x are the other two nodes minus the mean, for u = z_f - mean and q = Q(u).
+static inline hamburger4_quadratic gnomon_hamburger4_other_nodes(hankel4 h, float u, float q)
+{
+    // The power of two keeps the discriminant of a single depth, as small as 2^-139, from underflowing.
+    float n = h.determinant * gnomon_hamburger4_scale;
+    float s = q * gnomon_hamburger4_scale;
+    hamburger4_quadratic r;
+    r.a = s * h.variance;
+    r.b = 0.5f * (u * n - s * h.third);
+    r.c = h.variance * (n - r.a);
+    return r;
+}
+
+/// Lower bound and weight of the receiver as fractions: lower = share / total, w_f = receiver / whole.
+typedef struct hamburger4_fractions hamburger4_fractions;
+struct hamburger4_fractions { float share, total, receiver, whole; };
+
+/// Lower bound and weight of the receiver at z_f, clamped to [-1, 1], before division and clamping.
+static inline hamburger4_fractions gnomon_hamburger4_fractions_at(hankel4 h, float z_f)
+{
+    float u = clamp_or_nan(z_f, -1.0f, 1.0f) - h.mean;
+    float q = gnomon_hamburger4_q(h, u);
+    // The power of two is a factor of every term. The terms of a single depth would underflow otherwise.
+    float s = gnomon_hamburger4_lower_scale * q;
+    float n = gnomon_hamburger4_lower_scale * h.determinant;
+    float un = u * n;
+    float a = s * h.variance;
+    float b = 0.5f * (un - s * h.third);
+    float r = gnomon_sqrt(b * b - a * (h.variance * (n - a)));
+    float e = u * un + q * s;
+    hamburger4_fractions f;
+    f.receiver = h.variance * n;
+    f.whole = f.receiver + e;
+    bool between = q < 0.0f;
+    // Elsewhere u is never 0 and the quotient is e / whole with the sign of u: a negative lower bound is clamped to 0.
+    f.share = gnomon_select(between, e * (r + b) - f.receiver * (u * a), e * u);
+    f.total = gnomon_select(between, r + r, gnomon_abs(u)) * f.whole;
+    return f;
+}
+
+/// Lower bound on the shadow intensity at z_f, in [0, 1]. Surfaces should show this bound, since it never darkens
+/// a lit surface.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit, for a NaN in h or z_f.
+/// Error: against the moment problem solved in 120 digits (tests/moments/hamburger_oracle.cpp),
+///     error, double, no bias, three depths and more: p99 1e-13, p99.9 2e-12
+///     error, float, hankel4_constant_bias at 3e-7: p99 3e-5, p99.9 1e-4, max 5e-4
+/// and against the kernel in double, with maxima found by climbing (tests/moments/honest_four.cpp),
+///     error, float, hankel4_from_float: p99 3e-5, p99.9 1e-4, max 5e-4
+///     error, float, hankel4_from_float_filtered: p99 2e-5, p99.9 5e-5, max 1e-4
+///     error, float, hankel4_from_half: p99 3e-5, p99.9 1e-4, max 2e-3
+///     error, float, hankel4_from_half_filtered: p99 1e-5, p99.9 3e-5, max 3e-4
+///     error, float, hankel4_from_unorm16: p99 4e-4, p99.9 2e-3, max 5e-2
+///     error, float, hankel4_from_unorm16_filtered: p99 2e-4, p99.9 6e-4, max 4e-3
+/// Source: Peters 2017, Eq. 1; Peters 2017, Alg. 1
+static inline float hamburger4_lower(hankel4 h, float z_f)
+{
+    hamburger4_fractions f = gnomon_hamburger4_fractions_at(h, z_f);
+    return saturate_or_zero(f.share / f.total);
+}
+
+/// Both bounds on the shadow intensity at z_f and the weight of the receiver, for one division more than
+/// the lower bound.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit, for a NaN in h or z_f.
+/// Error: as for hamburger4_lower.
+/// Source: Peters 2017, Alg. 1; Peters 2017, Sec. 5.3
+static inline hamburger_bounds hamburger4_bounds(hankel4 h, float z_f)
+{
+    hamburger4_fractions f = gnomon_hamburger4_fractions_at(h, z_f);
+    hamburger_bounds r;
+    r.lower = saturate_or_zero(f.share / f.total);
+    r.weight = gnomon_min(saturate_or_zero(f.receiver / f.whole), 1.0f - r.lower);
+    r.upper = r.lower + r.weight;
+    return r;
+}
+
+/// The canonical distribution with a node at z_f. The other two depths are finite, at most 1024 from the mean, where a
+/// node that would be at infinity has no weight.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: a single depth at the far plane.
+/// Source: Peters 2017, Alg. 1
+static inline gnomon_distribution3 hamburger4_distribution(hankel4 h, float z_f)
+{
+    float z = clamp_or_nan(z_f, -1.0f, 1.0f);
+    float u = z - h.mean;
+    float q = gnomon_hamburger4_q(h, u);
+    hamburger4_quadratic p = gnomon_hamburger4_other_nodes(h, u, q);
+    gnomon_quadratic_result x = quadratic_roots(p.a, p.b, p.c);
+    float x1 = clamp_or_nan(x.first, -1024.0f, 1024.0f);
+    float x2 = clamp_or_nan(x.second, -1024.0f, 1024.0f);
+    float w0 = gnomon_hamburger4_weight(h, u, q);
+    float w1 = gnomon_hamburger4_weight(h, x1, gnomon_hamburger4_q(h, x1));
+    float w2 = gnomon_hamburger4_weight(h, x2, gnomon_hamburger4_q(h, x2));
+    float sum = w0 + (w1 + w2);
+    bool swapped = x2 < x1;
+    bool known = sum > 0.0f; // false for NaN
+    gnomon_distribution3 d;
+    d.depth0 = gnomon_select(known, z, 1.0f);
+    d.depth1 = gnomon_select(known, h.mean + gnomon_select(swapped, x2, x1), 1.0f);
+    d.depth2 = gnomon_select(known, h.mean + gnomon_select(swapped, x1, x2), 1.0f);
+    d.weight1 = gnomon_select(known, gnomon_select(swapped, w2, w1) / sum, 0.0f);
+    d.weight2 = gnomon_select(known, gnomon_select(swapped, w1, w2) / sum, 0.0f);
+    d.weight0 = saturate_or_zero(1.0f - (d.weight1 + d.weight2));
+    return d;
+}
+
+#endif
+
+// moments/translucency.h ----------------------------------------------------------------------------------------------
+// Translucent occluders (Peters et al. 2017, Sec. 3): moments of the depth distribution in which each fragment of a
+// stack has as weight the light that it takes away,
+//     Z = sum_k weight_k delta(z_k),    weight_k = alpha_k prod of (1 - alpha_j) over the fragments j in front of k,
+// so that Z(z < z_f) = 1 - prod of (1 - alpha_k) over z_k < z_f, the intensity of the stack's shadow. What is behind
+// all fragments, an opaque surface or the far plane, has the rest of the weight.
+//
+//     back to front    b = the moments of the surface behind;  b = moments4_over(b, z, alpha) for each fragment
+//     front to back    state = front_to_back_begin(alpha), then front_to_back_add(state, alpha): moments4_add the
+//                      fragment's moments with state.weight, in the end those of the surface behind with
+// state.transmittance
+//
+// A GPU blends back to front: over() of each channel, with the alpha of the fragment. Weights sum to 1, so that affine
+// transforms commute with blending: channels of any format are blended as stored (passes/blend.hpp). For coloured
+// occluders use one map for each channel of light, with the opacity for that light. In any order, a fragment that
+// survives in a sample with probability alpha has this distribution as the mean over samples (stochastic transparency;
+// Enderton et al. 2010).
+//
+// Every blend rounds to the format. Later blends shrink an error by 1 - alpha, so of n roundings by delta
+//     delta (1 - (1 - alpha)^n) / alpha <= delta / alpha
+// is left: blend_roundings, for storage/moments4_blended.h and moments6_blended.h. A least alpha hence limits the
+// error, and fragments below it are discarded (alpha test). Where alpha |above - below| is less than half a code, a
+// blend changes
+// nothing: many faint fragments vanish, for which no bias makes up. Absorbance (absorbance.h) loses less of them.
+#ifndef GNOMON_MOMENTS_TRANSLUCENCY_H
+#define GNOMON_MOMENTS_TRANSLUCENCY_H
+
+/// The over operator (1 - alpha) below + alpha above, for one channel: a fragment of opacity alpha in front of below.
+/// An alpha of 0 leaves below, and 1 leaves above, whatever the other is.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment; other NaN stay.
+/// Error: 2 2^-p for below and above in [-1, 1].
+/// Source: Porter & Duff 1984; Peters 2017, Sec. 3.2
+static inline float over(float below, float above, float alpha)
+{
+    float a = saturate_or_zero(alpha);
+    float mixed = (1.0f - a) * below + a * above;
+    return gnomon_select(0.0f < a, gnomon_select(a < 1.0f, mixed, above), below);
+}
+
+/// A fold over fragments front to back: the weight of the latest fragment, and the transmittance of all up to it, which
+/// is the weight of what is behind them.
+typedef struct gnomon_front_to_back gnomon_front_to_back;
+struct gnomon_front_to_back { float weight, transmittance; };
+
+/// The state after the nearest fragment, of opacity alpha.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment.
+static inline gnomon_front_to_back front_to_back_begin(float alpha)
+{
+    gnomon_front_to_back state;
+    state.weight = saturate_or_zero(alpha);
+    state.transmittance = 1.0f - state.weight;
+    return state;
+}
+
+/// The state after a further fragment, of opacity alpha, behind those before.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment.
+static inline gnomon_front_to_back front_to_back_add(gnomon_front_to_back state, float alpha)
+{
+    float a = saturate_or_zero(alpha);
+    state.weight = state.transmittance * a;
+    state.transmittance = state.transmittance * (1.0f - a);
+    return state;
+}
+
+/// The least opacity of the alpha test of Peters et al.
+__constant float gnomon_alpha_test_one_percent = 0.01f;
+
+__constant float gnomon_blend_least_alpha = 5.9604644775390625e-8f; // 2^-24
+
+/// The largest error that blends leave in a texel, in roundings of one blend, for any number of fragments of opacity
+/// least_alpha and more: 1 / least_alpha.
+/// Domain: any least_alpha, clamped to [2^-24, 1].
+/// NaN: 2^24.
+/// Source: Peters 2017, Sec. 3.3
+static inline float blend_roundings(float least_alpha)
+{
+    return 1.0f / gnomon_max(saturate_or_zero(least_alpha), gnomon_blend_least_alpha);
+}
+
+/// The largest error that blends of so many layers leave in a texel, in roundings of one blend: (1 - (1 - a)^n) / a for
+/// a = least_alpha and n = layers, up to a factor of at most 1.16, by which the result is larger.
+/// Domain: any least_alpha, clamped to [2^-24, 1]; layers >= 1, clamped.
+/// NaN: a least_alpha of NaN counts as 2^-24; layers of NaN as any number.
+/// Source: Peters 2017, Sec. 3.3
+static inline float blend_roundings_of_layers(float least_alpha, float layers)
+{
+    float a = gnomon_max(saturate_or_zero(least_alpha), gnomon_blend_least_alpha);
+    float further = gnomon_max(1.0f, layers) - 1.0f;
+    float few = (further + 1.0f) / (1.0f + 0.5f * (further * a));
+    return gnomon_min(few, 1.0f / a);
+}
+
+/// The roundings of a texel in all: one of its first store, and `each` for every further one.
+static inline float gnomon_blended_roundings(float further, float each)
+{
+    return 1.0f + each * gnomon_max(0.0f, further);
+}
+
+// Half floats may be truncated, which errs twice as far. A blend of floats rounds 1 - alpha, two products and a sum.
+__constant float gnomon_blended_half_roundings = 2.0f;
+__constant float gnomon_blended_float_roundings = 3.5f;
+
+#endif
+
+// moments/translucency.h, four moments --------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_TRANSLUCENCY_4
+#define GNOMON_MOMENTS_TRANSLUCENCY_4
+
+/// The four moments of a fragment at depth z of opacity alpha, in front of what has the moments below.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+/// Source: Peters 2017, Sec. 3.2
+static inline moments4 moments4_over(moments4 below, float z, float alpha)
+{
+    moments4 b = moments4_from_depth(clamp_or_high(z, -1.0f, 1.0f));
+    b.b1 = over(below.b1, b.b1, alpha);
+    b.b2 = over(below.b2, b.b2, alpha);
+    b.b3 = over(below.b3, b.b3, alpha);
+    b.b4 = over(below.b4, b.b4, alpha);
+    return b;
+}
+
+#endif
+
+// moments/translucency.h, six moments ---------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_TRANSLUCENCY_6
+#define GNOMON_MOMENTS_TRANSLUCENCY_6
+
+/// The six moments of a fragment at depth z of opacity alpha, in front of what has the moments below.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+/// Source: Peters 2017, Sec. 3.2
+static inline moments6 moments6_over(moments6 below, float z, float alpha)
+{
+    moments6 b = moments6_from_depth(clamp_or_high(z, -1.0f, 1.0f));
+    b.b1 = over(below.b1, b.b1, alpha);
+    b.b2 = over(below.b2, b.b2, alpha);
+    b.b3 = over(below.b3, b.b3, alpha);
+    b.b4 = over(below.b4, b.b4, alpha);
+    b.b5 = over(below.b5, b.b5, alpha);
+    b.b6 = over(below.b6, b.b6, alpha);
+    return b;
+}
+
+#endif
+
+// moments/absorbance.h ------------------------------------------------------------------------------------------------
+// Absorbance moments: translucent occluders without an order (Munstermann 2018; Sharpe 2018), which Peters et al.
+// (2017, Sec. 3.1) leave out. The logarithm turns the product of transmittances into a sum,
+//     transmittance before z = prod of (1 - alpha_k) over z_k < z = exp(-sum of a_k over z_k < z),    a_k = -ln(1 -
+// alpha_k) so fragments are added, in any order, as their absorbance times the powers of their depth: b_j = sum_k a_k
+// z_k^j, with b_0 kept. b_j / b_0 are moments of a depth distribution Z, and exp(-b_0 Z(z < z_f)) is the transmittance.
+//
+//     map            b = absorbance4_add(b, absorbance4_of_fragment(z, alpha)) from zeros, by additive blending
+//     receiver       absorbance4_transmittance(b, ...) and transmitted_intensity with the shadow of the opaque
+// occluders
+//
+// Opaque occluders are in a map of their own: their absorbance is infinite, and filtered with that of others it would
+// shadow all of the filter region. For the same reason a filter over absorbances is darker than the mean transmittance,
+// exp(-mean a) <= mean exp(-a), and near it only where absorbance varies little in the filter region.
+#ifndef GNOMON_MOMENTS_ABSORBANCE_H
+#define GNOMON_MOMENTS_ABSORBANCE_H
+
+/// Sums of absorbance times powers of depth, b0 to b4.
+typedef struct absorbance4 absorbance4;
+struct absorbance4 { float b0, b1, b2, b3, b4; };
+
+__constant float absorbance_most = 16.0f;
+
+/// The absorbance -ln(1 - alpha) of a fragment, at most 16, for which 1e-7 of the light is left.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: 0, no fragment.
+/// Error: 2 2^-p / (1 - alpha), absolute.
+static inline float absorbance_of_opacity(float alpha)
+{
+    float absorbed = -1.0f * polynomial_log(1.0f - saturate_or_zero(alpha));
+    return gnomon_min(absorbed, absorbance_most);
+}
+
+/// The absorbance moments of a fragment at depth z of opacity alpha.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+/// Source: Munstermann 2018
+static inline absorbance4 absorbance4_of_fragment(float z, float alpha)
+{
+    float a = absorbance_of_opacity(alpha);
+    moments4 m = moments4_from_depth(clamp_or_high(z, -1.0f, 1.0f));
+    absorbance4 b;
+    b.b0 = a;
+    b.b1 = a * m.b1;
+    b.b2 = a * m.b2;
+    b.b3 = a * m.b3;
+    b.b4 = a * m.b4;
+    return b;
+}
+
+/// The absorbance moments of two sets of fragments together.
+static inline absorbance4 absorbance4_add(absorbance4 sum, absorbance4 b)
+{
+    sum.b0 = sum.b0 + b.b0;
+    sum.b1 = sum.b1 + b.b1;
+    sum.b2 = sum.b2 + b.b2;
+    sum.b3 = sum.b3 + b.b3;
+    sum.b4 = sum.b4 + b.b4;
+    return sum;
+}
+
+__constant float absorbance_least = 7.62939453125e-6f; // 2^-17
+
+/// The factored matrix of the depths that absorb, with a constant bias of weight alpha (bias.h). Errors of sums are
+/// meant in relation to b0. Of a b0 below 2^-17, which absorbs nothing to speak of, the depths are not told.
+/// Domain: alpha in (0, 1), at least n delta / (n delta + r).
+/// NaN: stays NaN.
+static inline hankel4 absorbance4_factor(absorbance4 b, float alpha)
+{
+    float scale = 1.0f / gnomon_max(absorbance_least, b.b0);
+    moments4 m;
+    m.b1 = b.b1 * scale;
+    m.b2 = b.b2 * scale;
+    m.b3 = b.b3 * scale;
+    m.b4 = b.b4 * scale;
+    return hankel4_constant_bias(m, bias4_raw_b2, bias4_raw_b4, alpha);
+}
+
+/// The transmittance in [0, 1] of absorbance b0 of which the share before the receiver is an intensity, as of
+/// bounds_intensity.
+/// Domain: b0 >= 0, clamped; intensity in [0, 1], clamped.
+/// NaN: 1, lit.
+/// Error: 2^-p (2 + 2 b0), relative.
+static inline float absorbance_transmittance(float b0, float intensity)
+{
+    float t = polynomial_exp(-1.0f * (gnomon_max(0.0f, b0) * saturate_or_zero(intensity)));
+    return gnomon_select(t < 1.0f, t, 1.0f);
+}
+
+/// The share of the absorbance in front of z_f by the bounds on it, less what the bias has put there.
+static inline float gnomon_absorbance4_intensity(absorbance4 b, float alpha, float overestimation, float z_f)
+{
+    hamburger_bounds bounds = hamburger4_bounds(absorbance4_factor(b, alpha), z_f);
+    return (bounds_intensity(bounds, overestimation) - alpha) / (1.0f - alpha);
+}
+
+/// The transmittance in [0, 1] at depth z_f of all fragments in front of it. alpha is the weight of the constant
+/// bias, of which the part in front is taken off again, since b0 would multiply it. overestimation is that of
+/// bounds_intensity: 1 for surfaces, which are never darkened, and 1/2 for receivers among the fragments.
+/// Domain: alpha in (0, 1), at least n delta / (n delta + r); any z_f, limited to [-1, 1]; overestimation in [0, 1],
+/// clamped.
+/// NaN: 1, lit; an overestimation of NaN counts as 0.
+static inline float absorbance4_transmittance(absorbance4 b, float alpha, float overestimation, float z_f)
+{
+    return absorbance_transmittance(b.b0, gnomon_absorbance4_intensity(b, alpha, overestimation, z_f));
+}
+
+/// Shadow intensity in [0, 1] behind opaque occluders, which give the intensity `opaque`, and translucent ones of the
+/// given
+/// transmittance: 1 - (1 - opaque) transmittance.
+/// Domain: both in [0, 1], clamped.
+/// NaN: an intensity of NaN counts as 0 and a transmittance of NaN as 1, lit.
+static inline float transmitted_intensity(float opaque, float transmittance)
+{
+    float absorbed = saturate_or_zero(1.0f - transmittance);
+    float o = saturate_or_zero(opaque);
+    return o + (1.0f - o) * absorbed;
+}
+
+/// Absorbances for three channels of light, whose depths share one distribution: the moments b1 to b4 have the mean of
+/// the three as absorbance.
+typedef struct gnomon_coloured_absorbance4 gnomon_coloured_absorbance4;
+struct gnomon_coloured_absorbance4 { float red, green, blue, b1, b2, b3, b4; };
+
+/// Transmittances, each in [0, 1].
+typedef struct gnomon_coloured_transmittance gnomon_coloured_transmittance;
+struct gnomon_coloured_transmittance { float red, green, blue; };
+
+__constant float absorbance_third = 0.33333333333333331f;
+
+/// The absorbance moments of a coloured fragment at depth z: red, green and blue are its opacities.
+/// Domain: any z, limited to [-1, 1]; any opacities, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an opacity of NaN counts as 0.
+static inline gnomon_coloured_absorbance4 coloured_absorbance4_of_fragment(float z, float red, float green, float blue)
+{
+    gnomon_coloured_absorbance4 b;
+    b.red = absorbance_of_opacity(red);
+    b.green = absorbance_of_opacity(green);
+    b.blue = absorbance_of_opacity(blue);
+    float a = absorbance_third * (b.red + (b.green + b.blue));
+    moments4 m = moments4_from_depth(clamp_or_high(z, -1.0f, 1.0f));
+    b.b1 = a * m.b1;
+    b.b2 = a * m.b2;
+    b.b3 = a * m.b3;
+    b.b4 = a * m.b4;
+    return b;
+}
+
+/// The absorbance moments of two sets of coloured fragments together.
+static inline gnomon_coloured_absorbance4 coloured_absorbance4_add(gnomon_coloured_absorbance4 sum,
+                                                                   gnomon_coloured_absorbance4 b)
+{
+    sum.red = sum.red + b.red;
+    sum.green = sum.green + b.green;
+    sum.blue = sum.blue + b.blue;
+    sum.b1 = sum.b1 + b.b1;
+    sum.b2 = sum.b2 + b.b2;
+    sum.b3 = sum.b3 + b.b3;
+    sum.b4 = sum.b4 + b.b4;
+    return sum;
+}
+
+/// The transmittances at depth z_f, from one distribution of depth for all channels: right in front of all fragments,
+/// behind all, and wherever their hues are alike. The arguments are those of absorbance4_transmittance.
+/// Domain: as of absorbance4_transmittance.
+/// NaN: 1, lit; an overestimation of NaN counts as 0.
+static inline gnomon_coloured_transmittance coloured_absorbance4_transmittance(gnomon_coloured_absorbance4 b,
+                                                                               float alpha, float overestimation,
+                                                                               float z_f)
+{
+    absorbance4 shared_depths;
+    shared_depths.b0 = absorbance_third * (b.red + (b.green + b.blue));
+    shared_depths.b1 = b.b1;
+    shared_depths.b2 = b.b2;
+    shared_depths.b3 = b.b3;
+    shared_depths.b4 = b.b4;
+    float intensity = gnomon_absorbance4_intensity(shared_depths, alpha, overestimation, z_f);
+    gnomon_coloured_transmittance t;
+    t.red = absorbance_transmittance(b.red, intensity);
+    t.green = absorbance_transmittance(b.green, intensity);
+    t.blue = absorbance_transmittance(b.blue, intensity);
+    return t;
+}
+
+#endif
+
+// moments/affine.h ----------------------------------------------------------------------------------------------------
+// Moments of depth in another range: a cascade, a cube face or a cached map with planes of its own. Signed depth in one
+// range is an affine function of signed depth in another, and so the moments of one follow from those of the other
+// (Peters et al. 2017, Eq. 2). Thus moments of two cascades can be mixed, and one reconstruction serves for both.
+//
+//     change = depth_change_from_planes(near_distance, far_distance, target_near, target_far);
+//     b = moments4_affine(b, change);                 moments of depths z are now moments of z scale + offset
+//
+// Change to a range that contains the other. Then |scale| + |offset| <= 1, depths stay in [-1, 1], and what rounding
+// did to moments does not grow: an error of at most e in every moment stays at most e. Towards a narrower range errors
+// grow by (|scale| + |offset|)^j, and depths leave [-1, 1]: convert the receiver's depth instead, which costs no
+// precision.
+//
+// Honest bounds need the error of raw moments, which for 4 x 16 UNORM is larger than that of channels: the constant
+// bias of affine4_unorm16_weight covers one rounding of each mixed map.
+#ifndef GNOMON_MOMENTS_AFFINE_H
+#define GNOMON_MOMENTS_AFFINE_H
+
+/// The function z scale + offset, from signed depth in one range to signed depth in another.
+typedef struct depth_change depth_change;
+struct depth_change { float scale, offset; };
+
+/// The change from signed depth between two planes, at near_distance and far_distance from the light, to signed depth
+/// between two others, at target_near and target_far. All distances are measured along the same axis, in any unit.
+/// Domain: near_distance < far_distance, target_near < target_far.
+/// NaN: NaN.
+/// Error: 8 2^-p of the largest distance over target_far - target_near.
+static inline depth_change depth_change_from_planes(float near_distance, float far_distance, float target_near,
+                                                    float target_far)
+{
+    float extent = target_far - target_near;
+    depth_change r;
+    r.scale = (far_distance - near_distance) / extent;
+    r.offset = ((near_distance - target_near) + (far_distance - target_far)) / extent;
+    return r;
+}
+
+/// Signed depth z in the other range.
+/// NaN: NaN.
+/// Error: two roundings.
+static inline float depth_affine(float z, depth_change change) { return z * change.scale + change.offset; }
+
+#endif
+
+// moments/affine.h, four moments --------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_AFFINE_4
+#define GNOMON_MOMENTS_AFFINE_4
+
+// (1/3 + sqrt 3) / (2 65535) / r, where r = 0.17678 is the distance of the bias vector (0, 0.375, 0, 0.375) to the
+// boundary of the vectors of moments, and the error of theta4_inverse and moments4_affine in float.
+__constant float affine4_unorm16_weight = 9.6e-5f;
+
+/// The moments of z scale + offset, where b are the four moments of z.
+/// Domain: |scale| + |offset| <= 1 for the error.
+/// NaN: NaN.
+/// Error: 6 2^-p, absolute.
+/// Source: Peters 2017, Eq. 2
+static inline moments4 moments4_affine(moments4 b, depth_change change)
+{
+    float s = change.scale;
+    float o = change.offset;
+    float s2 = s * s;
+    float c1 = s * b.b1;
+    float c2 = s2 * b.b2;
+    float c3 = s2 * s * b.b3;
+    moments4 r;
+    r.b1 = c1 + o;
+    r.b2 = c2 + o * (2.0f * c1 + o);
+    r.b3 = c3 + o * (3.0f * c2 + o * (3.0f * c1 + o));
+    r.b4 = s2 * s2 * b.b4 + o * (4.0f * c3 + o * (6.0f * c2 + o * (4.0f * c1 + o)));
+    return r;
+}
+
+#endif
+
+// moments/affine.h, six moments ---------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_AFFINE_6
+#define GNOMON_MOMENTS_AFFINE_6
+
+/// The moments of z scale + offset, where b are the six moments of z.
+/// Domain: |scale| + |offset| <= 1 for the error.
+/// NaN: NaN.
+/// Error: 9 2^-p, absolute.
+static inline moments6 moments6_affine(moments6 b, depth_change change)
+{
+    float s = change.scale;
+    float o = change.offset;
+    float s2 = s * s;
+    float c1 = s * b.b1;
+    float c2 = s2 * b.b2;
+    float c3 = s2 * s * b.b3;
+    float c4 = s2 * s2 * b.b4;
+    float c5 = s2 * s2 * s * b.b5;
+    moments6 r;
+    r.b1 = c1 + o;
+    r.b2 = c2 + o * (2.0f * c1 + o);
+    r.b3 = c3 + o * (3.0f * c2 + o * (3.0f * c1 + o));
+    r.b4 = c4 + o * (4.0f * c3 + o * (6.0f * c2 + o * (4.0f * c1 + o)));
+    r.b5 = c5 + o * (5.0f * c4 + o * (10.0f * c3 + o * (10.0f * c2 + o * (5.0f * c1 + o))));
+    r.b6 = s2 * s2 * s2 * b.b6 + o *
+           (6.0f * c5 + o * (15.0f * c4 + o * (20.0f * c3 + o * (15.0f * c2 + o * (6.0f * c1 + o)))));
+    return r;
 }
 
 #endif
@@ -3436,188 +3970,6 @@ static inline moments4 moments4_rounding_filtered(moments4 b, float delta)
     e.b3 = gnomon_min(delta, delta * gnomon_abs(b.b2 + b.b4));
     e.b4 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b4));
     return e;
-}
-
-#endif
-
-// numerics/quadratic.h ------------------------------------------------------------------------------------------------
-// Roots of a x^2 + 2 b x + c without cancellation. The sum b + sign(b) sqrt(b^2 - a c) has terms of one sign and gives
-// one root; the product of the roots, c / a, gives the other.
-#ifndef GNOMON_NUMERICS_QUADRATIC_H
-#define GNOMON_NUMERICS_QUADRATIC_H
-
-/// The two roots, in no particular order.
-typedef struct gnomon_quadratic_result gnomon_quadratic_result;
-struct gnomon_quadratic_result { float first, second; };
-
-/// Both roots of a x^2 + 2 b x + c; for complex roots, their common real part twice. One root is infinite if a is 0.
-/// Domain: b^2 and a c neither overflow nor underflow.
-/// NaN: a NaN gives at least one NaN root; a = b = c = 0 gives two.
-/// Error: 4 ulp where a c <= b^2 / 2, by as many roundings.
-static inline gnomon_quadratic_result quadratic_roots(float a, float b, float c)
-{
-    float r = gnomon_sqrt(gnomon_max(b * b - a * c, 0.0f));
-    float t = gnomon_select(b > 0.0f, -(b + r), r - b);
-    gnomon_quadratic_result x;
-    x.first = t / a;
-    x.second = c / t;
-    return x;
-}
-
-#endif
-
-// moments/hamburger4.h ------------------------------------------------------------------------------------------------
-// Shadow intensity from four moments: sharp bounds on Z(z < z_f) over all depth distributions Z with these moments
-// (the Hamburger moment problem; Peters et al. 2017, Eq. 1 and Alg. 1), without solving for all nodes and weights.
-//
-// The Christoffel-Darboux kernel K(x, y) = sum_k P_k(x) P_k(y) / D_k of the factored Hankel matrix (hankel4.h)
-// gives the canonical distribution with a node at z_f: the other two nodes are the roots of K(z_f, .), and a node
-// at z has the weight w(z) = 1 / K(z, z). The number of nodes above z_f is the number of sign changes in
-// P_0(z_f), P_1(z_f), P_2(z_f):
-//     no node above:      lower = 1 - w_f
-//     both nodes above:   lower = 0
-//     one node above:     lower = w(smaller root)
-// and upper = lower + w_f. Let x = z - mean, u = z_f - mean, V = D_1, N = D_1 D_2, W = V N and
-// Q(x) = V P_2 = (V x - G) x - V^2. Then
-//     w(z) = W / (W + x^2 N + Q(x)^2)
-//     K(z_f, .) = 0:    a x^2 + 2 b x + c = 0,    a = Q V,    2 b = u N - Q G,    c = W - Q V^2,    Q = Q(u)
-// If one root lies on each side, Q < 0, so r^2 = b^2 - a c is a sum of positive terms. The two nodes beside z_f have
-// the weight E / (W + E) together, E = u^2 N + Q^2, and their mean balances z_f about the mean of all, which gives the
-// weight of the smaller one without its root:
-//     w(smaller root) = (E (r + b) - W u a) / (2 r (W + E))
-// The whole takes one division and one square root.
-#ifndef GNOMON_MOMENTS_HAMBURGER4_H
-#define GNOMON_MOMENTS_HAMBURGER4_H
-
-/// The canonical distribution: depth0 at the receiver and depth1 <= depth2. The weights are in [0, 1] and sum to 1.
-typedef struct gnomon_distribution3 gnomon_distribution3;
-struct gnomon_distribution3 { float depth0, depth1, depth2, weight0, weight1, weight2; };
-
-__constant float gnomon_hamburger4_scale = 72057594037927936.0f;     // 2^56
-__constant float gnomon_hamburger4_lower_scale = 281474976710656.0f; // 2^48
-
-/// The polynomial Q(x) = V P_2(mean + x).
-static inline float gnomon_hamburger4_q(hankel4 h, float x)
-{
-    return (h.variance * x - h.third) * x - h.variance * h.variance;
-}
-
-/// The weight of the node at mean + x, where q = Q(x).
-static inline float gnomon_hamburger4_weight(hankel4 h, float x, float q)
-{
-    float w = h.variance * h.determinant;
-    return w / (w + (x * x * h.determinant + q * q));
-}
-
-/// The quadratic a x^2 + 2 b x + c.
-typedef struct hamburger4_quadratic hamburger4_quadratic;
-struct hamburger4_quadratic { float a, b, c; };
-
-/// The quadratic whose roots x are the other two nodes minus the mean, for u = z_f - mean and q = Q(u).
-static inline hamburger4_quadratic gnomon_hamburger4_other_nodes(hankel4 h, float u, float q)
-{
-    // The power of two keeps the discriminant of a single depth, as small as 2^-139, from underflowing.
-    float n = h.determinant * gnomon_hamburger4_scale;
-    float s = q * gnomon_hamburger4_scale;
-    hamburger4_quadratic r;
-    r.a = s * h.variance;
-    r.b = 0.5f * (u * n - s * h.third);
-    r.c = h.variance * (n - r.a);
-    return r;
-}
-
-/// Lower bound and weight of the receiver as fractions: lower = share / total, w_f = receiver / whole.
-typedef struct hamburger4_fractions hamburger4_fractions;
-struct hamburger4_fractions { float share, total, receiver, whole; };
-
-/// Lower bound and weight of the receiver at z_f, clamped to [-1, 1], before division and clamping.
-static inline hamburger4_fractions gnomon_hamburger4_fractions_at(hankel4 h, float z_f)
-{
-    float u = clamp_or_nan(z_f, -1.0f, 1.0f) - h.mean;
-    float q = gnomon_hamburger4_q(h, u);
-    // The power of two is a factor of every term. The terms of a single depth would underflow otherwise.
-    float s = gnomon_hamburger4_lower_scale * q;
-    float n = gnomon_hamburger4_lower_scale * h.determinant;
-    float un = u * n;
-    float a = s * h.variance;
-    float b = 0.5f * (un - s * h.third);
-    float r = gnomon_sqrt(b * b - a * (h.variance * (n - a)));
-    float e = u * un + q * s;
-    hamburger4_fractions f;
-    f.receiver = h.variance * n;
-    f.whole = f.receiver + e;
-    bool between = q < 0.0f;
-    // Elsewhere u is never 0 and the quotient is e / whole with the sign of u: a negative lower bound is clamped to 0.
-    f.share = gnomon_select(between, e * (r + b) - f.receiver * (u * a), e * u);
-    f.total = gnomon_select(between, r + r, gnomon_abs(u)) * f.whole;
-    return f;
-}
-
-/// Lower bound on the shadow intensity at z_f, in [0, 1]. Surfaces should show this bound, since it never darkens
-/// a lit surface.
-/// Domain: z_f in [-1, 1], clamped.
-/// NaN: 0, lit, for a NaN in h or z_f.
-/// Error: against the moment problem solved in 120 digits (tests/moments/hamburger_oracle.cpp),
-///     error, double, no bias, three depths and more: p99 1e-13, p99.9 2e-12
-///     error, float, hankel4_constant_bias at 3e-7: p99 3e-5, p99.9 1e-4, max 5e-4
-/// and against the kernel in double, with maxima found by climbing (tests/moments/honest_four.cpp),
-///     error, float, hankel4_from_float: p99 3e-5, p99.9 1e-4, max 5e-4
-///     error, float, hankel4_from_float_filtered: p99 2e-5, p99.9 5e-5, max 1e-4
-///     error, float, hankel4_from_half: p99 3e-5, p99.9 1e-4, max 2e-3
-///     error, float, hankel4_from_half_filtered: p99 1e-5, p99.9 3e-5, max 3e-4
-///     error, float, hankel4_from_unorm16: p99 4e-4, p99.9 2e-3, max 5e-2
-///     error, float, hankel4_from_unorm16_filtered: p99 2e-4, p99.9 6e-4, max 4e-3
-/// Source: Peters 2017, Eq. 1; Peters 2017, Alg. 1
-static inline float hamburger4_lower(hankel4 h, float z_f)
-{
-    hamburger4_fractions f = gnomon_hamburger4_fractions_at(h, z_f);
-    return saturate_or_zero(f.share / f.total);
-}
-
-/// Both bounds on the shadow intensity at z_f and the weight of the receiver, for one division more than
-/// the lower bound.
-/// Domain: z_f in [-1, 1], clamped.
-/// NaN: 0, lit, for a NaN in h or z_f.
-/// Error: as for hamburger4_lower.
-/// Source: Peters 2017, Alg. 1; Peters 2017, Sec. 5.3
-static inline hamburger_bounds hamburger4_bounds(hankel4 h, float z_f)
-{
-    hamburger4_fractions f = gnomon_hamburger4_fractions_at(h, z_f);
-    hamburger_bounds r;
-    r.lower = saturate_or_zero(f.share / f.total);
-    r.weight = gnomon_min(saturate_or_zero(f.receiver / f.whole), 1.0f - r.lower);
-    r.upper = r.lower + r.weight;
-    return r;
-}
-
-/// The canonical distribution with a node at z_f. The other two depths are finite, at most 1024 from the mean, where a
-/// node that would be at infinity has no weight.
-/// Domain: z_f in [-1, 1], clamped.
-/// NaN: a single depth at the far plane.
-/// Source: Peters 2017, Alg. 1
-static inline gnomon_distribution3 hamburger4_distribution(hankel4 h, float z_f)
-{
-    float z = clamp_or_nan(z_f, -1.0f, 1.0f);
-    float u = z - h.mean;
-    float q = gnomon_hamburger4_q(h, u);
-    hamburger4_quadratic p = gnomon_hamburger4_other_nodes(h, u, q);
-    gnomon_quadratic_result x = quadratic_roots(p.a, p.b, p.c);
-    float x1 = clamp_or_nan(x.first, -1024.0f, 1024.0f);
-    float x2 = clamp_or_nan(x.second, -1024.0f, 1024.0f);
-    float w0 = gnomon_hamburger4_weight(h, u, q);
-    float w1 = gnomon_hamburger4_weight(h, x1, gnomon_hamburger4_q(h, x1));
-    float w2 = gnomon_hamburger4_weight(h, x2, gnomon_hamburger4_q(h, x2));
-    float sum = w0 + (w1 + w2);
-    bool swapped = x2 < x1;
-    bool known = sum > 0.0f; // false for NaN
-    gnomon_distribution3 d;
-    d.depth0 = gnomon_select(known, z, 1.0f);
-    d.depth1 = gnomon_select(known, h.mean + gnomon_select(swapped, x2, x1), 1.0f);
-    d.depth2 = gnomon_select(known, h.mean + gnomon_select(swapped, x1, x2), 1.0f);
-    d.weight1 = gnomon_select(known, gnomon_select(swapped, w2, w1) / sum, 0.0f);
-    d.weight2 = gnomon_select(known, gnomon_select(swapped, w1, w2) / sum, 0.0f);
-    d.weight0 = saturate_or_zero(1.0f - (d.weight1 + d.weight2));
-    return d;
 }
 
 #endif
@@ -6563,7 +6915,7 @@ static inline hankel4 gnomon_hankel4_from_theta(channels4 c, float alpha)
 /// Domain: alpha from 3e-7 on.
 static inline hankel4 gnomon_hankel4_stored_as_float(channels4 c, float alpha)
 {
-    return hankel4_constant_bias(moments4_from_channels(c), gnomon_bias4_raw_b2, gnomon_bias4_raw_b4, alpha);
+    return hankel4_constant_bias(moments4_from_channels(c), bias4_raw_b2, bias4_raw_b4, alpha);
 }
 
 /// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for one rounding.
@@ -6662,8 +7014,8 @@ static inline float moments4_half_filtered_intensity(channels4 c, float z_f)
 /// with a bias of weight alpha.
 static inline float gnomon_moments4_float_intensity_with_noise(channels4 c, moments4 noise, float alpha, float z_f)
 {
-    return certified4_constant_bias_lower(gnomon_hankel4_stored_as_float(c, alpha), noise, gnomon_bias4_raw_b2,
-                                          gnomon_bias4_raw_b4, alpha, z_f);
+    return certified4_constant_bias_lower(gnomon_hankel4_stored_as_float(c, alpha), noise, bias4_raw_b2, bias4_raw_b4,
+                                          alpha, z_f);
 }
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
@@ -6684,6 +7036,93 @@ static inline float moments4_float_filtered_intensity(channels4 c, float z_f)
     return gnomon_moments4_float_intensity_with_noise(
         c, moments4_rounding_filtered(moments4_from_channels(c), certified4_float_filtered_noise),
         certified4_float_filtered_weight, z_f);
+}
+
+#endif
+
+// storage/moments4_blended.h ------------------------------------------------------------------------------------------
+// Four moments from texels into which translucent fragments were blended (moments/translucency.h): what is allowed for
+// grows with the number of roundings that are left.
+//
+//   format          matrix for both bounds         shadow
+//   4 x 16 UNORM    hankel4_from_unorm16_blended   moments4_unorm16_blended_intensity
+//   4 x half        hankel4_from_half_blended      moments4_half_blended_intensity
+//   4 x float       hankel4_from_float_blended     moments4_float_blended_intensity
+//
+// roundings is the number of roundings after the first store of a texel: blend_roundings of the least alpha, and one
+// for each filter pass that stores its results in the format. 0 is a texel that was stored once. Half floats may be
+// truncated by each of them, which counts as two. A blend of floats rounds a product, a sum and 1 - alpha, which is 3.5
+// roundings.
+//
+// Intensities exceed Z(z < z_f) by at most
+//   X_blended_intensity         gnomon_stored4_arithmetic_weight, the error of float arithmetic
+//   hankel4_from_X_blended      the weight of the constant bias, bias_weight_of_roundings, and that of arithmetic
+// Layers that vanish, since they are fainter than half a code, are missing in the shadow, which makes it lighter.
+#ifndef GNOMON_STORAGE_MOMENTS4_BLENDED_H
+#define GNOMON_STORAGE_MOMENTS4_BLENDED_H
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+static inline hankel4 hankel4_from_unorm16_blended(channels4 c, float roundings)
+{
+    return gnomon_hankel4_from_theta(
+        c, bias_weight_of_roundings(gnomon_stored4_unorm16_weight, gnomon_blended_roundings(roundings, 1.0f)));
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+static inline hankel4 hankel4_from_half_blended(channels4 c, float roundings)
+{
+    float n = gnomon_blended_roundings(roundings, gnomon_blended_half_roundings);
+    return gnomon_hankel4_from_theta(gnomon_channels4_shifted(c, 0.5f),
+                                     bias_weight_of_roundings(gnomon_stored4_half_weight, n));
+}
+
+/// The factored matrix of the channels of a 4 x float texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+static inline hankel4 hankel4_from_float_blended(channels4 c, float roundings)
+{
+    float n = gnomon_blended_roundings(roundings, gnomon_blended_float_roundings);
+    return gnomon_hankel4_stored_as_float(c, bias_weight_of_roundings(gnomon_stored4_float_weight, n));
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+static inline float moments4_unorm16_blended_intensity(channels4 c, float roundings, float z_f)
+{
+    float n = gnomon_blended_roundings(roundings, 1.0f);
+    return gnomon_moments4_theta_intensity(c, n * certified4_unorm16_noise,
+                                           bias_weight_of_roundings(certified4_unorm16_weight, n), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+static inline float moments4_half_blended_intensity(channels4 c, float roundings, float z_f)
+{
+    float n = gnomon_blended_roundings(roundings, gnomon_blended_half_roundings);
+    return gnomon_moments4_theta_intensity(gnomon_channels4_shifted(c, 0.5f), n * certified4_half_noise,
+                                           bias_weight_of_roundings(certified4_half_weight, n), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+static inline float moments4_float_blended_intensity(channels4 c, float roundings, float z_f)
+{
+    float n = gnomon_blended_roundings(roundings, gnomon_blended_float_roundings);
+    // Roundings of earlier states of the texel, in which a moment was larger, are no fraction of that moment.
+    moments4 noise;
+    noise.b1 = n * certified4_float_noise;
+    noise.b2 = noise.b1;
+    noise.b3 = noise.b1;
+    noise.b4 = noise.b1;
+    return gnomon_moments4_float_intensity_with_noise(
+        c, noise, bias_weight_of_roundings(certified4_float_weight, n), z_f);
 }
 
 #endif
@@ -6956,6 +7395,79 @@ static inline float moments6_float_intensity(channels6 c, float z_f)
 static inline float moments6_float_filtered_intensity(channels6 c, float z_f)
 {
     return hamburger6_lower(hankel6_from_float_filtered(c), z_f);
+}
+
+#endif
+
+// storage/moments6_blended.h ------------------------------------------------------------------------------------------
+// Six moments from texels into which translucent fragments were blended (moments/translucency.h), by a constant bias
+// whose weight grows with the number of roundings that are left, as in moments4_blended.h.
+//
+//   format          matrix for both bounds         shadow
+//   6 x 10 UNORM    hankel6_from_unorm10_blended   moments6_unorm10_blended_intensity
+//   6 x 16 UNORM    hankel6_from_unorm16_blended   moments6_unorm16_blended_intensity
+//   6 x float       hankel6_from_float_blended     moments6_float_blended_intensity
+//
+// Intensities exceed Z(z < z_f) by bias_weight_of_roundings at most: for blends of an alpha from 1% on by 8.1e-3 for 6
+// x 16 UNORM, but by 0.29 for 6 x 10 UNORM, which is no format to blend many layers into. A blend of floats takes 1.5
+// of the weights of 6 x float, each of which is good for 2.7 roundings.
+#ifndef GNOMON_STORAGE_MOMENTS6_BLENDED_H
+#define GNOMON_STORAGE_MOMENTS6_BLENDED_H
+
+/// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+static inline hankel6 hankel6_from_unorm10_blended(channels6 c, float roundings)
+{
+    float weight = bias_weight_of_roundings(gnomon_stored6_unorm10_weight, gnomon_blended_roundings(roundings, 1.0f));
+    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6,
+                                                  weight));
+}
+
+/// The factored matrix of the channels of a 6 x 16 UNORM texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+static inline hankel6 hankel6_from_unorm16_blended(channels6 c, float roundings)
+{
+    float weight = bias_weight_of_roundings(gnomon_stored6_unorm16_weight, gnomon_blended_roundings(roundings, 1.0f));
+    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6,
+                                                  weight));
+}
+
+__constant float gnomon_blended6_float_weights = 1.5f;
+
+/// The factored matrix of the channels of a 6 x float texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+static inline hankel6 hankel6_from_float_blended(channels6 c, float roundings)
+{
+    float n = gnomon_blended_roundings(roundings, gnomon_blended6_float_weights);
+    return hankel6_constant_bias(moments6_from_channels(c), bias6_raw_b2, bias6_raw_b4, bias6_raw_b6,
+                                 bias_weight_of_roundings(gnomon_stored6_float_weight, n));
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 6 x 10 UNORM texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+static inline float moments6_unorm10_blended_intensity(channels6 c, float roundings, float z_f)
+{
+    return hamburger6_lower(hankel6_from_unorm10_blended(c, roundings), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 6 x 16 UNORM texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+static inline float moments6_unorm16_blended_intensity(channels6 c, float roundings, float z_f)
+{
+    return hamburger6_lower(hankel6_from_unorm16_blended(c, roundings), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 6 x float texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+static inline float moments6_float_blended_intensity(channels6 c, float roundings, float z_f)
+{
+    return hamburger6_lower(hankel6_from_float_blended(c, roundings), z_f);
 }
 
 #endif

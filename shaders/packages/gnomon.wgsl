@@ -2565,99 +2565,7 @@ fn percentage_closer_add(given_state: percentage_closer, z: f32, weight: f32) ->
 /// Source: Reeves, Salesin & Cook 1987
 fn percentage_closer_end(state: percentage_closer) -> f32 { return saturate_or_zero(state.shadowed); }
 
-// moments/affine.h ----------------------------------------------------------------------------------------------------
-// Moments of depth in another range: a cascade, a cube face or a cached map with planes of its own. Signed depth in one
-// range is an affine function of signed depth in another, and so the moments of one follow from those of the other
-// (Peters et al. 2017, Eq. 2). Thus moments of two cascades can be mixed, and one reconstruction serves for both.
-//
-//     change = depth_change_from_planes(near_distance, far_distance, target_near, target_far);
-//     b = moments4_affine(b, change);                 moments of depths z are now moments of z scale + offset
-//
-// Change to a range that contains the other. Then |scale| + |offset| <= 1, depths stay in [-1, 1], and what rounding
-// did to moments does not grow: an error of at most e in every moment stays at most e. Towards a narrower range errors
-// grow by (|scale| + |offset|)^j, and depths leave [-1, 1]: convert the receiver's depth instead, which costs no
-// precision.
-//
-// Honest bounds need the error of raw moments, which for 4 x 16 UNORM is larger than that of channels: the constant
-// bias of affine4_unorm16_weight covers one rounding of each mixed map.
-
-/// The function z scale + offset, from signed depth in one range to signed depth in another.
-struct depth_change { scale: f32, offset: f32 }
-
-/// The change from signed depth between two planes, at near_distance and far_distance from the light, to signed depth
-/// between two others, at target_near and target_far. All distances are measured along the same axis, in any unit.
-/// Domain: near_distance < far_distance, target_near < target_far.
-/// NaN: NaN.
-/// Error: 8 2^-p of the largest distance over target_far - target_near.
-fn depth_change_from_planes(near_distance: f32, far_distance: f32, target_near: f32, target_far: f32) -> depth_change
-{
-    let extent = target_far - target_near;
-    var r: depth_change;
-    r.scale = (far_distance - near_distance) / extent;
-    r.offset = ((near_distance - target_near) + (far_distance - target_far)) / extent;
-    return r;
-}
-
-/// Signed depth z in the other range.
-/// NaN: NaN.
-/// Error: two roundings.
-fn depth_affine(z: f32, change: depth_change) -> f32 { return z * change.scale + change.offset; }
-
-// moments/affine.h, four moments --------------------------------------------------------------------------------------
-
-// (1/3 + sqrt 3) / (2 65535) / r, where r = 0.17678 is the distance of the bias vector (0, 0.375, 0, 0.375) to the
-// boundary of the vectors of moments, and the error of theta4_inverse and moments4_affine in float.
-const affine4_unorm16_weight: f32 = 0x1.92a738p-14; // 9.6e-5
-
-/// The moments of z scale + offset, where b are the four moments of z.
-/// Domain: |scale| + |offset| <= 1 for the error.
-/// NaN: NaN.
-/// Error: 6 2^-p, absolute.
-/// Source: Peters 2017, Eq. 2
-fn moments4_affine(b: moments4_, change: depth_change) -> moments4_
-{
-    let s = change.scale;
-    let o = change.offset;
-    let s2 = s * s;
-    let c1 = s * b.b1_;
-    let c2 = s2 * b.b2_;
-    let c3 = s2 * s * b.b3_;
-    var r: moments4_;
-    r.b1_ = c1 + o;
-    r.b2_ = c2 + o * (2.0 * c1 + o);
-    r.b3_ = c3 + o * (3.0 * c2 + o * (3.0 * c1 + o));
-    r.b4_ = s2 * s2 * b.b4_ + o * (4.0 * c3 + o * (6.0 * c2 + o * (4.0 * c1 + o)));
-    return r;
-}
-
-// moments/affine.h, six moments ---------------------------------------------------------------------------------------
-
-/// The moments of z scale + offset, where b are the six moments of z.
-/// Domain: |scale| + |offset| <= 1 for the error.
-/// NaN: NaN.
-/// Error: 9 2^-p, absolute.
-fn moments6_affine(b: moments6_, change: depth_change) -> moments6_
-{
-    let s = change.scale;
-    let o = change.offset;
-    let s2 = s * s;
-    let c1 = s * b.b1_;
-    let c2 = s2 * b.b2_;
-    let c3 = s2 * s * b.b3_;
-    let c4 = s2 * s2 * b.b4_;
-    let c5 = s2 * s2 * s * b.b5_;
-    var r: moments6_;
-    r.b1_ = c1 + o;
-    r.b2_ = c2 + o * (2.0 * c1 + o);
-    r.b3_ = c3 + o * (3.0 * c2 + o * (3.0 * c1 + o));
-    r.b4_ = c4 + o * (4.0 * c3 + o * (6.0 * c2 + o * (4.0 * c1 + o)));
-    r.b5_ = c5 + o * (5.0 * c4 + o * (10.0 * c3 + o * (10.0 * c2 + o * (5.0 * c1 + o))));
-    r.b6_ = s2 * s2 * s2 * b.b6_ + o *
-            (6.0 * c5 + o * (15.0 * c4 + o * (20.0 * c3 + o * (15.0 * c2 + o * (6.0 * c1 + o)))));
-    return r;
-}
-
-// moments/bias.h, four moments ----------------------------------------------------------------------------------------
+// moments/bias.h ------------------------------------------------------------------------------------------------------
 // Biasing: rounding in storage can turn moments into numbers that belong to no distribution, so they are moved inwards
 // (Peters et al. 2017, Sec. 2.5).
 //
@@ -2677,9 +2585,22 @@ fn moments6_affine(b: moments6_, change: depth_change) -> moments6_
 // Certificates (certified4.h) leak less than a constant bias and never darken a lit surface. A bias that depends on the
 // moments leaks less still, but darkens lit surfaces by up to 0.79 (docs/decisions/2-bias.md).
 
+/// The weight of a constant bias for n roundings, n w / (1 - w + n w), where w is the weight for one: if w >= delta /
+/// (delta + r), the result is at least n delta / (n delta + r).
+/// Domain: w in [0, 1]; n >= 1, clamped. An infinite n gives NaN, lit.
+/// NaN: NaN, lit.
+/// Error: 4 2^-p, relative.
+fn bias_weight_of_roundings(w: f32, n: f32) -> f32
+{
+    let nw = gnomon_max(1.0, n) * w;
+    return nw / ((1.0 - w) + nw);
+}
+
+// moments/bias.h, four moments ----------------------------------------------------------------------------------------
+
 // Four moments without transform: r = 0.10147; the paper's vector has 0.10090.
-const gnomon_bias4_raw_b2_: f32 = 0x1.a7e824p-2; // 0.41397147664677789
-const gnomon_bias4_raw_b4_: f32 = 0x1.a7e824p-2; // 0.41397147664677789
+const bias4_raw_b2_: f32 = 0x1.a7e824p-2; // 0.41397147664677789
+const bias4_raw_b4_: f32 = 0x1.a7e824p-2; // 0.41397147664677789
 const bias4_raw_paper_b2_: f32 = 0.375;
 const bias4_raw_paper_b4_: f32 = 0.375;
 
@@ -2736,6 +2657,27 @@ fn moments6_add_bias(given_b: moments6_, bias2: f32, bias4: f32, bias6: f32, alp
     b.b5_ = keep * b.b5_;
     b.b6_ = keep * b.b6_ + alpha * bias6;
     return b;
+}
+
+// numerics/quadratic.h ------------------------------------------------------------------------------------------------
+// Roots of a x^2 + 2 b x + c without cancellation. The sum b + sign(b) sqrt(b^2 - a c) has terms of one sign and gives
+// one root; the product of the roots, c / a, gives the other.
+
+/// The two roots, in no particular order.
+struct gnomon_quadratic_result { first: f32, second: f32 }
+
+/// Both roots of a x^2 + 2 b x + c; for complex roots, their common real part twice. One root is infinite if a is 0.
+/// Domain: b^2 and a c neither overflow nor underflow.
+/// NaN: a NaN gives at least one NaN root; a = b = c = 0 gives two.
+/// Error: 4 ulp where a c <= b^2 / 2, by as many roundings.
+fn quadratic_roots(a: f32, b: f32, c: f32) -> gnomon_quadratic_result
+{
+    let r = gnomon_sqrt(gnomon_max(b * b - a * c, 0.0));
+    let t = gnomon_select(b > 0.0, -(b + r), r - b);
+    var x: gnomon_quadratic_result;
+    x.first = t / a;
+    x.second = c / t;
+    return x;
 }
 
 // moments/bounds.h ----------------------------------------------------------------------------------------------------
@@ -2851,6 +2793,558 @@ fn hankel4_constant_bias(b: moments4_, bias2: f32, bias4: f32, alpha: f32) -> ha
     let l = gnomon_covariance_add_bias(c.l, b.b1_, b.b2_, e.b3_, e.b1_, e.b2_);
     let m = gnomon_covariance_add_bias(c.m, b.b2_, b.b2_, e.b4_, e.b2_, e.b2_);
     return gnomon_hankel4_make(b.b1_ + e.b1_, v.high + v.low, l.high + l.low, gnomon_double_word_determinant(v, l, m));
+}
+
+// moments/hamburger4.h ------------------------------------------------------------------------------------------------
+// Shadow intensity from four moments: sharp bounds on Z(z < z_f) over all depth distributions Z with these moments
+// (the Hamburger moment problem; Peters et al. 2017, Eq. 1 and Alg. 1), without solving for all nodes and weights.
+//
+// The Christoffel-Darboux kernel K(x, y) = sum_k P_k(x) P_k(y) / D_k of the factored Hankel matrix (hankel4.h)
+// gives the canonical distribution with a node at z_f: the other two nodes are the roots of K(z_f, .), and a node
+// at z has the weight w(z) = 1 / K(z, z). The number of nodes above z_f is the number of sign changes in
+// P_0(z_f), P_1(z_f), P_2(z_f):
+//     no node above:      lower = 1 - w_f
+//     both nodes above:   lower = 0
+//     one node above:     lower = w(smaller root)
+// and upper = lower + w_f. Let x = z - mean, u = z_f - mean, V = D_1, N = D_1 D_2, W = V N and
+// Q(x) = V P_2 = (V x - G) x - V^2. Then
+//     w(z) = W / (W + x^2 N + Q(x)^2)
+//     K(z_f, .) = 0:    a x^2 + 2 b x + c = 0,    a = Q V,    2 b = u N - Q G,    c = W - Q V^2,    Q = Q(u)
+// If one root lies on each side, Q < 0, so r^2 = b^2 - a c is a sum of positive terms. The two nodes beside z_f have
+// the weight E / (W + E) together, E = u^2 N + Q^2, and their mean balances z_f about the mean of all, which gives the
+// weight of the smaller one without its root:
+//     w(smaller root) = (E (r + b) - W u a) / (2 r (W + E))
+// The whole takes one division and one square root.
+
+/// The canonical distribution: depth0 at the receiver and depth1 <= depth2. The weights are in [0, 1] and sum to 1.
+struct gnomon_distribution3_ { depth0_: f32, depth1_: f32, depth2_: f32, weight0_: f32, weight1_: f32, weight2_: f32 }
+
+const gnomon_hamburger4_scale: f32 = 72057594037927936.0; // 2^56
+const gnomon_hamburger4_lower_scale: f32 = 281474976710656.0; // 2^48
+
+/// The polynomial Q(x) = V P_2(mean + x).
+fn gnomon_hamburger4_q(h: hankel4_, x: f32) -> f32 { return (h.variance * x - h.third) * x - h.variance * h.variance; }
+
+/// The weight of the node at mean + x, where q = Q(x).
+fn gnomon_hamburger4_weight(h: hankel4_, x: f32, q: f32) -> f32
+{
+    let w = h.variance * h.determinant;
+    return w / (w + (x * x * h.determinant + q * q));
+}
+
+/// The quadratic a x^2 + 2 b x + c.
+struct hamburger4_quadratic { a: f32, b: f32, c: f32 }
+
+/// The quadratic whose roots x are the other two nodes minus the mean, for u = z_f - mean and q = Q(u).
+fn gnomon_hamburger4_other_nodes(h: hankel4_, u: f32, q: f32) -> hamburger4_quadratic
+{
+    // The power of two keeps the discriminant of a single depth, as small as 2^-139, from underflowing.
+    let n = h.determinant * gnomon_hamburger4_scale;
+    let s = q * gnomon_hamburger4_scale;
+    var r: hamburger4_quadratic;
+    r.a = s * h.variance;
+    r.b = 0.5 * (u * n - s * h.third);
+    r.c = h.variance * (n - r.a);
+    return r;
+}
+
+/// Lower bound and weight of the receiver as fractions: lower = share / total, w_f = receiver / whole.
+struct hamburger4_fractions { share: f32, total: f32, receiver: f32, whole: f32 }
+
+/// Lower bound and weight of the receiver at z_f, clamped to [-1, 1], before division and clamping.
+fn gnomon_hamburger4_fractions_at(h: hankel4_, z_f: f32) -> hamburger4_fractions
+{
+    let u = clamp_or_nan(z_f, -1.0, 1.0) - h.mean;
+    let q = gnomon_hamburger4_q(h, u);
+    // The power of two is a factor of every term. The terms of a single depth would underflow otherwise.
+    let s = gnomon_hamburger4_lower_scale * q;
+    let n = gnomon_hamburger4_lower_scale * h.determinant;
+    let un = u * n;
+    let a = s * h.variance;
+    let b = 0.5 * (un - s * h.third);
+    let r = gnomon_sqrt(b * b - a * (h.variance * (n - a)));
+    let e = u * un + q * s;
+    var f: hamburger4_fractions;
+    f.receiver = h.variance * n;
+    f.whole = f.receiver + e;
+    let between = q < 0.0;
+    // Elsewhere u is never 0 and the quotient is e / whole with the sign of u: a negative lower bound is clamped to 0.
+    f.share = gnomon_select(between, e * (r + b) - f.receiver * (u * a), e * u);
+    f.total = gnomon_select(between, r + r, gnomon_abs(u)) * f.whole;
+    return f;
+}
+
+/// Lower bound on the shadow intensity at z_f, in [0, 1]. Surfaces should show this bound, since it never darkens
+/// a lit surface.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit, for a NaN in h or z_f.
+/// Error: against the moment problem solved in 120 digits (tests/moments/hamburger_oracle.cpp),
+///     error, double, no bias, three depths and more: p99 1e-13, p99.9 2e-12
+///     error, float, hankel4_constant_bias at 3e-7: p99 3e-5, p99.9 1e-4, max 5e-4
+/// and against the kernel in double, with maxima found by climbing (tests/moments/honest_four.cpp),
+///     error, float, hankel4_from_float: p99 3e-5, p99.9 1e-4, max 5e-4
+///     error, float, hankel4_from_float_filtered: p99 2e-5, p99.9 5e-5, max 1e-4
+///     error, float, hankel4_from_half: p99 3e-5, p99.9 1e-4, max 2e-3
+///     error, float, hankel4_from_half_filtered: p99 1e-5, p99.9 3e-5, max 3e-4
+///     error, float, hankel4_from_unorm16_: p99 4e-4, p99.9 2e-3, max 5e-2
+///     error, float, hankel4_from_unorm16_filtered: p99 2e-4, p99.9 6e-4, max 4e-3
+/// Source: Peters 2017, Eq. 1; Peters 2017, Alg. 1
+fn hamburger4_lower(h: hankel4_, z_f: f32) -> f32
+{
+    let f = gnomon_hamburger4_fractions_at(h, z_f);
+    return saturate_or_zero(f.share / f.total);
+}
+
+/// Both bounds on the shadow intensity at z_f and the weight of the receiver, for one division more than
+/// the lower bound.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit, for a NaN in h or z_f.
+/// Error: as for hamburger4_lower.
+/// Source: Peters 2017, Alg. 1; Peters 2017, Sec. 5.3
+fn hamburger4_bounds(h: hankel4_, z_f: f32) -> hamburger_bounds
+{
+    let f = gnomon_hamburger4_fractions_at(h, z_f);
+    var r: hamburger_bounds;
+    r.lower = saturate_or_zero(f.share / f.total);
+    r.weight = gnomon_min(saturate_or_zero(f.receiver / f.whole), 1.0 - r.lower);
+    r.upper = r.lower + r.weight;
+    return r;
+}
+
+/// The canonical distribution with a node at z_f. The other two depths are finite, at most 1024 from the mean, where a
+/// node that would be at infinity has no weight.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: a single depth at the far plane.
+/// Source: Peters 2017, Alg. 1
+fn hamburger4_distribution(h: hankel4_, z_f: f32) -> gnomon_distribution3_
+{
+    let z = clamp_or_nan(z_f, -1.0, 1.0);
+    let u = z - h.mean;
+    let q = gnomon_hamburger4_q(h, u);
+    let p = gnomon_hamburger4_other_nodes(h, u, q);
+    let x = quadratic_roots(p.a, p.b, p.c);
+    let x1 = clamp_or_nan(x.first, -1024.0, 1024.0);
+    let x2 = clamp_or_nan(x.second, -1024.0, 1024.0);
+    let w0 = gnomon_hamburger4_weight(h, u, q);
+    let w1 = gnomon_hamburger4_weight(h, x1, gnomon_hamburger4_q(h, x1));
+    let w2 = gnomon_hamburger4_weight(h, x2, gnomon_hamburger4_q(h, x2));
+    let sum = w0 + (w1 + w2);
+    let swapped = x2 < x1;
+    let known = sum > 0.0; // false for NaN
+    var d: gnomon_distribution3_;
+    d.depth0_ = gnomon_select(known, z, 1.0);
+    d.depth1_ = gnomon_select(known, h.mean + gnomon_select(swapped, x2, x1), 1.0);
+    d.depth2_ = gnomon_select(known, h.mean + gnomon_select(swapped, x1, x2), 1.0);
+    d.weight1_ = gnomon_select(known, gnomon_select(swapped, w2, w1) / sum, 0.0);
+    d.weight2_ = gnomon_select(known, gnomon_select(swapped, w1, w2) / sum, 0.0);
+    d.weight0_ = saturate_or_zero(1.0 - (d.weight1_ + d.weight2_));
+    return d;
+}
+
+// moments/translucency.h ----------------------------------------------------------------------------------------------
+// Translucent occluders (Peters et al. 2017, Sec. 3): moments of the depth distribution in which each fragment of a
+// stack has as weight the light that it takes away,
+//     Z = sum_k weight_k delta(z_k),    weight_k = alpha_k prod of (1 - alpha_j) over the fragments j in front of k,
+// so that Z(z < z_f) = 1 - prod of (1 - alpha_k) over z_k < z_f, the intensity of the stack's shadow. What is behind
+// all fragments, an opaque surface or the far plane, has the rest of the weight.
+//
+//     back to front    b = the moments of the surface behind;  b = moments4_over(b, z, alpha) for each fragment
+//     front to back    state = front_to_back_begin(alpha), then front_to_back_add(state, alpha): moments4_add the
+//                      fragment's moments with state.weight, in the end those of the surface behind with
+// state.transmittance
+//
+// A GPU blends back to front: over() of each channel, with the alpha of the fragment. Weights sum to 1, so that affine
+// transforms commute with blending: channels of any format are blended as stored (passes/blend.hpp). For coloured
+// occluders use one map for each channel of light, with the opacity for that light. In any order, a fragment that
+// survives in a sample with probability alpha has this distribution as the mean over samples (stochastic transparency;
+// Enderton et al. 2010).
+//
+// Every blend rounds to the format. Later blends shrink an error by 1 - alpha, so of n roundings by delta
+//     delta (1 - (1 - alpha)^n) / alpha <= delta / alpha
+// is left: blend_roundings, for storage/moments4_blended.h and moments6_blended.h. A least alpha hence limits the
+// error, and fragments below it are discarded (alpha test). Where alpha |above - below| is less than half a code, a
+// blend changes
+// nothing: many faint fragments vanish, for which no bias makes up. Absorbance (absorbance.h) loses less of them.
+
+/// The over operator (1 - alpha) below + alpha above, for one channel: a fragment of opacity alpha in front of below.
+/// An alpha of 0 leaves below, and 1 leaves above, whatever the other is.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment; other NaN stay.
+/// Error: 2 2^-p for below and above in [-1, 1].
+/// Source: Porter & Duff 1984; Peters 2017, Sec. 3.2
+fn over(below: f32, above: f32, alpha: f32) -> f32
+{
+    let a = saturate_or_zero(alpha);
+    let mixed = (1.0 - a) * below + a * above;
+    return gnomon_select(0.0 < a, gnomon_select(a < 1.0, mixed, above), below);
+}
+
+/// A fold over fragments front to back: the weight of the latest fragment, and the transmittance of all up to it, which
+/// is the weight of what is behind them.
+struct gnomon_front_to_back { weight: f32, transmittance: f32 }
+
+/// The state after the nearest fragment, of opacity alpha.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment.
+fn front_to_back_begin(alpha: f32) -> gnomon_front_to_back
+{
+    var state: gnomon_front_to_back;
+    state.weight = saturate_or_zero(alpha);
+    state.transmittance = 1.0 - state.weight;
+    return state;
+}
+
+/// The state after a further fragment, of opacity alpha, behind those before.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment.
+fn front_to_back_add(given_state: gnomon_front_to_back, alpha: f32) -> gnomon_front_to_back
+{
+    var state = given_state;
+    let a = saturate_or_zero(alpha);
+    state.weight = state.transmittance * a;
+    state.transmittance = state.transmittance * (1.0 - a);
+    return state;
+}
+
+/// The least opacity of the alpha test of Peters et al.
+const gnomon_alpha_test_one_percent: f32 = 0x1.47ae14p-7; // 0.01
+
+const gnomon_blend_least_alpha: f32 = 5.9604644775390625e-8; // 2^-24
+
+/// The largest error that blends leave in a texel, in roundings of one blend, for any number of fragments of opacity
+/// least_alpha and more: 1 / least_alpha.
+/// Domain: any least_alpha, clamped to [2^-24, 1].
+/// NaN: 2^24.
+/// Source: Peters 2017, Sec. 3.3
+fn blend_roundings(least_alpha: f32) -> f32
+{
+    return 1.0 / gnomon_max(saturate_or_zero(least_alpha), gnomon_blend_least_alpha);
+}
+
+/// The largest error that blends of so many layers leave in a texel, in roundings of one blend: (1 - (1 - a)^n) / a for
+/// a = least_alpha and n = layers, up to a factor of at most 1.16, by which the result is larger.
+/// Domain: any least_alpha, clamped to [2^-24, 1]; layers >= 1, clamped.
+/// NaN: a least_alpha of NaN counts as 2^-24; layers of NaN as any number.
+/// Source: Peters 2017, Sec. 3.3
+fn blend_roundings_of_layers(least_alpha: f32, layers: f32) -> f32
+{
+    let a = gnomon_max(saturate_or_zero(least_alpha), gnomon_blend_least_alpha);
+    let further = gnomon_max(1.0, layers) - 1.0;
+    let few = (further + 1.0) / (1.0 + 0.5 * (further * a));
+    return gnomon_min(few, 1.0 / a);
+}
+
+/// The roundings of a texel in all: one of its first store, and `each` for every further one.
+fn gnomon_blended_roundings(further: f32, each: f32) -> f32 { return 1.0 + each * gnomon_max(0.0, further); }
+
+// Half floats may be truncated, which errs twice as far. A blend of floats rounds 1 - alpha, two products and a sum.
+const gnomon_blended_half_roundings: f32 = 2.0;
+const gnomon_blended_float_roundings: f32 = 3.5;
+
+// moments/translucency.h, four moments --------------------------------------------------------------------------------
+
+/// The four moments of a fragment at depth z of opacity alpha, in front of what has the moments below.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+/// Source: Peters 2017, Sec. 3.2
+fn moments4_over(below: moments4_, z: f32, alpha: f32) -> moments4_
+{
+    var b = moments4_from_depth(clamp_or_high(z, -1.0, 1.0));
+    b.b1_ = over(below.b1_, b.b1_, alpha);
+    b.b2_ = over(below.b2_, b.b2_, alpha);
+    b.b3_ = over(below.b3_, b.b3_, alpha);
+    b.b4_ = over(below.b4_, b.b4_, alpha);
+    return b;
+}
+
+// moments/translucency.h, six moments ---------------------------------------------------------------------------------
+
+/// The six moments of a fragment at depth z of opacity alpha, in front of what has the moments below.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+/// Source: Peters 2017, Sec. 3.2
+fn moments6_over(below: moments6_, z: f32, alpha: f32) -> moments6_
+{
+    var b = moments6_from_depth(clamp_or_high(z, -1.0, 1.0));
+    b.b1_ = over(below.b1_, b.b1_, alpha);
+    b.b2_ = over(below.b2_, b.b2_, alpha);
+    b.b3_ = over(below.b3_, b.b3_, alpha);
+    b.b4_ = over(below.b4_, b.b4_, alpha);
+    b.b5_ = over(below.b5_, b.b5_, alpha);
+    b.b6_ = over(below.b6_, b.b6_, alpha);
+    return b;
+}
+
+// moments/absorbance.h ------------------------------------------------------------------------------------------------
+// Absorbance moments: translucent occluders without an order (Munstermann 2018; Sharpe 2018), which Peters et al.
+// (2017, Sec. 3.1) leave out. The logarithm turns the product of transmittances into a sum,
+//     transmittance before z = prod of (1 - alpha_k) over z_k < z = exp(-sum of a_k over z_k < z),    a_k = -ln(1 -
+// alpha_k) so fragments are added, in any order, as their absorbance times the powers of their depth: b_j = sum_k a_k
+// z_k^j, with b_0 kept. b_j / b_0 are moments of a depth distribution Z, and exp(-b_0 Z(z < z_f)) is the transmittance.
+//
+//     map            b = absorbance4_add(b, absorbance4_of_fragment(z, alpha)) from zeros, by additive blending
+//     receiver       absorbance4_transmittance(b, ...) and transmitted_intensity with the shadow of the opaque
+// occluders
+//
+// Opaque occluders are in a map of their own: their absorbance is infinite, and filtered with that of others it would
+// shadow all of the filter region. For the same reason a filter over absorbances is darker than the mean transmittance,
+// exp(-mean a) <= mean exp(-a), and near it only where absorbance varies little in the filter region.
+
+/// Sums of absorbance times powers of depth, b0 to b4.
+struct absorbance4_ { b0_: f32, b1_: f32, b2_: f32, b3_: f32, b4_: f32 }
+
+const absorbance_most: f32 = 16.0;
+
+/// The absorbance -ln(1 - alpha) of a fragment, at most 16, for which 1e-7 of the light is left.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: 0, no fragment.
+/// Error: 2 2^-p / (1 - alpha), absolute.
+fn absorbance_of_opacity(alpha: f32) -> f32
+{
+    let absorbed = -1.0 * polynomial_log(1.0 - saturate_or_zero(alpha));
+    return gnomon_min(absorbed, absorbance_most);
+}
+
+/// The absorbance moments of a fragment at depth z of opacity alpha.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+/// Source: Munstermann 2018
+fn absorbance4_of_fragment(z: f32, alpha: f32) -> absorbance4_
+{
+    let a = absorbance_of_opacity(alpha);
+    let m = moments4_from_depth(clamp_or_high(z, -1.0, 1.0));
+    var b: absorbance4_;
+    b.b0_ = a;
+    b.b1_ = a * m.b1_;
+    b.b2_ = a * m.b2_;
+    b.b3_ = a * m.b3_;
+    b.b4_ = a * m.b4_;
+    return b;
+}
+
+/// The absorbance moments of two sets of fragments together.
+fn absorbance4_add(given_sum: absorbance4_, b: absorbance4_) -> absorbance4_
+{
+    var sum = given_sum;
+    sum.b0_ = sum.b0_ + b.b0_;
+    sum.b1_ = sum.b1_ + b.b1_;
+    sum.b2_ = sum.b2_ + b.b2_;
+    sum.b3_ = sum.b3_ + b.b3_;
+    sum.b4_ = sum.b4_ + b.b4_;
+    return sum;
+}
+
+const absorbance_least: f32 = 7.62939453125e-6; // 2^-17
+
+/// The factored matrix of the depths that absorb, with a constant bias of weight alpha (bias.h). Errors of sums are
+/// meant in relation to b0. Of a b0 below 2^-17, which absorbs nothing to speak of, the depths are not told.
+/// Domain: alpha in (0, 1), at least n delta / (n delta + r).
+/// NaN: stays NaN.
+fn absorbance4_factor(b: absorbance4_, alpha: f32) -> hankel4_
+{
+    let scale = 1.0 / gnomon_max(absorbance_least, b.b0_);
+    var m: moments4_;
+    m.b1_ = b.b1_ * scale;
+    m.b2_ = b.b2_ * scale;
+    m.b3_ = b.b3_ * scale;
+    m.b4_ = b.b4_ * scale;
+    return hankel4_constant_bias(m, bias4_raw_b2_, bias4_raw_b4_, alpha);
+}
+
+/// The transmittance in [0, 1] of absorbance b0 of which the share before the receiver is an intensity, as of
+/// bounds_intensity.
+/// Domain: b0 >= 0, clamped; intensity in [0, 1], clamped.
+/// NaN: 1, lit.
+/// Error: 2^-p (2 + 2 b0), relative.
+fn absorbance_transmittance(b0: f32, intensity: f32) -> f32
+{
+    let t = polynomial_exp(-1.0 * (gnomon_max(0.0, b0) * saturate_or_zero(intensity)));
+    return gnomon_select(t < 1.0, t, 1.0);
+}
+
+/// The share of the absorbance in front of z_f by the bounds on it, less what the bias has put there.
+fn gnomon_absorbance4_intensity(b: absorbance4_, alpha: f32, overestimation: f32, z_f: f32) -> f32
+{
+    let bounds = hamburger4_bounds(absorbance4_factor(b, alpha), z_f);
+    return (bounds_intensity(bounds, overestimation) - alpha) / (1.0 - alpha);
+}
+
+/// The transmittance in [0, 1] at depth z_f of all fragments in front of it. alpha is the weight of the constant
+/// bias, of which the part in front is taken off again, since b0 would multiply it. overestimation is that of
+/// bounds_intensity: 1 for surfaces, which are never darkened, and 1/2 for receivers among the fragments.
+/// Domain: alpha in (0, 1), at least n delta / (n delta + r); any z_f, limited to [-1, 1]; overestimation in [0, 1],
+/// clamped.
+/// NaN: 1, lit; an overestimation of NaN counts as 0.
+fn absorbance4_transmittance(b: absorbance4_, alpha: f32, overestimation: f32, z_f: f32) -> f32
+{
+    return absorbance_transmittance(b.b0_, gnomon_absorbance4_intensity(b, alpha, overestimation, z_f));
+}
+
+/// Shadow intensity in [0, 1] behind opaque occluders, which give the intensity `opaque`, and translucent ones of the
+/// given
+/// transmittance: 1 - (1 - opaque) transmittance.
+/// Domain: both in [0, 1], clamped.
+/// NaN: an intensity of NaN counts as 0 and a transmittance of NaN as 1, lit.
+fn transmitted_intensity(opaque: f32, transmittance: f32) -> f32
+{
+    let absorbed = saturate_or_zero(1.0 - transmittance);
+    let o = saturate_or_zero(opaque);
+    return o + (1.0 - o) * absorbed;
+}
+
+/// Absorbances for three channels of light, whose depths share one distribution: the moments b1 to b4 have the mean of
+/// the three as absorbance.
+struct gnomon_coloured_absorbance4_ { red: f32, green: f32, blue: f32, b1_: f32, b2_: f32, b3_: f32, b4_: f32 }
+
+/// Transmittances, each in [0, 1].
+struct gnomon_coloured_transmittance { red: f32, green: f32, blue: f32 }
+
+const absorbance_third: f32 = 0x1.555556p-2; // 0.33333333333333331
+
+/// The absorbance moments of a coloured fragment at depth z: red, green and blue are its opacities.
+/// Domain: any z, limited to [-1, 1]; any opacities, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an opacity of NaN counts as 0.
+fn coloured_absorbance4_of_fragment(z: f32, red: f32, green: f32, blue: f32) -> gnomon_coloured_absorbance4_
+{
+    var b: gnomon_coloured_absorbance4_;
+    b.red = absorbance_of_opacity(red);
+    b.green = absorbance_of_opacity(green);
+    b.blue = absorbance_of_opacity(blue);
+    let a = absorbance_third * (b.red + (b.green + b.blue));
+    let m = moments4_from_depth(clamp_or_high(z, -1.0, 1.0));
+    b.b1_ = a * m.b1_;
+    b.b2_ = a * m.b2_;
+    b.b3_ = a * m.b3_;
+    b.b4_ = a * m.b4_;
+    return b;
+}
+
+/// The absorbance moments of two sets of coloured fragments together.
+fn coloured_absorbance4_add(given_sum: gnomon_coloured_absorbance4_,
+                            b: gnomon_coloured_absorbance4_) -> gnomon_coloured_absorbance4_
+{
+    var sum = given_sum;
+    sum.red = sum.red + b.red;
+    sum.green = sum.green + b.green;
+    sum.blue = sum.blue + b.blue;
+    sum.b1_ = sum.b1_ + b.b1_;
+    sum.b2_ = sum.b2_ + b.b2_;
+    sum.b3_ = sum.b3_ + b.b3_;
+    sum.b4_ = sum.b4_ + b.b4_;
+    return sum;
+}
+
+/// The transmittances at depth z_f, from one distribution of depth for all channels: right in front of all fragments,
+/// behind all, and wherever their hues are alike. The arguments are those of absorbance4_transmittance.
+/// Domain: as of absorbance4_transmittance.
+/// NaN: 1, lit; an overestimation of NaN counts as 0.
+fn coloured_absorbance4_transmittance(b: gnomon_coloured_absorbance4_, alpha: f32, overestimation: f32,
+                                      z_f: f32) -> gnomon_coloured_transmittance
+{
+    var shared_depths: absorbance4_;
+    shared_depths.b0_ = absorbance_third * (b.red + (b.green + b.blue));
+    shared_depths.b1_ = b.b1_;
+    shared_depths.b2_ = b.b2_;
+    shared_depths.b3_ = b.b3_;
+    shared_depths.b4_ = b.b4_;
+    let intensity = gnomon_absorbance4_intensity(shared_depths, alpha, overestimation, z_f);
+    var t: gnomon_coloured_transmittance;
+    t.red = absorbance_transmittance(b.red, intensity);
+    t.green = absorbance_transmittance(b.green, intensity);
+    t.blue = absorbance_transmittance(b.blue, intensity);
+    return t;
+}
+
+// moments/affine.h ----------------------------------------------------------------------------------------------------
+// Moments of depth in another range: a cascade, a cube face or a cached map with planes of its own. Signed depth in one
+// range is an affine function of signed depth in another, and so the moments of one follow from those of the other
+// (Peters et al. 2017, Eq. 2). Thus moments of two cascades can be mixed, and one reconstruction serves for both.
+//
+//     change = depth_change_from_planes(near_distance, far_distance, target_near, target_far);
+//     b = moments4_affine(b, change);                 moments of depths z are now moments of z scale + offset
+//
+// Change to a range that contains the other. Then |scale| + |offset| <= 1, depths stay in [-1, 1], and what rounding
+// did to moments does not grow: an error of at most e in every moment stays at most e. Towards a narrower range errors
+// grow by (|scale| + |offset|)^j, and depths leave [-1, 1]: convert the receiver's depth instead, which costs no
+// precision.
+//
+// Honest bounds need the error of raw moments, which for 4 x 16 UNORM is larger than that of channels: the constant
+// bias of affine4_unorm16_weight covers one rounding of each mixed map.
+
+/// The function z scale + offset, from signed depth in one range to signed depth in another.
+struct depth_change { scale: f32, offset: f32 }
+
+/// The change from signed depth between two planes, at near_distance and far_distance from the light, to signed depth
+/// between two others, at target_near and target_far. All distances are measured along the same axis, in any unit.
+/// Domain: near_distance < far_distance, target_near < target_far.
+/// NaN: NaN.
+/// Error: 8 2^-p of the largest distance over target_far - target_near.
+fn depth_change_from_planes(near_distance: f32, far_distance: f32, target_near: f32, target_far: f32) -> depth_change
+{
+    let extent = target_far - target_near;
+    var r: depth_change;
+    r.scale = (far_distance - near_distance) / extent;
+    r.offset = ((near_distance - target_near) + (far_distance - target_far)) / extent;
+    return r;
+}
+
+/// Signed depth z in the other range.
+/// NaN: NaN.
+/// Error: two roundings.
+fn depth_affine(z: f32, change: depth_change) -> f32 { return z * change.scale + change.offset; }
+
+// moments/affine.h, four moments --------------------------------------------------------------------------------------
+
+// (1/3 + sqrt 3) / (2 65535) / r, where r = 0.17678 is the distance of the bias vector (0, 0.375, 0, 0.375) to the
+// boundary of the vectors of moments, and the error of theta4_inverse and moments4_affine in float.
+const affine4_unorm16_weight: f32 = 0x1.92a738p-14; // 9.6e-5
+
+/// The moments of z scale + offset, where b are the four moments of z.
+/// Domain: |scale| + |offset| <= 1 for the error.
+/// NaN: NaN.
+/// Error: 6 2^-p, absolute.
+/// Source: Peters 2017, Eq. 2
+fn moments4_affine(b: moments4_, change: depth_change) -> moments4_
+{
+    let s = change.scale;
+    let o = change.offset;
+    let s2 = s * s;
+    let c1 = s * b.b1_;
+    let c2 = s2 * b.b2_;
+    let c3 = s2 * s * b.b3_;
+    var r: moments4_;
+    r.b1_ = c1 + o;
+    r.b2_ = c2 + o * (2.0 * c1 + o);
+    r.b3_ = c3 + o * (3.0 * c2 + o * (3.0 * c1 + o));
+    r.b4_ = s2 * s2 * b.b4_ + o * (4.0 * c3 + o * (6.0 * c2 + o * (4.0 * c1 + o)));
+    return r;
+}
+
+// moments/affine.h, six moments ---------------------------------------------------------------------------------------
+
+/// The moments of z scale + offset, where b are the six moments of z.
+/// Domain: |scale| + |offset| <= 1 for the error.
+/// NaN: NaN.
+/// Error: 9 2^-p, absolute.
+fn moments6_affine(b: moments6_, change: depth_change) -> moments6_
+{
+    let s = change.scale;
+    let o = change.offset;
+    let s2 = s * s;
+    let c1 = s * b.b1_;
+    let c2 = s2 * b.b2_;
+    let c3 = s2 * s * b.b3_;
+    let c4 = s2 * s2 * b.b4_;
+    let c5 = s2 * s2 * s * b.b5_;
+    var r: moments6_;
+    r.b1_ = c1 + o;
+    r.b2_ = c2 + o * (2.0 * c1 + o);
+    r.b3_ = c3 + o * (3.0 * c2 + o * (3.0 * c1 + o));
+    r.b4_ = c4 + o * (4.0 * c3 + o * (6.0 * c2 + o * (4.0 * c1 + o)));
+    r.b5_ = c5 + o * (5.0 * c4 + o * (10.0 * c3 + o * (10.0 * c2 + o * (5.0 * c1 + o))));
+    r.b6_ = s2 * s2 * s2 * b.b6_ + o *
+            (6.0 * c5 + o * (15.0 * c4 + o * (20.0 * c3 + o * (15.0 * c2 + o * (6.0 * c1 + o)))));
+    return r;
 }
 
 // moments/channels.h --------------------------------------------------------------------------------------------------
@@ -3214,173 +3708,6 @@ fn moments4_rounding_filtered(b: moments4_, delta: f32) -> moments4_
     e.b3_ = gnomon_min(delta, delta * gnomon_abs(b.b2_ + b.b4_));
     e.b4_ = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b4_));
     return e;
-}
-
-// numerics/quadratic.h ------------------------------------------------------------------------------------------------
-// Roots of a x^2 + 2 b x + c without cancellation. The sum b + sign(b) sqrt(b^2 - a c) has terms of one sign and gives
-// one root; the product of the roots, c / a, gives the other.
-
-/// The two roots, in no particular order.
-struct gnomon_quadratic_result { first: f32, second: f32 }
-
-/// Both roots of a x^2 + 2 b x + c; for complex roots, their common real part twice. One root is infinite if a is 0.
-/// Domain: b^2 and a c neither overflow nor underflow.
-/// NaN: a NaN gives at least one NaN root; a = b = c = 0 gives two.
-/// Error: 4 ulp where a c <= b^2 / 2, by as many roundings.
-fn quadratic_roots(a: f32, b: f32, c: f32) -> gnomon_quadratic_result
-{
-    let r = gnomon_sqrt(gnomon_max(b * b - a * c, 0.0));
-    let t = gnomon_select(b > 0.0, -(b + r), r - b);
-    var x: gnomon_quadratic_result;
-    x.first = t / a;
-    x.second = c / t;
-    return x;
-}
-
-// moments/hamburger4.h ------------------------------------------------------------------------------------------------
-// Shadow intensity from four moments: sharp bounds on Z(z < z_f) over all depth distributions Z with these moments
-// (the Hamburger moment problem; Peters et al. 2017, Eq. 1 and Alg. 1), without solving for all nodes and weights.
-//
-// The Christoffel-Darboux kernel K(x, y) = sum_k P_k(x) P_k(y) / D_k of the factored Hankel matrix (hankel4.h)
-// gives the canonical distribution with a node at z_f: the other two nodes are the roots of K(z_f, .), and a node
-// at z has the weight w(z) = 1 / K(z, z). The number of nodes above z_f is the number of sign changes in
-// P_0(z_f), P_1(z_f), P_2(z_f):
-//     no node above:      lower = 1 - w_f
-//     both nodes above:   lower = 0
-//     one node above:     lower = w(smaller root)
-// and upper = lower + w_f. Let x = z - mean, u = z_f - mean, V = D_1, N = D_1 D_2, W = V N and
-// Q(x) = V P_2 = (V x - G) x - V^2. Then
-//     w(z) = W / (W + x^2 N + Q(x)^2)
-//     K(z_f, .) = 0:    a x^2 + 2 b x + c = 0,    a = Q V,    2 b = u N - Q G,    c = W - Q V^2,    Q = Q(u)
-// If one root lies on each side, Q < 0, so r^2 = b^2 - a c is a sum of positive terms. The two nodes beside z_f have
-// the weight E / (W + E) together, E = u^2 N + Q^2, and their mean balances z_f about the mean of all, which gives the
-// weight of the smaller one without its root:
-//     w(smaller root) = (E (r + b) - W u a) / (2 r (W + E))
-// The whole takes one division and one square root.
-
-/// The canonical distribution: depth0 at the receiver and depth1 <= depth2. The weights are in [0, 1] and sum to 1.
-struct gnomon_distribution3_ { depth0_: f32, depth1_: f32, depth2_: f32, weight0_: f32, weight1_: f32, weight2_: f32 }
-
-const gnomon_hamburger4_scale: f32 = 72057594037927936.0; // 2^56
-const gnomon_hamburger4_lower_scale: f32 = 281474976710656.0; // 2^48
-
-/// The polynomial Q(x) = V P_2(mean + x).
-fn gnomon_hamburger4_q(h: hankel4_, x: f32) -> f32 { return (h.variance * x - h.third) * x - h.variance * h.variance; }
-
-/// The weight of the node at mean + x, where q = Q(x).
-fn gnomon_hamburger4_weight(h: hankel4_, x: f32, q: f32) -> f32
-{
-    let w = h.variance * h.determinant;
-    return w / (w + (x * x * h.determinant + q * q));
-}
-
-/// The quadratic a x^2 + 2 b x + c.
-struct hamburger4_quadratic { a: f32, b: f32, c: f32 }
-
-/// The quadratic whose roots x are the other two nodes minus the mean, for u = z_f - mean and q = Q(u).
-fn gnomon_hamburger4_other_nodes(h: hankel4_, u: f32, q: f32) -> hamburger4_quadratic
-{
-    // The power of two keeps the discriminant of a single depth, as small as 2^-139, from underflowing.
-    let n = h.determinant * gnomon_hamburger4_scale;
-    let s = q * gnomon_hamburger4_scale;
-    var r: hamburger4_quadratic;
-    r.a = s * h.variance;
-    r.b = 0.5 * (u * n - s * h.third);
-    r.c = h.variance * (n - r.a);
-    return r;
-}
-
-/// Lower bound and weight of the receiver as fractions: lower = share / total, w_f = receiver / whole.
-struct hamburger4_fractions { share: f32, total: f32, receiver: f32, whole: f32 }
-
-/// Lower bound and weight of the receiver at z_f, clamped to [-1, 1], before division and clamping.
-fn gnomon_hamburger4_fractions_at(h: hankel4_, z_f: f32) -> hamburger4_fractions
-{
-    let u = clamp_or_nan(z_f, -1.0, 1.0) - h.mean;
-    let q = gnomon_hamburger4_q(h, u);
-    // The power of two is a factor of every term. The terms of a single depth would underflow otherwise.
-    let s = gnomon_hamburger4_lower_scale * q;
-    let n = gnomon_hamburger4_lower_scale * h.determinant;
-    let un = u * n;
-    let a = s * h.variance;
-    let b = 0.5 * (un - s * h.third);
-    let r = gnomon_sqrt(b * b - a * (h.variance * (n - a)));
-    let e = u * un + q * s;
-    var f: hamburger4_fractions;
-    f.receiver = h.variance * n;
-    f.whole = f.receiver + e;
-    let between = q < 0.0;
-    // Elsewhere u is never 0 and the quotient is e / whole with the sign of u: a negative lower bound is clamped to 0.
-    f.share = gnomon_select(between, e * (r + b) - f.receiver * (u * a), e * u);
-    f.total = gnomon_select(between, r + r, gnomon_abs(u)) * f.whole;
-    return f;
-}
-
-/// Lower bound on the shadow intensity at z_f, in [0, 1]. Surfaces should show this bound, since it never darkens
-/// a lit surface.
-/// Domain: z_f in [-1, 1], clamped.
-/// NaN: 0, lit, for a NaN in h or z_f.
-/// Error: against the moment problem solved in 120 digits (tests/moments/hamburger_oracle.cpp),
-///     error, double, no bias, three depths and more: p99 1e-13, p99.9 2e-12
-///     error, float, hankel4_constant_bias at 3e-7: p99 3e-5, p99.9 1e-4, max 5e-4
-/// and against the kernel in double, with maxima found by climbing (tests/moments/honest_four.cpp),
-///     error, float, hankel4_from_float: p99 3e-5, p99.9 1e-4, max 5e-4
-///     error, float, hankel4_from_float_filtered: p99 2e-5, p99.9 5e-5, max 1e-4
-///     error, float, hankel4_from_half: p99 3e-5, p99.9 1e-4, max 2e-3
-///     error, float, hankel4_from_half_filtered: p99 1e-5, p99.9 3e-5, max 3e-4
-///     error, float, hankel4_from_unorm16_: p99 4e-4, p99.9 2e-3, max 5e-2
-///     error, float, hankel4_from_unorm16_filtered: p99 2e-4, p99.9 6e-4, max 4e-3
-/// Source: Peters 2017, Eq. 1; Peters 2017, Alg. 1
-fn hamburger4_lower(h: hankel4_, z_f: f32) -> f32
-{
-    let f = gnomon_hamburger4_fractions_at(h, z_f);
-    return saturate_or_zero(f.share / f.total);
-}
-
-/// Both bounds on the shadow intensity at z_f and the weight of the receiver, for one division more than
-/// the lower bound.
-/// Domain: z_f in [-1, 1], clamped.
-/// NaN: 0, lit, for a NaN in h or z_f.
-/// Error: as for hamburger4_lower.
-/// Source: Peters 2017, Alg. 1; Peters 2017, Sec. 5.3
-fn hamburger4_bounds(h: hankel4_, z_f: f32) -> hamburger_bounds
-{
-    let f = gnomon_hamburger4_fractions_at(h, z_f);
-    var r: hamburger_bounds;
-    r.lower = saturate_or_zero(f.share / f.total);
-    r.weight = gnomon_min(saturate_or_zero(f.receiver / f.whole), 1.0 - r.lower);
-    r.upper = r.lower + r.weight;
-    return r;
-}
-
-/// The canonical distribution with a node at z_f. The other two depths are finite, at most 1024 from the mean, where a
-/// node that would be at infinity has no weight.
-/// Domain: z_f in [-1, 1], clamped.
-/// NaN: a single depth at the far plane.
-/// Source: Peters 2017, Alg. 1
-fn hamburger4_distribution(h: hankel4_, z_f: f32) -> gnomon_distribution3_
-{
-    let z = clamp_or_nan(z_f, -1.0, 1.0);
-    let u = z - h.mean;
-    let q = gnomon_hamburger4_q(h, u);
-    let p = gnomon_hamburger4_other_nodes(h, u, q);
-    let x = quadratic_roots(p.a, p.b, p.c);
-    let x1 = clamp_or_nan(x.first, -1024.0, 1024.0);
-    let x2 = clamp_or_nan(x.second, -1024.0, 1024.0);
-    let w0 = gnomon_hamburger4_weight(h, u, q);
-    let w1 = gnomon_hamburger4_weight(h, x1, gnomon_hamburger4_q(h, x1));
-    let w2 = gnomon_hamburger4_weight(h, x2, gnomon_hamburger4_q(h, x2));
-    let sum = w0 + (w1 + w2);
-    let swapped = x2 < x1;
-    let known = sum > 0.0; // false for NaN
-    var d: gnomon_distribution3_;
-    d.depth0_ = gnomon_select(known, z, 1.0);
-    d.depth1_ = gnomon_select(known, h.mean + gnomon_select(swapped, x2, x1), 1.0);
-    d.depth2_ = gnomon_select(known, h.mean + gnomon_select(swapped, x1, x2), 1.0);
-    d.weight1_ = gnomon_select(known, gnomon_select(swapped, w2, w1) / sum, 0.0);
-    d.weight2_ = gnomon_select(known, gnomon_select(swapped, w1, w2) / sum, 0.0);
-    d.weight0_ = saturate_or_zero(1.0 - (d.weight1_ + d.weight2_));
-    return d;
 }
 
 // numerics/cubic.h ----------------------------------------------------------------------------------------------------
@@ -6214,7 +6541,7 @@ fn gnomon_hankel4_from_theta(c: channels4_, alpha: f32) -> hankel4_
 /// Domain: alpha from 3e-7 on.
 fn gnomon_hankel4_stored_as_float(c: channels4_, alpha: f32) -> hankel4_
 {
-    return hankel4_constant_bias(moments4_from_channels(c), gnomon_bias4_raw_b2_, gnomon_bias4_raw_b4_, alpha);
+    return hankel4_constant_bias(moments4_from_channels(c), bias4_raw_b2_, bias4_raw_b4_, alpha);
 }
 
 /// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for one rounding.
@@ -6309,8 +6636,8 @@ fn moments4_half_filtered_intensity(c: channels4_, z_f: f32) -> f32
 /// with a bias of weight alpha.
 fn gnomon_moments4_float_intensity_with_noise(c: channels4_, noise: moments4_, alpha: f32, z_f: f32) -> f32
 {
-    return certified4_constant_bias_lower(gnomon_hankel4_stored_as_float(c, alpha), noise, gnomon_bias4_raw_b2_,
-                                          gnomon_bias4_raw_b4_, alpha, z_f);
+    return certified4_constant_bias_lower(gnomon_hankel4_stored_as_float(c, alpha), noise, bias4_raw_b2_, bias4_raw_b4_,
+                                          alpha, z_f);
 }
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
@@ -6331,6 +6658,89 @@ fn moments4_float_filtered_intensity(c: channels4_, z_f: f32) -> f32
     return gnomon_moments4_float_intensity_with_noise(
         c, moments4_rounding_filtered(moments4_from_channels(c), certified4_float_filtered_noise),
         certified4_float_filtered_weight, z_f);
+}
+
+// storage/moments4_blended.h ------------------------------------------------------------------------------------------
+// Four moments from texels into which translucent fragments were blended (moments/translucency.h): what is allowed for
+// grows with the number of roundings that are left.
+//
+//   format          matrix for both bounds         shadow
+//   4 x 16 UNORM    hankel4_from_unorm16_blended   moments4_unorm16_blended_intensity
+//   4 x half        hankel4_from_half_blended      moments4_half_blended_intensity
+//   4 x float       hankel4_from_float_blended     moments4_float_blended_intensity
+//
+// roundings is the number of roundings after the first store of a texel: blend_roundings of the least alpha, and one
+// for each filter pass that stores its results in the format. 0 is a texel that was stored once. Half floats may be
+// truncated by each of them, which counts as two. A blend of floats rounds a product, a sum and 1 - alpha, which is 3.5
+// roundings.
+//
+// Intensities exceed Z(z < z_f) by at most
+//   X_blended_intensity         gnomon_stored4_arithmetic_weight, the error of float arithmetic
+//   hankel4_from_X_blended      the weight of the constant bias, bias_weight_of_roundings, and that of arithmetic
+// Layers that vanish, since they are fainter than half a code, are missing in the shadow, which makes it lighter.
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+fn hankel4_from_unorm16_blended(c: channels4_, roundings: f32) -> hankel4_
+{
+    return gnomon_hankel4_from_theta(
+        c, bias_weight_of_roundings(gnomon_stored4_unorm16_weight, gnomon_blended_roundings(roundings, 1.0)));
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+fn hankel4_from_half_blended(c: channels4_, roundings: f32) -> hankel4_
+{
+    let n = gnomon_blended_roundings(roundings, gnomon_blended_half_roundings);
+    return gnomon_hankel4_from_theta(gnomon_channels4_shifted(c, 0.5),
+                                     bias_weight_of_roundings(gnomon_stored4_half_weight, n));
+}
+
+/// The factored matrix of the channels of a 4 x float texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+fn hankel4_from_float_blended(c: channels4_, roundings: f32) -> hankel4_
+{
+    let n = gnomon_blended_roundings(roundings, gnomon_blended_float_roundings);
+    return gnomon_hankel4_stored_as_float(c, bias_weight_of_roundings(gnomon_stored4_float_weight, n));
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments4_unorm16_blended_intensity(c: channels4_, roundings: f32, z_f: f32) -> f32
+{
+    let n = gnomon_blended_roundings(roundings, 1.0);
+    return gnomon_moments4_theta_intensity(c, n * certified4_unorm16_noise,
+                                           bias_weight_of_roundings(certified4_unorm16_weight, n), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments4_half_blended_intensity(c: channels4_, roundings: f32, z_f: f32) -> f32
+{
+    let n = gnomon_blended_roundings(roundings, gnomon_blended_half_roundings);
+    return gnomon_moments4_theta_intensity(gnomon_channels4_shifted(c, 0.5), n * certified4_half_noise,
+                                           bias_weight_of_roundings(certified4_half_weight, n), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments4_float_blended_intensity(c: channels4_, roundings: f32, z_f: f32) -> f32
+{
+    let n = gnomon_blended_roundings(roundings, gnomon_blended_float_roundings);
+    // Roundings of earlier states of the texel, in which a moment was larger, are no fraction of that moment.
+    var noise: moments4_;
+    noise.b1_ = n * certified4_float_noise;
+    noise.b2_ = noise.b1_;
+    noise.b3_ = noise.b1_;
+    noise.b4_ = noise.b1_;
+    return gnomon_moments4_float_intensity_with_noise(
+        c, noise, bias_weight_of_roundings(certified4_float_weight, n), z_f);
 }
 
 // storage/moments4_within.h -------------------------------------------------------------------------------------------
@@ -6582,6 +6992,75 @@ fn moments6_float_intensity(c: channels6_, z_f: f32) -> f32 { return hamburger6_
 fn moments6_float_filtered_intensity(c: channels6_, z_f: f32) -> f32
 {
     return hamburger6_lower(hankel6_from_float_filtered(c), z_f);
+}
+
+// storage/moments6_blended.h ------------------------------------------------------------------------------------------
+// Six moments from texels into which translucent fragments were blended (moments/translucency.h), by a constant bias
+// whose weight grows with the number of roundings that are left, as in moments4_blended.h.
+//
+//   format          matrix for both bounds         shadow
+//   6 x 10 UNORM    hankel6_from_unorm10_blended   moments6_unorm10_blended_intensity
+//   6 x 16 UNORM    hankel6_from_unorm16_blended   moments6_unorm16_blended_intensity
+//   6 x float       hankel6_from_float_blended     moments6_float_blended_intensity
+//
+// Intensities exceed Z(z < z_f) by bias_weight_of_roundings at most: for blends of an alpha from 1% on by 8.1e-3 for 6
+// x 16 UNORM, but by 0.29 for 6 x 10 UNORM, which is no format to blend many layers into. A blend of floats takes 1.5
+// of the weights of 6 x float, each of which is good for 2.7 roundings.
+
+/// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+fn hankel6_from_unorm10_blended(c: channels6_, roundings: f32) -> hankel6_
+{
+    let weight = bias_weight_of_roundings(gnomon_stored6_unorm10_weight, gnomon_blended_roundings(roundings, 1.0));
+    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2_, bias6_theta_b4_, bias6_theta_b6_,
+                                                  weight));
+}
+
+/// The factored matrix of the channels of a 6 x 16 UNORM texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+fn hankel6_from_unorm16_blended(c: channels6_, roundings: f32) -> hankel6_
+{
+    let weight = bias_weight_of_roundings(gnomon_stored6_unorm16_weight, gnomon_blended_roundings(roundings, 1.0));
+    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2_, bias6_theta_b4_, bias6_theta_b6_,
+                                                  weight));
+}
+
+const gnomon_blended6_float_weights: f32 = 1.5;
+
+/// The factored matrix of the channels of a 6 x float texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+fn hankel6_from_float_blended(c: channels6_, roundings: f32) -> hankel6_
+{
+    let n = gnomon_blended_roundings(roundings, gnomon_blended6_float_weights);
+    return hankel6_constant_bias(moments6_from_channels(c), bias6_raw_b2_, bias6_raw_b4_, bias6_raw_b6_,
+                                 bias_weight_of_roundings(gnomon_stored6_float_weight, n));
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 6 x 10 UNORM texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments6_unorm10_blended_intensity(c: channels6_, roundings: f32, z_f: f32) -> f32
+{
+    return hamburger6_lower(hankel6_from_unorm10_blended(c, roundings), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 6 x 16 UNORM texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments6_unorm16_blended_intensity(c: channels6_, roundings: f32, z_f: f32) -> f32
+{
+    return hamburger6_lower(hankel6_from_unorm16_blended(c, roundings), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 6 x float texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments6_float_blended_intensity(c: channels6_, roundings: f32, z_f: f32) -> f32
+{
+    return hamburger6_lower(hankel6_from_float_blended(c, roundings), z_f);
 }
 
 // storage/variance.h --------------------------------------------------------------------------------------------------

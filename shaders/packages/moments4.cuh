@@ -836,7 +836,7 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif
 
-// moments/bias.h, four moments ----------------------------------------------------------------------------------------
+// moments/bias.h ------------------------------------------------------------------------------------------------------
 // Biasing: rounding in storage can turn moments into numbers that belong to no distribution, so they are moved inwards
 // (Peters et al. 2017, Sec. 2.5).
 //
@@ -855,6 +855,27 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 //   kept apart      hankel4_constant_bias, the same mixture with 100 times less rounding error: for floats
 // Certificates (certified4.h) leak less than a constant bias and never darken a lit surface. A bias that depends on the
 // moments leaks less still, but darkens lit surfaces by up to 0.79 (docs/decisions/2-bias.md).
+#ifndef GNOMON_MOMENTS_BIAS_H
+#define GNOMON_MOMENTS_BIAS_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The weight of a constant bias for n roundings, n w / (1 - w + n w), where w is the weight for one: if w >= delta /
+/// (delta + r), the result is at least n delta / (n delta + r).
+/// Domain: w in [0, 1]; n >= 1, clamped. An infinite n gives NaN, lit.
+/// NaN: NaN, lit.
+/// Error: 4 2^-p, relative.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real bias_weight_of_roundings(Real w, Real n)
+{
+    Real nw = gnomon_max(Real(1), n) * w;
+    return nw / ((Real(1) - w) + nw);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// moments/bias.h, four moments ----------------------------------------------------------------------------------------
 #ifndef GNOMON_MOMENTS_BIAS_4
 #define GNOMON_MOMENTS_BIAS_4
 
@@ -1733,6 +1754,242 @@ GNOMON_INLINE constexpr Real moments4_half_filtered_intensity_within(channels4<R
 {
     return certified4_theta_within(channels4_shifted(c, Real(0.5)), literal<Real>(certified4_half_filtered_noise),
                                    literal<Real>(certified4_half_filtered_weight), least, greatest, z_f);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// moments/translucency.h ----------------------------------------------------------------------------------------------
+// Translucent occluders (Peters et al. 2017, Sec. 3): moments of the depth distribution in which each fragment of a
+// stack has as weight the light that it takes away,
+//     Z = sum_k weight_k delta(z_k),    weight_k = alpha_k prod of (1 - alpha_j) over the fragments j in front of k,
+// so that Z(z < z_f) = 1 - prod of (1 - alpha_k) over z_k < z_f, the intensity of the stack's shadow. What is behind
+// all fragments, an opaque surface or the far plane, has the rest of the weight.
+//
+//     back to front    b = the moments of the surface behind;  b = moments4_over(b, z, alpha) for each fragment
+//     front to back    state = front_to_back_begin(alpha), then front_to_back_add(state, alpha): moments4_add the
+//                      fragment's moments with state.weight, in the end those of the surface behind with
+// state.transmittance
+//
+// A GPU blends back to front: over() of each channel, with the alpha of the fragment. Weights sum to 1, so that affine
+// transforms commute with blending: channels of any format are blended as stored (passes/blend.hpp). For coloured
+// occluders use one map for each channel of light, with the opacity for that light. In any order, a fragment that
+// survives in a sample with probability alpha has this distribution as the mean over samples (stochastic transparency;
+// Enderton et al. 2010).
+//
+// Every blend rounds to the format. Later blends shrink an error by 1 - alpha, so of n roundings by delta
+//     delta (1 - (1 - alpha)^n) / alpha <= delta / alpha
+// is left: blend_roundings, for storage/moments4_blended.h and moments6_blended.h. A least alpha hence limits the
+// error, and fragments below it are discarded (alpha test). Where alpha |above - below| is less than half a code, a
+// blend changes
+// nothing: many faint fragments vanish, for which no bias makes up. Absorbance (absorbance.h) loses less of them.
+#ifndef GNOMON_MOMENTS_TRANSLUCENCY_H
+#define GNOMON_MOMENTS_TRANSLUCENCY_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The over operator (1 - alpha) below + alpha above, for one channel: a fragment of opacity alpha in front of below.
+/// An alpha of 0 leaves below, and 1 leaves above, whatever the other is.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment; other NaN stay.
+/// Error: 2 2^-p for below and above in [-1, 1].
+/// Source: Porter & Duff 1984; Peters 2017, Sec. 3.2
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real over(Real below, Real above, Real alpha)
+{
+    Real a = saturate_or_zero(alpha);
+    Real mixed = (Real(1) - a) * below + a * above;
+    return gnomon_select(Real(0) < a, gnomon_select(a < Real(1), mixed, above), below);
+}
+
+/// A fold over fragments front to back: the weight of the latest fragment, and the transmittance of all up to it, which
+/// is the weight of what is behind them.
+template <class Real, class = require_real<Real>> struct front_to_back { Real weight, transmittance; };
+
+/// The state after the nearest fragment, of opacity alpha.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr front_to_back<Real> front_to_back_begin(Real alpha)
+{
+    front_to_back<Real> state;
+    state.weight = saturate_or_zero(alpha);
+    state.transmittance = Real(1) - state.weight;
+    return state;
+}
+
+/// The state after a further fragment, of opacity alpha, behind those before.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr front_to_back<Real> front_to_back_add(front_to_back<Real> state, Real alpha)
+{
+    Real a = saturate_or_zero(alpha);
+    state.weight = state.transmittance * a;
+    state.transmittance = state.transmittance * (Real(1) - a);
+    return state;
+}
+
+/// The least opacity of the alpha test of Peters et al.
+inline constexpr double alpha_test_one_percent = 0.01;
+
+inline constexpr double blend_least_alpha = 5.9604644775390625e-8; // 2^-24
+
+/// The largest error that blends leave in a texel, in roundings of one blend, for any number of fragments of opacity
+/// least_alpha and more: 1 / least_alpha.
+/// Domain: any least_alpha, clamped to [2^-24, 1].
+/// NaN: 2^24.
+/// Source: Peters 2017, Sec. 3.3
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real blend_roundings(Real least_alpha)
+{
+    return Real(1) / gnomon_max(saturate_or_zero(least_alpha), literal<Real>(blend_least_alpha));
+}
+
+/// The largest error that blends of so many layers leave in a texel, in roundings of one blend: (1 - (1 - a)^n) / a for
+/// a = least_alpha and n = layers, up to a factor of at most 1.16, by which the result is larger.
+/// Domain: any least_alpha, clamped to [2^-24, 1]; layers >= 1, clamped.
+/// NaN: a least_alpha of NaN counts as 2^-24; layers of NaN as any number.
+/// Source: Peters 2017, Sec. 3.3
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real blend_roundings_of_layers(Real least_alpha, Real layers)
+{
+    Real a = gnomon_max(saturate_or_zero(least_alpha), literal<Real>(blend_least_alpha));
+    Real further = gnomon_max(Real(1), layers) - Real(1);
+    Real few = (further + Real(1)) / (Real(1) + Real(0.5) * (further * a));
+    return gnomon_min(few, Real(1) / a);
+}
+
+/// The roundings of a texel in all: one of its first store, and `each` for every further one.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real blended_roundings(Real further, std::type_identity_t<Real> each)
+{
+    return Real(1) + each * gnomon_max(Real(0), further);
+}
+
+// Half floats may be truncated, which errs twice as far. A blend of floats rounds 1 - alpha, two products and a sum.
+inline constexpr double blended_half_roundings = 2.0;
+inline constexpr double blended_float_roundings = 3.5;
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// moments/translucency.h, four moments --------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_TRANSLUCENCY_4
+#define GNOMON_MOMENTS_TRANSLUCENCY_4
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The four moments of a fragment at depth z of opacity alpha, in front of what has the moments below.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+/// Source: Peters 2017, Sec. 3.2
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr moments4<Real> moments4_over(moments4<Real> below, Real z, Real alpha)
+{
+    moments4 b = moments4_from_depth(clamp_or_high(z, Real(-1), Real(1)));
+    b.b1 = over(below.b1, b.b1, alpha);
+    b.b2 = over(below.b2, b.b2, alpha);
+    b.b3 = over(below.b3, b.b3, alpha);
+    b.b4 = over(below.b4, b.b4, alpha);
+    return b;
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// storage/moments4_blended.h ------------------------------------------------------------------------------------------
+// Four moments from texels into which translucent fragments were blended (moments/translucency.h): what is allowed for
+// grows with the number of roundings that are left.
+//
+//   format          matrix for both bounds         shadow
+//   4 x 16 UNORM    hankel4_from_unorm16_blended   moments4_unorm16_blended_intensity
+//   4 x half        hankel4_from_half_blended      moments4_half_blended_intensity
+//   4 x float       hankel4_from_float_blended     moments4_float_blended_intensity
+//
+// roundings is the number of roundings after the first store of a texel: blend_roundings of the least alpha, and one
+// for each filter pass that stores its results in the format. 0 is a texel that was stored once. Half floats may be
+// truncated by each of them, which counts as two. A blend of floats rounds a product, a sum and 1 - alpha, which is 3.5
+// roundings.
+//
+// Intensities exceed Z(z < z_f) by at most
+//   X_blended_intensity         stored4_arithmetic_weight, the error of float arithmetic
+//   hankel4_from_X_blended      the weight of the constant bias, bias_weight_of_roundings, and that of arithmetic
+// Layers that vanish, since they are fainter than half a code, are missing in the shadow, which makes it lighter.
+#ifndef GNOMON_STORAGE_MOMENTS4_BLENDED_H
+#define GNOMON_STORAGE_MOMENTS4_BLENDED_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_unorm16_blended(channels4<Real> c, Real roundings)
+{
+    return hankel4_from_theta(
+        c, bias_weight_of_roundings(literal<Real>(stored4_unorm16_weight), blended_roundings(roundings, Real(1))));
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_half_blended(channels4<Real> c, Real roundings)
+{
+    Real n = blended_roundings(roundings, literal<Real>(blended_half_roundings));
+    return hankel4_from_theta(channels4_shifted(c, Real(0.5)),
+                              bias_weight_of_roundings(literal<Real>(stored4_half_weight), n));
+}
+
+/// The factored matrix of the channels of a 4 x float texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_float_blended(channels4<Real> c, Real roundings)
+{
+    Real n = blended_roundings(roundings, literal<Real>(blended_float_roundings));
+    return hankel4_stored_as_float(c, bias_weight_of_roundings(literal<Real>(stored4_float_weight), n));
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments4_unorm16_blended_intensity(channels4<Real> c, Real roundings, Real z_f)
+{
+    Real n = blended_roundings(roundings, Real(1));
+    return moments4_theta_intensity(c, n * literal<Real>(certified4_unorm16_noise),
+                                    bias_weight_of_roundings(literal<Real>(certified4_unorm16_weight), n), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments4_half_blended_intensity(channels4<Real> c, Real roundings, Real z_f)
+{
+    Real n = blended_roundings(roundings, literal<Real>(blended_half_roundings));
+    return moments4_theta_intensity(channels4_shifted(c, Real(0.5)), n * literal<Real>(certified4_half_noise),
+                                    bias_weight_of_roundings(literal<Real>(certified4_half_weight), n), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments4_float_blended_intensity(channels4<Real> c, Real roundings, Real z_f)
+{
+    Real n = blended_roundings(roundings, literal<Real>(blended_float_roundings));
+    // Roundings of earlier states of the texel, in which a moment was larger, are no fraction of that moment.
+    moments4<Real> noise;
+    noise.b1 = n * literal<Real>(certified4_float_noise);
+    noise.b2 = noise.b1;
+    noise.b3 = noise.b1;
+    noise.b4 = noise.b1;
+    return moments4_float_intensity_with_noise(
+        c, noise, bias_weight_of_roundings(literal<Real>(certified4_float_weight), n), z_f);
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon

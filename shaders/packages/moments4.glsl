@@ -415,7 +415,7 @@ moments4 moments4_affine(moments4 b, depth_change change)
 
 #endif
 
-// moments/bias.h, four moments ----------------------------------------------------------------------------------------
+// moments/bias.h ------------------------------------------------------------------------------------------------------
 // Biasing: rounding in storage can turn moments into numbers that belong to no distribution, so they are moved inwards
 // (Peters et al. 2017, Sec. 2.5).
 //
@@ -434,12 +434,29 @@ moments4 moments4_affine(moments4 b, depth_change change)
 //   kept apart      hankel4_constant_bias, the same mixture with 100 times less rounding error: for floats
 // Certificates (certified4.h) leak less than a constant bias and never darken a lit surface. A bias that depends on the
 // moments leaks less still, but darkens lit surfaces by up to 0.79 (docs/decisions/2-bias.md).
+#ifndef GNOMON_MOMENTS_BIAS_H
+#define GNOMON_MOMENTS_BIAS_H
+
+/// The weight of a constant bias for n roundings, n w / (1 - w + n w), where w is the weight for one: if w >= delta /
+/// (delta + r), the result is at least n delta / (n delta + r).
+/// Domain: w in [0, 1]; n >= 1, clamped. An infinite n gives NaN, lit.
+/// NaN: NaN, lit.
+/// Error: 4 2^-p, relative.
+float bias_weight_of_roundings(float w, float n)
+{
+    float nw = gnomon_max(1.0, n) * w;
+    return nw / ((1.0 - w) + nw);
+}
+
+#endif
+
+// moments/bias.h, four moments ----------------------------------------------------------------------------------------
 #ifndef GNOMON_MOMENTS_BIAS_4
 #define GNOMON_MOMENTS_BIAS_4
 
 // Four moments without transform: r = 0.10147; the paper's vector has 0.10090.
-const float gnomon_bias4_raw_b2 = 0.41397147664677789;
-const float gnomon_bias4_raw_b4 = 0.41397147664677789;
+const float bias4_raw_b2 = 0.41397147664677789;
+const float bias4_raw_b4 = 0.41397147664677789;
 const float bias4_raw_paper_b2 = 0.375;
 const float bias4_raw_paper_b4 = 0.375;
 
@@ -966,7 +983,7 @@ hankel4 gnomon_hankel4_from_theta(channels4 c, float alpha)
 /// Domain: alpha from 3e-7 on.
 hankel4 gnomon_hankel4_stored_as_float(channels4 c, float alpha)
 {
-    return hankel4_constant_bias(moments4_from_channels(c), gnomon_bias4_raw_b2, gnomon_bias4_raw_b4, alpha);
+    return hankel4_constant_bias(moments4_from_channels(c), bias4_raw_b2, bias4_raw_b4, alpha);
 }
 
 /// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for one rounding.
@@ -1059,8 +1076,8 @@ float moments4_half_filtered_intensity(channels4 c, float z_f)
 /// with a bias of weight alpha.
 float gnomon_moments4_float_intensity_with_noise(channels4 c, moments4 noise, float alpha, float z_f)
 {
-    return certified4_constant_bias_lower(gnomon_hankel4_stored_as_float(c, alpha), noise, gnomon_bias4_raw_b2,
-                                          gnomon_bias4_raw_b4, alpha, z_f);
+    return certified4_constant_bias_lower(gnomon_hankel4_stored_as_float(c, alpha), noise, bias4_raw_b2, bias4_raw_b4,
+                                          alpha, z_f);
 }
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
@@ -1199,6 +1216,216 @@ float moments4_half_filtered_intensity_within(channels4 c, float least, float gr
 {
     return gnomon_certified4_theta_within(gnomon_channels4_shifted(c, 0.5), certified4_half_filtered_noise,
                                           certified4_half_filtered_weight, least, greatest, z_f);
+}
+
+#endif
+
+// moments/translucency.h ----------------------------------------------------------------------------------------------
+// Translucent occluders (Peters et al. 2017, Sec. 3): moments of the depth distribution in which each fragment of a
+// stack has as weight the light that it takes away,
+//     Z = sum_k weight_k delta(z_k),    weight_k = alpha_k prod of (1 - alpha_j) over the fragments j in front of k,
+// so that Z(z < z_f) = 1 - prod of (1 - alpha_k) over z_k < z_f, the intensity of the stack's shadow. What is behind
+// all fragments, an opaque surface or the far plane, has the rest of the weight.
+//
+//     back to front    b = the moments of the surface behind;  b = moments4_over(b, z, alpha) for each fragment
+//     front to back    state = front_to_back_begin(alpha), then front_to_back_add(state, alpha): moments4_add the
+//                      fragment's moments with state.weight, in the end those of the surface behind with
+// state.transmittance
+//
+// A GPU blends back to front: over() of each channel, with the alpha of the fragment. Weights sum to 1, so that affine
+// transforms commute with blending: channels of any format are blended as stored (passes/blend.hpp). For coloured
+// occluders use one map for each channel of light, with the opacity for that light. In any order, a fragment that
+// survives in a sample with probability alpha has this distribution as the mean over samples (stochastic transparency;
+// Enderton et al. 2010).
+//
+// Every blend rounds to the format. Later blends shrink an error by 1 - alpha, so of n roundings by delta
+//     delta (1 - (1 - alpha)^n) / alpha <= delta / alpha
+// is left: blend_roundings, for storage/moments4_blended.h and moments6_blended.h. A least alpha hence limits the
+// error, and fragments below it are discarded (alpha test). Where alpha |above - below| is less than half a code, a
+// blend changes
+// nothing: many faint fragments vanish, for which no bias makes up. Absorbance (absorbance.h) loses less of them.
+#ifndef GNOMON_MOMENTS_TRANSLUCENCY_H
+#define GNOMON_MOMENTS_TRANSLUCENCY_H
+
+/// The over operator (1 - alpha) below + alpha above, for one channel: a fragment of opacity alpha in front of below.
+/// An alpha of 0 leaves below, and 1 leaves above, whatever the other is.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment; other NaN stay.
+/// Error: 2 2^-p for below and above in [-1, 1].
+/// Source: Porter & Duff 1984; Peters 2017, Sec. 3.2
+float over(float below, float above, float alpha)
+{
+    float a = saturate_or_zero(alpha);
+    float mixed = (1.0 - a) * below + a * above;
+    return gnomon_select(0.0 < a, gnomon_select(a < 1.0, mixed, above), below);
+}
+
+/// A fold over fragments front to back: the weight of the latest fragment, and the transmittance of all up to it, which
+/// is the weight of what is behind them.
+struct gnomon_front_to_back { float weight, transmittance; };
+
+/// The state after the nearest fragment, of opacity alpha.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment.
+gnomon_front_to_back front_to_back_begin(float alpha)
+{
+    gnomon_front_to_back state;
+    state.weight = saturate_or_zero(alpha);
+    state.transmittance = 1.0 - state.weight;
+    return state;
+}
+
+/// The state after a further fragment, of opacity alpha, behind those before.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment.
+gnomon_front_to_back front_to_back_add(gnomon_front_to_back state, float alpha)
+{
+    float a = saturate_or_zero(alpha);
+    state.weight = state.transmittance * a;
+    state.transmittance = state.transmittance * (1.0 - a);
+    return state;
+}
+
+/// The least opacity of the alpha test of Peters et al.
+const float gnomon_alpha_test_one_percent = 0.01;
+
+const float gnomon_blend_least_alpha = 5.9604644775390625e-8; // 2^-24
+
+/// The largest error that blends leave in a texel, in roundings of one blend, for any number of fragments of opacity
+/// least_alpha and more: 1 / least_alpha.
+/// Domain: any least_alpha, clamped to [2^-24, 1].
+/// NaN: 2^24.
+/// Source: Peters 2017, Sec. 3.3
+float blend_roundings(float least_alpha)
+{
+    return 1.0 / gnomon_max(saturate_or_zero(least_alpha), gnomon_blend_least_alpha);
+}
+
+/// The largest error that blends of so many layers leave in a texel, in roundings of one blend: (1 - (1 - a)^n) / a for
+/// a = least_alpha and n = layers, up to a factor of at most 1.16, by which the result is larger.
+/// Domain: any least_alpha, clamped to [2^-24, 1]; layers >= 1, clamped.
+/// NaN: a least_alpha of NaN counts as 2^-24; layers of NaN as any number.
+/// Source: Peters 2017, Sec. 3.3
+float blend_roundings_of_layers(float least_alpha, float layers)
+{
+    float a = gnomon_max(saturate_or_zero(least_alpha), gnomon_blend_least_alpha);
+    float further = gnomon_max(1.0, layers) - 1.0;
+    float few = (further + 1.0) / (1.0 + 0.5 * (further * a));
+    return gnomon_min(few, 1.0 / a);
+}
+
+/// The roundings of a texel in all: one of its first store, and `each` for every further one.
+float gnomon_blended_roundings(float further, float each) { return 1.0 + each * gnomon_max(0.0, further); }
+
+// Half floats may be truncated, which errs twice as far. A blend of floats rounds 1 - alpha, two products and a sum.
+const float gnomon_blended_half_roundings = 2.0;
+const float gnomon_blended_float_roundings = 3.5;
+
+#endif
+
+// moments/translucency.h, four moments --------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_TRANSLUCENCY_4
+#define GNOMON_MOMENTS_TRANSLUCENCY_4
+
+/// The four moments of a fragment at depth z of opacity alpha, in front of what has the moments below.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+/// Source: Peters 2017, Sec. 3.2
+moments4 moments4_over(moments4 below, float z, float alpha)
+{
+    moments4 b = moments4_from_depth(clamp_or_high(z, -1.0, 1.0));
+    b.b1 = over(below.b1, b.b1, alpha);
+    b.b2 = over(below.b2, b.b2, alpha);
+    b.b3 = over(below.b3, b.b3, alpha);
+    b.b4 = over(below.b4, b.b4, alpha);
+    return b;
+}
+
+#endif
+
+// storage/moments4_blended.h ------------------------------------------------------------------------------------------
+// Four moments from texels into which translucent fragments were blended (moments/translucency.h): what is allowed for
+// grows with the number of roundings that are left.
+//
+//   format          matrix for both bounds         shadow
+//   4 x 16 UNORM    hankel4_from_unorm16_blended   moments4_unorm16_blended_intensity
+//   4 x half        hankel4_from_half_blended      moments4_half_blended_intensity
+//   4 x float       hankel4_from_float_blended     moments4_float_blended_intensity
+//
+// roundings is the number of roundings after the first store of a texel: blend_roundings of the least alpha, and one
+// for each filter pass that stores its results in the format. 0 is a texel that was stored once. Half floats may be
+// truncated by each of them, which counts as two. A blend of floats rounds a product, a sum and 1 - alpha, which is 3.5
+// roundings.
+//
+// Intensities exceed Z(z < z_f) by at most
+//   X_blended_intensity         gnomon_stored4_arithmetic_weight, the error of float arithmetic
+//   hankel4_from_X_blended      the weight of the constant bias, bias_weight_of_roundings, and that of arithmetic
+// Layers that vanish, since they are fainter than half a code, are missing in the shadow, which makes it lighter.
+#ifndef GNOMON_STORAGE_MOMENTS4_BLENDED_H
+#define GNOMON_STORAGE_MOMENTS4_BLENDED_H
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+hankel4 hankel4_from_unorm16_blended(channels4 c, float roundings)
+{
+    return gnomon_hankel4_from_theta(
+        c, bias_weight_of_roundings(gnomon_stored4_unorm16_weight, gnomon_blended_roundings(roundings, 1.0)));
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+hankel4 hankel4_from_half_blended(channels4 c, float roundings)
+{
+    float n = gnomon_blended_roundings(roundings, gnomon_blended_half_roundings);
+    return gnomon_hankel4_from_theta(gnomon_channels4_shifted(c, 0.5),
+                                     bias_weight_of_roundings(gnomon_stored4_half_weight, n));
+}
+
+/// The factored matrix of the channels of a 4 x float texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+hankel4 hankel4_from_float_blended(channels4 c, float roundings)
+{
+    float n = gnomon_blended_roundings(roundings, gnomon_blended_float_roundings);
+    return gnomon_hankel4_stored_as_float(c, bias_weight_of_roundings(gnomon_stored4_float_weight, n));
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+float moments4_unorm16_blended_intensity(channels4 c, float roundings, float z_f)
+{
+    float n = gnomon_blended_roundings(roundings, 1.0);
+    return gnomon_moments4_theta_intensity(c, n * certified4_unorm16_noise,
+                                           bias_weight_of_roundings(certified4_unorm16_weight, n), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+float moments4_half_blended_intensity(channels4 c, float roundings, float z_f)
+{
+    float n = gnomon_blended_roundings(roundings, gnomon_blended_half_roundings);
+    return gnomon_moments4_theta_intensity(gnomon_channels4_shifted(c, 0.5), n * certified4_half_noise,
+                                           bias_weight_of_roundings(certified4_half_weight, n), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+float moments4_float_blended_intensity(channels4 c, float roundings, float z_f)
+{
+    float n = gnomon_blended_roundings(roundings, gnomon_blended_float_roundings);
+    // Roundings of earlier states of the texel, in which a moment was larger, are no fraction of that moment.
+    moments4 noise;
+    noise.b1 = n * certified4_float_noise;
+    noise.b2 = noise.b1;
+    noise.b3 = noise.b1;
+    noise.b4 = noise.b1;
+    return gnomon_moments4_float_intensity_with_noise(
+        c, noise, bias_weight_of_roundings(certified4_float_weight, n), z_f);
 }
 
 #endif

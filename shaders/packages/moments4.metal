@@ -450,7 +450,7 @@ inline moments4 moments4_affine(moments4 b, depth_change change)
 
 #endif
 
-// moments/bias.h, four moments ----------------------------------------------------------------------------------------
+// moments/bias.h ------------------------------------------------------------------------------------------------------
 // Biasing: rounding in storage can turn moments into numbers that belong to no distribution, so they are moved inwards
 // (Peters et al. 2017, Sec. 2.5).
 //
@@ -469,6 +469,27 @@ inline moments4 moments4_affine(moments4 b, depth_change change)
 //   kept apart      hankel4_constant_bias, the same mixture with 100 times less rounding error: for floats
 // Certificates (certified4.h) leak less than a constant bias and never darken a lit surface. A bias that depends on the
 // moments leaks less still, but darkens lit surfaces by up to 0.79 (docs/decisions/2-bias.md).
+#ifndef GNOMON_MOMENTS_BIAS_H
+#define GNOMON_MOMENTS_BIAS_H
+
+namespace gnomon {
+
+/// The weight of a constant bias for n roundings, n w / (1 - w + n w), where w is the weight for one: if w >= delta /
+/// (delta + r), the result is at least n delta / (n delta + r).
+/// Domain: w in [0, 1]; n >= 1, clamped. An infinite n gives NaN, lit.
+/// NaN: NaN, lit.
+/// Error: 4 2^-p, relative.
+inline float bias_weight_of_roundings(float w, float n)
+{
+    float nw = gnomon_max(1.0f, n) * w;
+    return nw / ((1.0f - w) + nw);
+}
+
+} // namespace gnomon
+
+#endif
+
+// moments/bias.h, four moments ----------------------------------------------------------------------------------------
 #ifndef GNOMON_MOMENTS_BIAS_4
 #define GNOMON_MOMENTS_BIAS_4
 
@@ -1261,6 +1282,225 @@ inline float moments4_half_filtered_intensity_within(channels4 c, float least, f
 {
     return certified4_theta_within(channels4_shifted(c, 0.5f), certified4_half_filtered_noise,
                                    certified4_half_filtered_weight, least, greatest, z_f);
+}
+
+} // namespace gnomon
+
+#endif
+
+// moments/translucency.h ----------------------------------------------------------------------------------------------
+// Translucent occluders (Peters et al. 2017, Sec. 3): moments of the depth distribution in which each fragment of a
+// stack has as weight the light that it takes away,
+//     Z = sum_k weight_k delta(z_k),    weight_k = alpha_k prod of (1 - alpha_j) over the fragments j in front of k,
+// so that Z(z < z_f) = 1 - prod of (1 - alpha_k) over z_k < z_f, the intensity of the stack's shadow. What is behind
+// all fragments, an opaque surface or the far plane, has the rest of the weight.
+//
+//     back to front    b = the moments of the surface behind;  b = moments4_over(b, z, alpha) for each fragment
+//     front to back    state = front_to_back_begin(alpha), then front_to_back_add(state, alpha): moments4_add the
+//                      fragment's moments with state.weight, in the end those of the surface behind with
+// state.transmittance
+//
+// A GPU blends back to front: over() of each channel, with the alpha of the fragment. Weights sum to 1, so that affine
+// transforms commute with blending: channels of any format are blended as stored (passes/blend.hpp). For coloured
+// occluders use one map for each channel of light, with the opacity for that light. In any order, a fragment that
+// survives in a sample with probability alpha has this distribution as the mean over samples (stochastic transparency;
+// Enderton et al. 2010).
+//
+// Every blend rounds to the format. Later blends shrink an error by 1 - alpha, so of n roundings by delta
+//     delta (1 - (1 - alpha)^n) / alpha <= delta / alpha
+// is left: blend_roundings, for storage/moments4_blended.h and moments6_blended.h. A least alpha hence limits the
+// error, and fragments below it are discarded (alpha test). Where alpha |above - below| is less than half a code, a
+// blend changes
+// nothing: many faint fragments vanish, for which no bias makes up. Absorbance (absorbance.h) loses less of them.
+#ifndef GNOMON_MOMENTS_TRANSLUCENCY_H
+#define GNOMON_MOMENTS_TRANSLUCENCY_H
+
+namespace gnomon {
+
+/// The over operator (1 - alpha) below + alpha above, for one channel: a fragment of opacity alpha in front of below.
+/// An alpha of 0 leaves below, and 1 leaves above, whatever the other is.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment; other NaN stay.
+/// Error: 2 2^-p for below and above in [-1, 1].
+/// Source: Porter & Duff 1984; Peters 2017, Sec. 3.2
+inline float over(float below, float above, float alpha)
+{
+    float a = saturate_or_zero(alpha);
+    float mixed = (1.0f - a) * below + a * above;
+    return gnomon_select(0.0f < a, gnomon_select(a < 1.0f, mixed, above), below);
+}
+
+/// A fold over fragments front to back: the weight of the latest fragment, and the transmittance of all up to it, which
+/// is the weight of what is behind them.
+struct front_to_back { float weight, transmittance; };
+
+/// The state after the nearest fragment, of opacity alpha.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment.
+inline front_to_back front_to_back_begin(float alpha)
+{
+    front_to_back state;
+    state.weight = saturate_or_zero(alpha);
+    state.transmittance = 1.0f - state.weight;
+    return state;
+}
+
+/// The state after a further fragment, of opacity alpha, behind those before.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment.
+inline front_to_back front_to_back_add(front_to_back state, float alpha)
+{
+    float a = saturate_or_zero(alpha);
+    state.weight = state.transmittance * a;
+    state.transmittance = state.transmittance * (1.0f - a);
+    return state;
+}
+
+/// The least opacity of the alpha test of Peters et al.
+constant constexpr float alpha_test_one_percent = 0.01f;
+
+constant constexpr float blend_least_alpha = 5.9604644775390625e-8f; // 2^-24
+
+/// The largest error that blends leave in a texel, in roundings of one blend, for any number of fragments of opacity
+/// least_alpha and more: 1 / least_alpha.
+/// Domain: any least_alpha, clamped to [2^-24, 1].
+/// NaN: 2^24.
+/// Source: Peters 2017, Sec. 3.3
+inline float blend_roundings(float least_alpha)
+{
+    return 1.0f / gnomon_max(saturate_or_zero(least_alpha), blend_least_alpha);
+}
+
+/// The largest error that blends of so many layers leave in a texel, in roundings of one blend: (1 - (1 - a)^n) / a for
+/// a = least_alpha and n = layers, up to a factor of at most 1.16, by which the result is larger.
+/// Domain: any least_alpha, clamped to [2^-24, 1]; layers >= 1, clamped.
+/// NaN: a least_alpha of NaN counts as 2^-24; layers of NaN as any number.
+/// Source: Peters 2017, Sec. 3.3
+inline float blend_roundings_of_layers(float least_alpha, float layers)
+{
+    float a = gnomon_max(saturate_or_zero(least_alpha), blend_least_alpha);
+    float further = gnomon_max(1.0f, layers) - 1.0f;
+    float few = (further + 1.0f) / (1.0f + 0.5f * (further * a));
+    return gnomon_min(few, 1.0f / a);
+}
+
+/// The roundings of a texel in all: one of its first store, and `each` for every further one.
+inline float blended_roundings(float further, float each) { return 1.0f + each * gnomon_max(0.0f, further); }
+
+// Half floats may be truncated, which errs twice as far. A blend of floats rounds 1 - alpha, two products and a sum.
+constant constexpr float blended_half_roundings = 2.0f;
+constant constexpr float blended_float_roundings = 3.5f;
+
+} // namespace gnomon
+
+#endif
+
+// moments/translucency.h, four moments --------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_TRANSLUCENCY_4
+#define GNOMON_MOMENTS_TRANSLUCENCY_4
+
+namespace gnomon {
+
+/// The four moments of a fragment at depth z of opacity alpha, in front of what has the moments below.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+/// Source: Peters 2017, Sec. 3.2
+inline moments4 moments4_over(moments4 below, float z, float alpha)
+{
+    moments4 b = moments4_from_depth(clamp_or_high(z, -1.0f, 1.0f));
+    b.b1 = over(below.b1, b.b1, alpha);
+    b.b2 = over(below.b2, b.b2, alpha);
+    b.b3 = over(below.b3, b.b3, alpha);
+    b.b4 = over(below.b4, b.b4, alpha);
+    return b;
+}
+
+} // namespace gnomon
+
+#endif
+
+// storage/moments4_blended.h ------------------------------------------------------------------------------------------
+// Four moments from texels into which translucent fragments were blended (moments/translucency.h): what is allowed for
+// grows with the number of roundings that are left.
+//
+//   format          matrix for both bounds         shadow
+//   4 x 16 UNORM    hankel4_from_unorm16_blended   moments4_unorm16_blended_intensity
+//   4 x half        hankel4_from_half_blended      moments4_half_blended_intensity
+//   4 x float       hankel4_from_float_blended     moments4_float_blended_intensity
+//
+// roundings is the number of roundings after the first store of a texel: blend_roundings of the least alpha, and one
+// for each filter pass that stores its results in the format. 0 is a texel that was stored once. Half floats may be
+// truncated by each of them, which counts as two. A blend of floats rounds a product, a sum and 1 - alpha, which is 3.5
+// roundings.
+//
+// Intensities exceed Z(z < z_f) by at most
+//   X_blended_intensity         stored4_arithmetic_weight, the error of float arithmetic
+//   hankel4_from_X_blended      the weight of the constant bias, bias_weight_of_roundings, and that of arithmetic
+// Layers that vanish, since they are fainter than half a code, are missing in the shadow, which makes it lighter.
+#ifndef GNOMON_STORAGE_MOMENTS4_BLENDED_H
+#define GNOMON_STORAGE_MOMENTS4_BLENDED_H
+
+namespace gnomon {
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+inline hankel4 hankel4_from_unorm16_blended(channels4 c, float roundings)
+{
+    return hankel4_from_theta(c, bias_weight_of_roundings(stored4_unorm16_weight, blended_roundings(roundings, 1.0f)));
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+inline hankel4 hankel4_from_half_blended(channels4 c, float roundings)
+{
+    float n = blended_roundings(roundings, blended_half_roundings);
+    return hankel4_from_theta(channels4_shifted(c, 0.5f), bias_weight_of_roundings(stored4_half_weight, n));
+}
+
+/// The factored matrix of the channels of a 4 x float texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+inline hankel4 hankel4_from_float_blended(channels4 c, float roundings)
+{
+    float n = blended_roundings(roundings, blended_float_roundings);
+    return hankel4_stored_as_float(c, bias_weight_of_roundings(stored4_float_weight, n));
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+inline float moments4_unorm16_blended_intensity(channels4 c, float roundings, float z_f)
+{
+    float n = blended_roundings(roundings, 1.0f);
+    return moments4_theta_intensity(c, n * certified4_unorm16_noise,
+                                    bias_weight_of_roundings(certified4_unorm16_weight, n), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+inline float moments4_half_blended_intensity(channels4 c, float roundings, float z_f)
+{
+    float n = blended_roundings(roundings, blended_half_roundings);
+    return moments4_theta_intensity(channels4_shifted(c, 0.5f), n * certified4_half_noise,
+                                    bias_weight_of_roundings(certified4_half_weight, n), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+inline float moments4_float_blended_intensity(channels4 c, float roundings, float z_f)
+{
+    float n = blended_roundings(roundings, blended_float_roundings);
+    // Roundings of earlier states of the texel, in which a moment was larger, are no fraction of that moment.
+    moments4 noise;
+    noise.b1 = n * certified4_float_noise;
+    noise.b2 = noise.b1;
+    noise.b3 = noise.b1;
+    noise.b4 = noise.b1;
+    return moments4_float_intensity_with_noise(c, noise, bias_weight_of_roundings(certified4_float_weight, n), z_f);
 }
 
 } // namespace gnomon

@@ -355,7 +355,7 @@ fn moments4_affine(b: moments4_, change: depth_change) -> moments4_
     return r;
 }
 
-// moments/bias.h, four moments ----------------------------------------------------------------------------------------
+// moments/bias.h ------------------------------------------------------------------------------------------------------
 // Biasing: rounding in storage can turn moments into numbers that belong to no distribution, so they are moved inwards
 // (Peters et al. 2017, Sec. 2.5).
 //
@@ -375,9 +375,22 @@ fn moments4_affine(b: moments4_, change: depth_change) -> moments4_
 // Certificates (certified4.h) leak less than a constant bias and never darken a lit surface. A bias that depends on the
 // moments leaks less still, but darkens lit surfaces by up to 0.79 (docs/decisions/2-bias.md).
 
+/// The weight of a constant bias for n roundings, n w / (1 - w + n w), where w is the weight for one: if w >= delta /
+/// (delta + r), the result is at least n delta / (n delta + r).
+/// Domain: w in [0, 1]; n >= 1, clamped. An infinite n gives NaN, lit.
+/// NaN: NaN, lit.
+/// Error: 4 2^-p, relative.
+fn bias_weight_of_roundings(w: f32, n: f32) -> f32
+{
+    let nw = gnomon_max(1.0, n) * w;
+    return nw / ((1.0 - w) + nw);
+}
+
+// moments/bias.h, four moments ----------------------------------------------------------------------------------------
+
 // Four moments without transform: r = 0.10147; the paper's vector has 0.10090.
-const gnomon_bias4_raw_b2_: f32 = 0x1.a7e824p-2; // 0.41397147664677789
-const gnomon_bias4_raw_b4_: f32 = 0x1.a7e824p-2; // 0.41397147664677789
+const bias4_raw_b2_: f32 = 0x1.a7e824p-2; // 0.41397147664677789
+const bias4_raw_b4_: f32 = 0x1.a7e824p-2; // 0.41397147664677789
 const bias4_raw_paper_b2_: f32 = 0.375;
 const bias4_raw_paper_b4_: f32 = 0.375;
 
@@ -883,7 +896,7 @@ fn gnomon_hankel4_from_theta(c: channels4_, alpha: f32) -> hankel4_
 /// Domain: alpha from 3e-7 on.
 fn gnomon_hankel4_stored_as_float(c: channels4_, alpha: f32) -> hankel4_
 {
-    return hankel4_constant_bias(moments4_from_channels(c), gnomon_bias4_raw_b2_, gnomon_bias4_raw_b4_, alpha);
+    return hankel4_constant_bias(moments4_from_channels(c), bias4_raw_b2_, bias4_raw_b4_, alpha);
 }
 
 /// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for one rounding.
@@ -978,8 +991,8 @@ fn moments4_half_filtered_intensity(c: channels4_, z_f: f32) -> f32
 /// with a bias of weight alpha.
 fn gnomon_moments4_float_intensity_with_noise(c: channels4_, noise: moments4_, alpha: f32, z_f: f32) -> f32
 {
-    return certified4_constant_bias_lower(gnomon_hankel4_stored_as_float(c, alpha), noise, gnomon_bias4_raw_b2_,
-                                          gnomon_bias4_raw_b4_, alpha, z_f);
+    return certified4_constant_bias_lower(gnomon_hankel4_stored_as_float(c, alpha), noise, bias4_raw_b2_, bias4_raw_b4_,
+                                          alpha, z_f);
 }
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
@@ -1115,6 +1128,205 @@ fn moments4_half_filtered_intensity_within(c: channels4_, least: f32, greatest: 
 {
     return gnomon_certified4_theta_within(gnomon_channels4_shifted(c, 0.5), certified4_half_filtered_noise,
                                           certified4_half_filtered_weight, least, greatest, z_f);
+}
+
+// moments/translucency.h ----------------------------------------------------------------------------------------------
+// Translucent occluders (Peters et al. 2017, Sec. 3): moments of the depth distribution in which each fragment of a
+// stack has as weight the light that it takes away,
+//     Z = sum_k weight_k delta(z_k),    weight_k = alpha_k prod of (1 - alpha_j) over the fragments j in front of k,
+// so that Z(z < z_f) = 1 - prod of (1 - alpha_k) over z_k < z_f, the intensity of the stack's shadow. What is behind
+// all fragments, an opaque surface or the far plane, has the rest of the weight.
+//
+//     back to front    b = the moments of the surface behind;  b = moments4_over(b, z, alpha) for each fragment
+//     front to back    state = front_to_back_begin(alpha), then front_to_back_add(state, alpha): moments4_add the
+//                      fragment's moments with state.weight, in the end those of the surface behind with
+// state.transmittance
+//
+// A GPU blends back to front: over() of each channel, with the alpha of the fragment. Weights sum to 1, so that affine
+// transforms commute with blending: channels of any format are blended as stored (passes/blend.hpp). For coloured
+// occluders use one map for each channel of light, with the opacity for that light. In any order, a fragment that
+// survives in a sample with probability alpha has this distribution as the mean over samples (stochastic transparency;
+// Enderton et al. 2010).
+//
+// Every blend rounds to the format. Later blends shrink an error by 1 - alpha, so of n roundings by delta
+//     delta (1 - (1 - alpha)^n) / alpha <= delta / alpha
+// is left: blend_roundings, for storage/moments4_blended.h and moments6_blended.h. A least alpha hence limits the
+// error, and fragments below it are discarded (alpha test). Where alpha |above - below| is less than half a code, a
+// blend changes
+// nothing: many faint fragments vanish, for which no bias makes up. Absorbance (absorbance.h) loses less of them.
+
+/// The over operator (1 - alpha) below + alpha above, for one channel: a fragment of opacity alpha in front of below.
+/// An alpha of 0 leaves below, and 1 leaves above, whatever the other is.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment; other NaN stay.
+/// Error: 2 2^-p for below and above in [-1, 1].
+/// Source: Porter & Duff 1984; Peters 2017, Sec. 3.2
+fn over(below: f32, above: f32, alpha: f32) -> f32
+{
+    let a = saturate_or_zero(alpha);
+    let mixed = (1.0 - a) * below + a * above;
+    return gnomon_select(0.0 < a, gnomon_select(a < 1.0, mixed, above), below);
+}
+
+/// A fold over fragments front to back: the weight of the latest fragment, and the transmittance of all up to it, which
+/// is the weight of what is behind them.
+struct gnomon_front_to_back { weight: f32, transmittance: f32 }
+
+/// The state after the nearest fragment, of opacity alpha.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment.
+fn front_to_back_begin(alpha: f32) -> gnomon_front_to_back
+{
+    var state: gnomon_front_to_back;
+    state.weight = saturate_or_zero(alpha);
+    state.transmittance = 1.0 - state.weight;
+    return state;
+}
+
+/// The state after a further fragment, of opacity alpha, behind those before.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment.
+fn front_to_back_add(given_state: gnomon_front_to_back, alpha: f32) -> gnomon_front_to_back
+{
+    var state = given_state;
+    let a = saturate_or_zero(alpha);
+    state.weight = state.transmittance * a;
+    state.transmittance = state.transmittance * (1.0 - a);
+    return state;
+}
+
+/// The least opacity of the alpha test of Peters et al.
+const gnomon_alpha_test_one_percent: f32 = 0x1.47ae14p-7; // 0.01
+
+const gnomon_blend_least_alpha: f32 = 5.9604644775390625e-8; // 2^-24
+
+/// The largest error that blends leave in a texel, in roundings of one blend, for any number of fragments of opacity
+/// least_alpha and more: 1 / least_alpha.
+/// Domain: any least_alpha, clamped to [2^-24, 1].
+/// NaN: 2^24.
+/// Source: Peters 2017, Sec. 3.3
+fn blend_roundings(least_alpha: f32) -> f32
+{
+    return 1.0 / gnomon_max(saturate_or_zero(least_alpha), gnomon_blend_least_alpha);
+}
+
+/// The largest error that blends of so many layers leave in a texel, in roundings of one blend: (1 - (1 - a)^n) / a for
+/// a = least_alpha and n = layers, up to a factor of at most 1.16, by which the result is larger.
+/// Domain: any least_alpha, clamped to [2^-24, 1]; layers >= 1, clamped.
+/// NaN: a least_alpha of NaN counts as 2^-24; layers of NaN as any number.
+/// Source: Peters 2017, Sec. 3.3
+fn blend_roundings_of_layers(least_alpha: f32, layers: f32) -> f32
+{
+    let a = gnomon_max(saturate_or_zero(least_alpha), gnomon_blend_least_alpha);
+    let further = gnomon_max(1.0, layers) - 1.0;
+    let few = (further + 1.0) / (1.0 + 0.5 * (further * a));
+    return gnomon_min(few, 1.0 / a);
+}
+
+/// The roundings of a texel in all: one of its first store, and `each` for every further one.
+fn gnomon_blended_roundings(further: f32, each: f32) -> f32 { return 1.0 + each * gnomon_max(0.0, further); }
+
+// Half floats may be truncated, which errs twice as far. A blend of floats rounds 1 - alpha, two products and a sum.
+const gnomon_blended_half_roundings: f32 = 2.0;
+const gnomon_blended_float_roundings: f32 = 3.5;
+
+// moments/translucency.h, four moments --------------------------------------------------------------------------------
+
+/// The four moments of a fragment at depth z of opacity alpha, in front of what has the moments below.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+/// Source: Peters 2017, Sec. 3.2
+fn moments4_over(below: moments4_, z: f32, alpha: f32) -> moments4_
+{
+    var b = moments4_from_depth(clamp_or_high(z, -1.0, 1.0));
+    b.b1_ = over(below.b1_, b.b1_, alpha);
+    b.b2_ = over(below.b2_, b.b2_, alpha);
+    b.b3_ = over(below.b3_, b.b3_, alpha);
+    b.b4_ = over(below.b4_, b.b4_, alpha);
+    return b;
+}
+
+// storage/moments4_blended.h ------------------------------------------------------------------------------------------
+// Four moments from texels into which translucent fragments were blended (moments/translucency.h): what is allowed for
+// grows with the number of roundings that are left.
+//
+//   format          matrix for both bounds         shadow
+//   4 x 16 UNORM    hankel4_from_unorm16_blended   moments4_unorm16_blended_intensity
+//   4 x half        hankel4_from_half_blended      moments4_half_blended_intensity
+//   4 x float       hankel4_from_float_blended     moments4_float_blended_intensity
+//
+// roundings is the number of roundings after the first store of a texel: blend_roundings of the least alpha, and one
+// for each filter pass that stores its results in the format. 0 is a texel that was stored once. Half floats may be
+// truncated by each of them, which counts as two. A blend of floats rounds a product, a sum and 1 - alpha, which is 3.5
+// roundings.
+//
+// Intensities exceed Z(z < z_f) by at most
+//   X_blended_intensity         gnomon_stored4_arithmetic_weight, the error of float arithmetic
+//   hankel4_from_X_blended      the weight of the constant bias, bias_weight_of_roundings, and that of arithmetic
+// Layers that vanish, since they are fainter than half a code, are missing in the shadow, which makes it lighter.
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+fn hankel4_from_unorm16_blended(c: channels4_, roundings: f32) -> hankel4_
+{
+    return gnomon_hankel4_from_theta(
+        c, bias_weight_of_roundings(gnomon_stored4_unorm16_weight, gnomon_blended_roundings(roundings, 1.0)));
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+fn hankel4_from_half_blended(c: channels4_, roundings: f32) -> hankel4_
+{
+    let n = gnomon_blended_roundings(roundings, gnomon_blended_half_roundings);
+    return gnomon_hankel4_from_theta(gnomon_channels4_shifted(c, 0.5),
+                                     bias_weight_of_roundings(gnomon_stored4_half_weight, n));
+}
+
+/// The factored matrix of the channels of a 4 x float texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+fn hankel4_from_float_blended(c: channels4_, roundings: f32) -> hankel4_
+{
+    let n = gnomon_blended_roundings(roundings, gnomon_blended_float_roundings);
+    return gnomon_hankel4_stored_as_float(c, bias_weight_of_roundings(gnomon_stored4_float_weight, n));
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments4_unorm16_blended_intensity(c: channels4_, roundings: f32, z_f: f32) -> f32
+{
+    let n = gnomon_blended_roundings(roundings, 1.0);
+    return gnomon_moments4_theta_intensity(c, n * certified4_unorm16_noise,
+                                           bias_weight_of_roundings(certified4_unorm16_weight, n), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments4_half_blended_intensity(c: channels4_, roundings: f32, z_f: f32) -> f32
+{
+    let n = gnomon_blended_roundings(roundings, gnomon_blended_half_roundings);
+    return gnomon_moments4_theta_intensity(gnomon_channels4_shifted(c, 0.5), n * certified4_half_noise,
+                                           bias_weight_of_roundings(certified4_half_weight, n), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments4_float_blended_intensity(c: channels4_, roundings: f32, z_f: f32) -> f32
+{
+    let n = gnomon_blended_roundings(roundings, gnomon_blended_float_roundings);
+    // Roundings of earlier states of the texel, in which a moment was larger, are no fraction of that moment.
+    var noise: moments4_;
+    noise.b1_ = n * certified4_float_noise;
+    noise.b2_ = noise.b1_;
+    noise.b3_ = noise.b1_;
+    noise.b4_ = noise.b1_;
+    return gnomon_moments4_float_intensity_with_noise(
+        c, noise, bias_weight_of_roundings(certified4_float_weight, n), z_f);
 }
 
 // numerics/quadratic.h ------------------------------------------------------------------------------------------------

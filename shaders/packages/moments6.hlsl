@@ -407,7 +407,7 @@ moments6 moments6_affine(moments6 b, depth_change change)
 
 #endif
 
-// moments/bias.h, six moments -----------------------------------------------------------------------------------------
+// moments/bias.h ------------------------------------------------------------------------------------------------------
 // Biasing: rounding in storage can turn moments into numbers that belong to no distribution, so they are moved inwards
 // (Peters et al. 2017, Sec. 2.5).
 //
@@ -426,6 +426,23 @@ moments6 moments6_affine(moments6 b, depth_change change)
 //   kept apart      hankel4_constant_bias, the same mixture with 100 times less rounding error: for floats
 // Certificates (certified4.h) leak less than a constant bias and never darken a lit surface. A bias that depends on the
 // moments leaks less still, but darkens lit surfaces by up to 0.79 (docs/decisions/2-bias.md).
+#ifndef GNOMON_MOMENTS_BIAS_H
+#define GNOMON_MOMENTS_BIAS_H
+
+/// The weight of a constant bias for n roundings, n w / (1 - w + n w), where w is the weight for one: if w >= delta /
+/// (delta + r), the result is at least n delta / (n delta + r).
+/// Domain: w in [0, 1]; n >= 1, clamped. An infinite n gives NaN, lit.
+/// NaN: NaN, lit.
+/// Error: 4 2^-p, relative.
+float bias_weight_of_roundings(float w, float n)
+{
+    float nw = gnomon_max(1.0, n) * w;
+    return nw / ((1.0 - w) + nw);
+}
+
+#endif
+
+// moments/bias.h, six moments -----------------------------------------------------------------------------------------
 #ifndef GNOMON_MOMENTS_BIAS_6
 #define GNOMON_MOMENTS_BIAS_6
 
@@ -1191,6 +1208,204 @@ float moments6_float_intensity(channels6 c, float z_f) { return hamburger6_lower
 float moments6_float_filtered_intensity(channels6 c, float z_f)
 {
     return hamburger6_lower(hankel6_from_float_filtered(c), z_f);
+}
+
+#endif
+
+// moments/translucency.h ----------------------------------------------------------------------------------------------
+// Translucent occluders (Peters et al. 2017, Sec. 3): moments of the depth distribution in which each fragment of a
+// stack has as weight the light that it takes away,
+//     Z = sum_k weight_k delta(z_k),    weight_k = alpha_k prod of (1 - alpha_j) over the fragments j in front of k,
+// so that Z(z < z_f) = 1 - prod of (1 - alpha_k) over z_k < z_f, the intensity of the stack's shadow. What is behind
+// all fragments, an opaque surface or the far plane, has the rest of the weight.
+//
+//     back to front    b = the moments of the surface behind;  b = moments4_over(b, z, alpha) for each fragment
+//     front to back    state = front_to_back_begin(alpha), then front_to_back_add(state, alpha): moments4_add the
+//                      fragment's moments with state.weight, in the end those of the surface behind with
+// state.transmittance
+//
+// A GPU blends back to front: over() of each channel, with the alpha of the fragment. Weights sum to 1, so that affine
+// transforms commute with blending: channels of any format are blended as stored (passes/blend.hpp). For coloured
+// occluders use one map for each channel of light, with the opacity for that light. In any order, a fragment that
+// survives in a sample with probability alpha has this distribution as the mean over samples (stochastic transparency;
+// Enderton et al. 2010).
+//
+// Every blend rounds to the format. Later blends shrink an error by 1 - alpha, so of n roundings by delta
+//     delta (1 - (1 - alpha)^n) / alpha <= delta / alpha
+// is left: blend_roundings, for storage/moments4_blended.h and moments6_blended.h. A least alpha hence limits the
+// error, and fragments below it are discarded (alpha test). Where alpha |above - below| is less than half a code, a
+// blend changes
+// nothing: many faint fragments vanish, for which no bias makes up. Absorbance (absorbance.h) loses less of them.
+#ifndef GNOMON_MOMENTS_TRANSLUCENCY_H
+#define GNOMON_MOMENTS_TRANSLUCENCY_H
+
+/// The over operator (1 - alpha) below + alpha above, for one channel: a fragment of opacity alpha in front of below.
+/// An alpha of 0 leaves below, and 1 leaves above, whatever the other is.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment; other NaN stay.
+/// Error: 2 2^-p for below and above in [-1, 1].
+/// Source: Porter & Duff 1984; Peters 2017, Sec. 3.2
+float over(float below, float above, float alpha)
+{
+    float a = saturate_or_zero(alpha);
+    float mixed = (1.0 - a) * below + a * above;
+    return gnomon_select(0.0 < a, gnomon_select(a < 1.0, mixed, above), below);
+}
+
+/// A fold over fragments front to back: the weight of the latest fragment, and the transmittance of all up to it, which
+/// is the weight of what is behind them.
+struct gnomon_front_to_back { float weight, transmittance; };
+
+/// The state after the nearest fragment, of opacity alpha.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment.
+gnomon_front_to_back front_to_back_begin(float alpha)
+{
+    gnomon_front_to_back state;
+    state.weight = saturate_or_zero(alpha);
+    state.transmittance = 1.0 - state.weight;
+    return state;
+}
+
+/// The state after a further fragment, of opacity alpha, behind those before.
+/// Domain: any alpha, clamped to [0, 1].
+/// NaN: an alpha of NaN counts as 0, no fragment.
+gnomon_front_to_back front_to_back_add(gnomon_front_to_back state, float alpha)
+{
+    float a = saturate_or_zero(alpha);
+    state.weight = state.transmittance * a;
+    state.transmittance = state.transmittance * (1.0 - a);
+    return state;
+}
+
+/// The least opacity of the alpha test of Peters et al.
+static const float gnomon_alpha_test_one_percent = 0.01;
+
+static const float gnomon_blend_least_alpha = 5.9604644775390625e-8; // 2^-24
+
+/// The largest error that blends leave in a texel, in roundings of one blend, for any number of fragments of opacity
+/// least_alpha and more: 1 / least_alpha.
+/// Domain: any least_alpha, clamped to [2^-24, 1].
+/// NaN: 2^24.
+/// Source: Peters 2017, Sec. 3.3
+float blend_roundings(float least_alpha)
+{
+    return 1.0 / gnomon_max(saturate_or_zero(least_alpha), gnomon_blend_least_alpha);
+}
+
+/// The largest error that blends of so many layers leave in a texel, in roundings of one blend: (1 - (1 - a)^n) / a for
+/// a = least_alpha and n = layers, up to a factor of at most 1.16, by which the result is larger.
+/// Domain: any least_alpha, clamped to [2^-24, 1]; layers >= 1, clamped.
+/// NaN: a least_alpha of NaN counts as 2^-24; layers of NaN as any number.
+/// Source: Peters 2017, Sec. 3.3
+float blend_roundings_of_layers(float least_alpha, float layers)
+{
+    float a = gnomon_max(saturate_or_zero(least_alpha), gnomon_blend_least_alpha);
+    float further = gnomon_max(1.0, layers) - 1.0;
+    float few = (further + 1.0) / (1.0 + 0.5 * (further * a));
+    return gnomon_min(few, 1.0 / a);
+}
+
+/// The roundings of a texel in all: one of its first store, and `each` for every further one.
+float gnomon_blended_roundings(float further, float each) { return 1.0 + each * gnomon_max(0.0, further); }
+
+// Half floats may be truncated, which errs twice as far. A blend of floats rounds 1 - alpha, two products and a sum.
+static const float gnomon_blended_half_roundings = 2.0;
+static const float gnomon_blended_float_roundings = 3.5;
+
+#endif
+
+// moments/translucency.h, six moments ---------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_TRANSLUCENCY_6
+#define GNOMON_MOMENTS_TRANSLUCENCY_6
+
+/// The six moments of a fragment at depth z of opacity alpha, in front of what has the moments below.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+/// Source: Peters 2017, Sec. 3.2
+moments6 moments6_over(moments6 below, float z, float alpha)
+{
+    moments6 b = moments6_from_depth(clamp_or_high(z, -1.0, 1.0));
+    b.b1 = over(below.b1, b.b1, alpha);
+    b.b2 = over(below.b2, b.b2, alpha);
+    b.b3 = over(below.b3, b.b3, alpha);
+    b.b4 = over(below.b4, b.b4, alpha);
+    b.b5 = over(below.b5, b.b5, alpha);
+    b.b6 = over(below.b6, b.b6, alpha);
+    return b;
+}
+
+#endif
+
+// storage/moments6_blended.h ------------------------------------------------------------------------------------------
+// Six moments from texels into which translucent fragments were blended (moments/translucency.h), by a constant bias
+// whose weight grows with the number of roundings that are left, as in moments4_blended.h.
+//
+//   format          matrix for both bounds         shadow
+//   6 x 10 UNORM    hankel6_from_unorm10_blended   moments6_unorm10_blended_intensity
+//   6 x 16 UNORM    hankel6_from_unorm16_blended   moments6_unorm16_blended_intensity
+//   6 x float       hankel6_from_float_blended     moments6_float_blended_intensity
+//
+// Intensities exceed Z(z < z_f) by bias_weight_of_roundings at most: for blends of an alpha from 1% on by 8.1e-3 for 6
+// x 16 UNORM, but by 0.29 for 6 x 10 UNORM, which is no format to blend many layers into. A blend of floats takes 1.5
+// of the weights of 6 x float, each of which is good for 2.7 roundings.
+#ifndef GNOMON_STORAGE_MOMENTS6_BLENDED_H
+#define GNOMON_STORAGE_MOMENTS6_BLENDED_H
+
+/// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+hankel6 hankel6_from_unorm10_blended(channels6 c, float roundings)
+{
+    float weight = bias_weight_of_roundings(gnomon_stored6_unorm10_weight, gnomon_blended_roundings(roundings, 1.0));
+    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6,
+                                                  weight));
+}
+
+/// The factored matrix of the channels of a 6 x 16 UNORM texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+hankel6 hankel6_from_unorm16_blended(channels6 c, float roundings)
+{
+    float weight = bias_weight_of_roundings(gnomon_stored6_unorm16_weight, gnomon_blended_roundings(roundings, 1.0));
+    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6,
+                                                  weight));
+}
+
+static const float gnomon_blended6_float_weights = 1.5;
+
+/// The factored matrix of the channels of a 6 x float texel, biased for blends.
+/// Domain: roundings >= 0, clamped.
+/// NaN: stays NaN.
+hankel6 hankel6_from_float_blended(channels6 c, float roundings)
+{
+    float n = gnomon_blended_roundings(roundings, gnomon_blended6_float_weights);
+    return hankel6_constant_bias(moments6_from_channels(c), bias6_raw_b2, bias6_raw_b4, bias6_raw_b6,
+                                 bias_weight_of_roundings(gnomon_stored6_float_weight, n));
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 6 x 10 UNORM texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+float moments6_unorm10_blended_intensity(channels6 c, float roundings, float z_f)
+{
+    return hamburger6_lower(hankel6_from_unorm10_blended(c, roundings), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 6 x 16 UNORM texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+float moments6_unorm16_blended_intensity(channels6 c, float roundings, float z_f)
+{
+    return hamburger6_lower(hankel6_from_unorm16_blended(c, roundings), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 6 x float texel that was blended into.
+/// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+float moments6_float_blended_intensity(channels6 c, float roundings, float z_f)
+{
+    return hamburger6_lower(hankel6_from_float_blended(c, roundings), z_f);
 }
 
 #endif

@@ -102,6 +102,8 @@ TEST_CASE_TEMPLATE("no pass allocates", Format, gnomon::exponential_variance_hal
     const long before = allocations;
     blur_cube<Format>(cube(0), cube(6), cube(12), weights);
     const float behind = Format::intensity(cube_bilinear<Format>(cube(12), 1.0f, 2.0f, 3.0f), 0.5f);
+    const std::array<translucent_fragment, 2> fragments{{{3, 4, 0.5f, 0.5f}, {3, 4, -0.5f, 0.25f}}};
+    blend<Format>(mips.level(0), fragments);
     blur<Format>(mips.level(0), {scratch, 12, 9}, mips.level(0), weights);
     build_mips<Format>(mips);
     const float shadow = Format::intensity(trilinear<Format>(mips, 3.0f, 4.0f, 1.5f), 0.5f);

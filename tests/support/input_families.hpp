@@ -37,6 +37,18 @@ template <class T> class row_writer {
     T* at_;
 };
 
+/// Absorbances of so many channels of light, and their mean times the moments of the situation.
+template <class T> void put_absorbance(row_writer<T>& put, const situation& s, bit_source& bits, int channels)
+{
+    double mean = 0;
+    for (int k = 0; k < channels; ++k) {
+        const double absorbance = std::exp2(bits.uniform(-12, 4));
+        put(absorbance);
+        mean += absorbance / channels;
+    }
+    for (std::size_t k = 0; k < 4; ++k) put(mean * s.b[k]);
+}
+
 /// A family of inputs: its name, how many numbers it gives, and how they are drawn.
 template <class T> struct input_family {
     std::string_view name;
@@ -65,6 +77,9 @@ inline constexpr input_family<T> input_families[] = {
     {"channels4", 4, [](auto put, const situation& s, bit_source&) { put(theta4(moments4_in<T>(s))); }},
     {"half4", 4,
      [](auto put, const situation& s, bit_source&) { put(channels4_shifted(theta4(moments4_in<T>(s)), T(-0.5))); }},
+    {"absorbance4", 5, [](auto put, const situation& s, bit_source& bits) { put_absorbance<T>(put, s, bits, 1); }},
+    {"coloured_absorbance4", 7,
+     [](auto put, const situation& s, bit_source& bits) { put_absorbance<T>(put, s, bits, 3); }},
     {"channels6", 6, [](auto put, const situation& s, bit_source&) { put(theta6(moments6_in<T>(s))); }},
     {"channels1", 1,
      [](auto put, const situation& s, bit_source& bits) {

@@ -46,6 +46,17 @@ GNOMON_CONSTANT(bias6_paper_b2, 0.5566);
 GNOMON_CONSTANT(bias6_paper_b4, 0.489);
 GNOMON_CONSTANT(bias6_paper_b6, 0.47869382);
 
+/// The weight of a constant bias for n roundings, n w / (1 - w + n w), where w is the weight for one: if w >= delta / (delta
+/// + r), the result is at least n delta / (n delta + r).
+/// Domain: w in [0, 1]; n >= 1, clamped. An infinite n gives NaN, lit.
+/// NaN: NaN, lit.
+/// Error: 4 2^-p, relative.
+GNOMON_KERNEL Real bias_weight_of_roundings(Real w, Real n)
+{
+    Real nw = gnomon_max(Real(1), n) * w;
+    return nw / ((Real(1) - w) + nw);
+}
+
 /// The biased moments (1 - alpha) b + alpha b*, where b* = (0, bias2, 0, bias4).
 /// Domain: alpha in [0, 1]. 0 is no bias; 1 leaves b* alone. Elsewhere the results are no moments, and intensities from them
 /// are in [0, 1].

@@ -8,6 +8,7 @@
 #include "../moments/hamburger4.h"
 #include "format.hpp"
 #include "moments4.h"
+#include "moments4_blended.h"
 
 GNOMON_NAMESPACE_BEGIN
 
@@ -39,6 +40,18 @@ struct moments4_unorm16 : stored_texel<moments4_unorm16, unorm_texel<channels4, 
     template <class Real> static constexpr hankel4<Real> filtered_factor(const channels<Real>& c)
     {
         return hankel4_from_unorm16_filtered(c);
+    }
+
+    template <class Real>
+    static constexpr Real blended_intensity(const channels<Real>& c, std::type_identity_t<Real> roundings,
+                                            std::type_identity_t<Real> z_f)
+    {
+        return moments4_unorm16_blended_intensity(c, roundings, z_f);
+    }
+    template <class Real>
+    static constexpr hankel4<Real> blended_factor(const channels<Real>& c, std::type_identity_t<Real> roundings)
+    {
+        return hankel4_from_unorm16_blended(c, roundings);
     }
 };
 static_assert(storage_format<moments4_unorm16>);
@@ -74,6 +87,18 @@ struct moments4_half : stored_texel<moments4_half, half_texel<channels4>> {
     {
         return hankel4_from_half_filtered(c);
     }
+
+    template <class Real>
+    static constexpr Real blended_intensity(const channels<Real>& c, std::type_identity_t<Real> roundings,
+                                            std::type_identity_t<Real> z_f)
+    {
+        return moments4_half_blended_intensity(c, roundings, z_f);
+    }
+    template <class Real>
+    static constexpr hankel4<Real> blended_factor(const channels<Real>& c, std::type_identity_t<Real> roundings)
+    {
+        return hankel4_from_half_blended(c, roundings);
+    }
 };
 static_assert(storage_format<moments4_half>);
 
@@ -107,6 +132,18 @@ struct moments4_float : stored_texel<moments4_float, float_texel<channels4>> {
     template <class Real> static constexpr hankel4<Real> filtered_factor(const channels<Real>& c)
     {
         return hankel4_from_float_filtered(c);
+    }
+
+    template <class Real>
+    static constexpr Real blended_intensity(const channels<Real>& c, std::type_identity_t<Real> roundings,
+                                            std::type_identity_t<Real> z_f)
+    {
+        return moments4_float_blended_intensity(c, roundings, z_f);
+    }
+    template <class Real>
+    static constexpr hankel4<Real> blended_factor(const channels<Real>& c, std::type_identity_t<Real> roundings)
+    {
+        return hankel4_from_float_blended(c, roundings);
     }
 };
 static_assert(storage_format<moments4_float>);

@@ -7,6 +7,7 @@
 
 #include "format.hpp"
 #include "moments6.h"
+#include "moments6_blended.h"
 
 GNOMON_NAMESPACE_BEGIN
 
@@ -63,6 +64,18 @@ struct moments6_unorm10 : stored_texel<moments6_unorm10, unorm10_words> {
     {
         return hankel6_from_unorm10_filtered(c);
     }
+
+    template <class Real>
+    static constexpr Real blended_intensity(const channels<Real>& c, std::type_identity_t<Real> roundings,
+                                            std::type_identity_t<Real> z_f)
+    {
+        return moments6_unorm10_blended_intensity(c, roundings, z_f);
+    }
+    template <class Real>
+    static constexpr hankel6<Real> blended_factor(const channels<Real>& c, std::type_identity_t<Real> roundings)
+    {
+        return hankel6_from_unorm10_blended(c, roundings);
+    }
 };
 static_assert(storage_format<moments6_unorm10>);
 
@@ -94,6 +107,18 @@ struct moments6_unorm16 : stored_texel<moments6_unorm16, unorm_texel<channels6, 
     template <class Real> static constexpr hankel6<Real> filtered_factor(const channels<Real>& c)
     {
         return hankel6_from_unorm16_filtered(c);
+    }
+
+    template <class Real>
+    static constexpr Real blended_intensity(const channels<Real>& c, std::type_identity_t<Real> roundings,
+                                            std::type_identity_t<Real> z_f)
+    {
+        return moments6_unorm16_blended_intensity(c, roundings, z_f);
+    }
+    template <class Real>
+    static constexpr hankel6<Real> blended_factor(const channels<Real>& c, std::type_identity_t<Real> roundings)
+    {
+        return hankel6_from_unorm16_blended(c, roundings);
     }
 };
 static_assert(storage_format<moments6_unorm16>);
@@ -128,6 +153,18 @@ struct moments6_float : stored_texel<moments6_float, float_texel<channels6>> {
     template <class Real> static constexpr hankel6<Real> filtered_factor(const channels<Real>& c)
     {
         return hankel6_from_float_filtered(c);
+    }
+
+    template <class Real>
+    static constexpr Real blended_intensity(const channels<Real>& c, std::type_identity_t<Real> roundings,
+                                            std::type_identity_t<Real> z_f)
+    {
+        return moments6_float_blended_intensity(c, roundings, z_f);
+    }
+    template <class Real>
+    static constexpr hankel6<Real> blended_factor(const channels<Real>& c, std::type_identity_t<Real> roundings)
+    {
+        return hankel6_from_float_blended(c, roundings);
     }
 };
 static_assert(storage_format<moments6_float>);
