@@ -23,7 +23,7 @@ mesh painted(std::string name, const glm::vec3& albedo)
 // A knot that winds twice around the axis of a torus and three times through its hole.
 mesh knot(const glm::vec3& centre, float size)
 {
-    mesh result = painted("knot", {0.62f, 0.30f, 0.10f});
+    mesh result = painted("knot", {0.55f, 0.20f, 0.05f});
     std::vector<glm::vec3> path;
     for (int i = 0; i < 240; ++i) {
         const float t = glm::two_pi<float>() * static_cast<float>(i) / 240;
@@ -54,24 +54,6 @@ mesh chair(const glm::vec3& place, float angle)
     return result;
 }
 
-std::vector<glm::vec2> circle(int sides)
-{
-    std::vector<glm::vec2> result;
-    for (int i = 0; i < sides; ++i) {
-        const float angle = glm::two_pi<float>() * static_cast<float>(i) / static_cast<float>(sides);
-        result.emplace_back(std::cos(angle), std::sin(angle));
-    }
-    return result;
-}
-
-// A round solid of this radius that stands on the ground.
-void add_column(mesh& target, const glm::vec3& base, float radius, float height)
-{
-    const glm::mat3 standing(radius * glm::vec3(1, 0, 0), radius * glm::vec3(0, 0, -1),
-                             0.5f * height * glm::vec3(0, 1, 0));
-    add_prism(target, circle(32), {base + glm::vec3(0, 0.5f * height, 0), standing});
-}
-
 // A wall of bricks across x, whose bricks stand out of the mortar.
 void add_brick_wall(mesh& bricks, mesh& mortar, const glm::vec3& base, const glm::vec3& size)
 {
@@ -100,9 +82,9 @@ stage models_stage(double aspect)
     const bounds casters = bounds_of(result.world);
     const std::vector<glm::vec3> of_interest = casters_and_shadows(casters, direction);
     result.light = orthographic_view(of_interest, direction);
-    result.light_size = glm::dvec2(0.06);
-    result.world.meshes.push_back(ground({0, 0, 0}, 12, 12, glm::vec3(0.55f)));
-    result.eye = perspective_view_from({0.9, 2.3, 4.0}, {0.25, 0.5, 0}, bounds_of(result.world).corners(),
+    result.light_size = glm::dvec2(0.05);
+    result.world.meshes.push_back(ground({0, 0, 0}, 30, 30, glm::vec3(0.42f)));
+    result.eye = perspective_view_from({0.7, 2.1, 4.0}, {0.12, 0.68, 0}, bounds_of(result.world).corners(),
                                        glm::radians(34.0), aspect);
     result.interests = {{"contact", "contact of the chair", {0.75f, 0, 0.1f}, {0.05f, 0.6f, 0.1f}},
                         {"far", "far shadow of the knot", {0.3f, 0, -0.6f}, {0.95f, 0.35f, 0.02f}}};
@@ -111,77 +93,82 @@ stage models_stage(double aspect)
 
 stage long_range_stage(double aspect)
 {
-    mesh gantry = painted("gantry", {0.45f, 0.46f, 0.48f}), signs = painted("signs", {0.05f, 0.22f, 0.50f});
-    mesh cables = painted("cables", {0.12f, 0.12f, 0.12f}), bench = painted("bench", {0.45f, 0.28f, 0.14f});
-    for (const float x : {-4.f, 4.f}) add_box(gantry, upright({x, 4, 0}, {0.16f, 8, 0.16f}));
-    for (const float y : {7.2f, 7.9f}) add_box(gantry, upright({0, y, 0}, {8, 0.08f, 0.08f}));
-    for (int i = 0; i < 16; ++i) {
-        const float x = -3.75f + 0.5f * static_cast<float>(i);
-        add_box(gantry, upright({x, 7.55f, 0}, {0.04f, 0.7f, 0.04f}));
-    }
-    add_box(signs, upright({-1.8f, 6.6f, 0.1f}, {1.8f, 1.1f, 0.04f}));
-    add_box(signs, upright({1.5f, 6.8f, 0.1f}, {1.2f, 0.8f, 0.04f}));
+    mesh gantry = painted("gantry", {0.36f, 0.37f, 0.39f}), signs = painted("signs", {0.02f, 0.13f, 0.42f});
+    mesh cables = painted("cables", {0.05f, 0.05f, 0.05f}), bench = painted("bench", {0.38f, 0.20f, 0.08f});
+    const float half = 4, low = 5.5f, high = 6.2f;
+    for (const float x : {-half, half}) add_box(gantry, upright({x, 0.5f * high, 0}, {0.2f, high, 0.2f}));
+    for (const float y : {low, high}) add_box(gantry, upright({0, y, 0}, {2 * half, 0.1f, 0.1f}));
+    for (int i = 0; i < 15; ++i)
+        add_box(gantry,
+                upright({-3.5f + 0.5f * static_cast<float>(i), 0.5f * (low + high), 0}, {0.05f, high - low, 0.05f}));
+    add_box(signs, upright({-1.9f, 4.9f, 0.1f}, {2.2f, 1.2f, 0.05f}));
+    add_box(signs, upright({1.7f, 5.0f, 0.1f}, {1.5f, 1.0f, 0.05f}));
     for (int i = 0; i < 3; ++i) {
         std::vector<glm::vec3> path;
         for (int k = 0; k <= 24; ++k) {
             const float t = static_cast<float>(k) / 12 - 1;
-            path.push_back({5 * t, 5.2f + 0.5f * static_cast<float>(i) + 0.6f * t * t, 1.2f});
+            path.push_back({7 * t, 6.6f + 0.5f * t * t, -1.6f - 0.7f * static_cast<float>(i)});
         }
         add_tube(cables, path, 0.03f, 8);
     }
     for (const float x : {-0.7f, 0.7f})
-        for (const float z : {-0.16f, 0.16f}) add_box(bench, upright({x, 0.22f, 1.5f + z}, {0.06f, 0.44f, 0.06f}));
+        for (const float z : {-0.16f, 0.16f}) add_box(bench, upright({x, 0.22f, 1.6f + z}, {0.06f, 0.44f, 0.06f}));
     for (const float z : {-0.18f, -0.06f, 0.06f, 0.18f})
-        add_box(bench, upright({0, 0.46f, 1.5f + z}, {1.7f, 0.04f, 0.09f}));
+        add_box(bench, upright({0, 0.46f, 1.6f + z}, {1.7f, 0.04f, 0.09f}));
 
     stage result{{"long_range", {gantry, signs, cables, bench}}, {}, {}, {}};
-    const glm::vec3 direction = glm::normalize(glm::vec3(0.18f, -0.85f, 0.45f));
+    const glm::vec3 direction = glm::normalize(glm::vec3(0.22f, -0.85f, 0.55f));
     result.light = orthographic_view(casters_and_shadows(bounds_of(result.world), direction), direction);
-    result.light_size = glm::dvec2(0.03);
-    result.world.meshes.push_back(ground({0, 0, 2}, 24, 24, {0.50f, 0.49f, 0.46f}));
-    result.eye = perspective_view_from({-3.5, 5.0, 10.5}, {0.6, 0.4, 2.6}, bounds_of(result.world).corners(),
-                                       glm::radians(38.0), aspect);
-    result.interests = {{"sign", "shadow of a sign", {0, 0, 3.6f}, {0.05f, 0.6f, 0.1f}},
-                        {"cables", "shadows of cables", {2, 0, 4.2f}, {0.02f, 0.6f, 0.7f}},
-                        {"bench", "shadow of the bench", {0.8f, 0, 1.8f}, {0.95f, 0.35f, 0.02f}}};
+    result.light_size = glm::dvec2(0.035);
+    result.world.meshes.push_back(ground({0, 0, 0}, 60, 60, {0.40f, 0.39f, 0.36f}));
+    result.eye = perspective_view_from({-6.5, 6.0, 14.0}, {0.7, 2.35, 1.0}, bounds_of(result.world).corners(),
+                                       glm::radians(34.0), aspect);
+    result.interests = {{"sign", "shadow of a sign", {-0.6f, 0, 3.2f}, {0.05f, 0.6f, 0.1f}},
+                        {"cables", "shadows of cables", {2.5f, 0, 2.0f}, {0.02f, 0.6f, 0.7f}},
+                        {"bench", "shadow of the bench", {0.8f, 0, 1.9f}, {0.95f, 0.35f, 0.02f}}};
     return result;
 }
 
 stage pillar_stage(double aspect)
 {
-    mesh pillar = painted("pillar", {0.60f, 0.58f, 0.54f}), bricks = painted("bricks", {0.50f, 0.20f, 0.13f});
-    mesh mortar = painted("mortar", {0.55f, 0.52f, 0.48f});
-    add_box(pillar, upright({0, 0.9f, 0}, {0.5f, 1.8f, 0.5f}));
-    add_box(pillar, upright({0, 1.86f, 0}, {0.62f, 0.12f, 0.62f}));
-    add_brick_wall(bricks, mortar, {2.3f, 0, -6}, {3, 5, 0.3f});
+    mesh pillar = painted("pillar", {0.50f, 0.47f, 0.42f}), bricks = painted("bricks", {0.42f, 0.13f, 0.07f});
+    mesh mortar = painted("mortar", {0.45f, 0.42f, 0.38f});
+    const float half = 0.25f, beside = 0.12f, width = 3.2f;
+    add_box(pillar, upright({0, 0.06f, 0}, {2 * half, 0.12f, 2 * half}));
+    add_box(pillar, upright({0, 0.8f, 0}, {2 * half, 1.5f, 2 * half}));
+    add_box(pillar, upright({0, 1.6f, 0}, {2.4f * half, 0.1f, 2.4f * half}));
+    add_brick_wall(bricks, mortar, {half + beside + 0.5f * width, 0, -5}, {width, 3.6f, 0.3f});
     stage result{{"pillar", {pillar, bricks, mortar}}, {}, {}, {}};
-    const glm::vec3 direction = glm::normalize(glm::vec3(0, -0.5f, 0.85f));
+    const glm::vec3 direction = glm::normalize(glm::vec3(0, -0.42f, 0.9f));
     result.light = orthographic_view(casters_and_shadows(bounds_of(result.world), direction), direction);
-    result.light_size = glm::dvec2(0.06);
-    result.world.meshes.push_back(ground({0, 0, 0}, 20, 20, {0.50f, 0.49f, 0.46f}));
-    result.eye = perspective_view_from({0.3, 3.4, 5.5}, {0.3, 0.5, 0.2}, bounds_of(result.world).corners(),
-                                       glm::radians(34.0), aspect);
-    result.interests = {{"alone", "contact of the pillar alone", {-0.25f, 0, 0.4f}, {0.05f, 0.6f, 0.1f}},
-                        {"both", "contact near the wall's shadow", {0.25f, 0, 0.4f}, {0.95f, 0.35f, 0.02f}}};
+    result.light_size = glm::dvec2(0.03);
+    result.world.meshes.push_back(ground({0, 0, 0}, 40, 40, {0.40f, 0.39f, 0.36f}));
+    result.eye = perspective_view_from({-0.9, 2.9, 5.4}, {0.75, 1.15, -0.6}, bounds_of(result.world).corners(),
+                                       glm::radians(42.0), aspect);
+    result.interests = {{"alone", "contact of the pillar alone", {-half, 0, half + 0.1f}, {0.05f, 0.6f, 0.1f}},
+                        {"both", "contact beside the wall's shadow", {half, 0, half + 0.1f}, {0.95f, 0.35f, 0.02f}}};
     return result;
 }
 
 stage grazing_stage(double aspect)
 {
-    mesh column = painted("column", {0.62f, 0.60f, 0.55f});
-    add_box(column, upright({0, 0.06f, 0}, {0.8f, 0.12f, 0.8f}));
-    add_column(column, {0, 0.12f, 0}, 0.28f, 1.8f);
-    add_box(column, upright({0, 1.98f, 0}, {0.8f, 0.12f, 0.8f}));
-    stage result{{"grazing", {column}}, {}, {}, {}};
+    mesh column = painted("column", {0.50f, 0.47f, 0.42f});
+    const float radius = 0.24f, height = 1.4f, plate = 0.1f;
+    add_box(column, upright({0, 0.5f * plate, 0}, {0.7f, plate, 0.7f}));
+    add_box(column, upright({0, height - 0.5f * plate, 0}, {0.7f, plate, 0.7f}));
+    mesh shaft = painted("shaft", column.albedo);
+    add_tube(shaft, std::array<glm::vec3, 2>{{{0, plate, 0}, {0, height - plate, 0}}}, radius, 48);
+    stage result{{"grazing", {column, shaft}}, {}, {}, {}};
     const float incidence = glm::radians(80.f);
     const glm::vec3 direction(std::sin(incidence), -std::cos(incidence), 0);
-    result.light = orthographic_view(casters_and_shadows(bounds_of(result.world), direction), direction);
-    result.light_size = glm::dvec2(0.05);
-    result.world.meshes.push_back(ground({4, 0, 0}, 24, 12, {0.50f, 0.49f, 0.46f}));
-    result.eye = perspective_view_from({-2.0, 4.2, 7.0}, {3.2, 0.4, 0}, bounds_of(result.world).corners(),
-                                       glm::radians(40.0), aspect);
-    result.interests = {{"penumbra", "beside the penumbra", {5, 0, 0.7f}, {0.95f, 0.35f, 0.02f}},
-                        {"contact", "contact of the column", {0.45f, 0, 0.3f}, {0.05f, 0.6f, 0.1f}}};
+    // The light sees lit ground on both sides of the shadow.
+    result.light = orthographic_view(bounds{{-1, 0, -2}, {9, height, 2}}.corners(), direction);
+    result.light_size = glm::dvec2(0.012);
+    result.world.meshes.push_back(ground({0, 0, 0}, 40, 40, {0.62f, 0.60f, 0.56f}));
+    result.eye = perspective_view_from({-1.6, 2.6, 5.2}, {2.6, 0.35, 0}, bounds_of(result.world).corners(),
+                                       glm::radians(38.0), aspect);
+    result.interests = {{"penumbra", "beside the penumbra", {4.5f, 0, 0.35f}, {0.95f, 0.35f, 0.02f}},
+                        {"contact", "contact of the column", {0.5f, 0, 0.3f}, {0.05f, 0.6f, 0.1f}}};
     return result;
 }
 
