@@ -10,6 +10,7 @@
 
 #include <array>
 #include <bit>
+#include <concepts>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -21,6 +22,11 @@ template <storage_format Format> class filtered_map {
     using texel = typename Format::texel;
 
     filtered_map(const depth_map& depths, std::span<const float> taps)
+        : filtered_map(depths, taps, [](map_view<texel>) {})
+    {}
+
+    // draw() draws into the resolved map before its filter passes.
+    filtered_map(const depth_map& depths, std::span<const float> taps, const std::invocable<map_view<texel>> auto& draw)
         : width_(static_cast<std::size_t>(depths.width)),
           height_(static_cast<std::size_t>(depths.height)),
           texels_(mip_texels(width_, height_))
@@ -28,6 +34,7 @@ template <storage_format Format> class filtered_map {
         for (std::size_t i = 0; i < depths.pixels.size(); ++i) texels_[i] = resolved(depths.pixels[i]);
         const mip_view<texel> mips{texels_, width_, height_};
         const map_view<texel> map = mips.level(0);
+        draw(map);
         std::vector<texel> scratch(map.texels.size());
         blur<Format>(map, {scratch, width_, height_}, map, taps);
         build_mips<Format>(mips);

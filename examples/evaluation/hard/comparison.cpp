@@ -1,6 +1,7 @@
 #include "comparison.hpp"
 
 #include "comparison_page.hpp"
+#include "evaluation/core/insets.hpp"
 #include "measurement.hpp"
 #include "renderer/output/image.hpp"
 #include "renderer/shade/shading.hpp"
@@ -8,7 +9,6 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include <array>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -37,22 +37,17 @@ class comparison {
         : steps_(all),
           stage_(scenery, how),
           result_{facts, how, scenery.world.name, stage_.where.size(), stage_.taps.size(), {}, {}, {}},
-          folder_(how.folder(facts.driver))
+          folder_(how.folder(facts.driver)),
+          insets_(scenery.interests, scenery.eye, how.width, how.height)
     {
-        const int gap = 4, magnification = 4;
-        const int size = (how.width - 2 * gap) / (3 * magnification);
-        for (const point_of_interest& place : scenery.interests) {
-            insets_.push_back(inset_around(place, scenery.eye, size, how.width, how.height));
-            const glm::vec3& c = place.colour;
-            result_.insets.push_back(
-                {place.id, place.name, fmt::format("#{:02x}{:02x}{:02x}", srgb8(c.r), srgb8(c.g), srgb8(c.b))});
-        }
+        for (std::size_t i = 0; i < insets_.size(); ++i)
+            result_.insets.push_back({scenery.interests[i].id, scenery.interests[i].name, insets_.colour(i)});
         for (const hard_reference* r : hard_references()) {
             steps_.begin("reference: " + r->label);
             known_visibility known{r->visibility(stage_, stage_.where.biased), {}, {}};
             if (r->uses_depths) known.unbiased = r->visibility(stage_, stage_.where.unbiased);
             known.picture = image_of(known.biased);
-            write_png(folder_ / (r->id + ".png"), figure(shaded(known.picture)));
+            write_png(folder_ / (r->id + ".png"), insets_.figure(shaded(known.picture)));
             result_.references.push_back(r);
             known_.push_back(std::move(known));
         }
@@ -63,14 +58,14 @@ class comparison {
         steps_.begin(m.label);
         const measurement found = measure(m, stage_);
         const image<float> estimate = image_of(found.visibility);
-        write_png(folder_ / (m.id + ".png"), figure(shaded(estimate)));
+        write_png(folder_ / (m.id + ".png"), insets_.figure(shaded(estimate)));
         tbb::parallel_for(std::size_t(0), known_.size(), [&](std::size_t k) {
             write_png(folder_ / fmt::format("{}-{}.png", m.id, result_.references[k]->id),
-                      figure(error(estimate, known_[k].picture)));
+                      insets_.figure(error(estimate, known_[k].picture)));
         });
         result_.methods.push_back({&m, m.id, {}});
         add_rows(m, found, {}, {0, 0, result_.how.width, result_.how.height});
-        for (std::size_t i = 0; i < insets_.size(); ++i) add_rows(m, found, result_.insets[i].id, insets_[i]);
+        for (std::size_t i = 0; i < insets_.size(); ++i) add_rows(m, found, result_.insets[i].id, insets_.crop(i));
     }
 
     void finish() const
@@ -99,22 +94,6 @@ class comparison {
     {
         return error_picture(reduced(estimate, result_.how.supersampling),
                              reduced(reference, result_.how.supersampling), error_scale);
-    }
-
-    // The picture with its insets framed, above the insets magnified.
-    picture figure(const picture& whole) const
-    {
-        if (insets_.empty()) return whole;
-        picture framed = whole;
-        std::vector<picture> magnified;
-        for (std::size_t i = 0; i < insets_.size(); ++i) {
-            const glm::vec3& colour = stage_.scenery.interests[i].colour;
-            outline(framed, insets_[i], colour);
-            picture inset = magnify(whole, insets_[i], 4);
-            outline(inset, {4, 4, inset.width - 8, inset.height - 8}, colour, 4);
-            magnified.push_back(std::move(inset));
-        }
-        return stacked(std::array{framed, side_by_side(magnified)});
     }
 
     // Indices of the receivers within a rectangle of the picture.
@@ -163,7 +142,7 @@ class comparison {
     shaded_stage stage_;
     compared_stage result_;
     std::filesystem::path folder_;
-    std::vector<rectangle> insets_;
+    magnified_places insets_;
     std::vector<known_visibility> known_; // of each reference
 };
 

@@ -1,28 +1,9 @@
 #include "measurement.hpp"
 
-#include "evaluation/core/timing.hpp"
-
 #include <algorithm>
-#include <limits>
 #include <memory>
 
 namespace gnomon::evaluation {
-
-namespace {
-
-// Nanoseconds per receiver: the least time of at least three runs, and of as many as fit into 0.15 s.
-double nanoseconds(const timed_run& timed, std::span<float> result)
-{
-    double least = std::numeric_limits<double>::infinity(), spent = 0;
-    for (int i = 0; i < 3 || spent < 0.15; ++i) {
-        const double time = seconds([&] { timed.run(result); });
-        least = std::min(least, time);
-        spent += time;
-    }
-    return 1e9 * least / double(std::max<std::size_t>(timed.receivers, 1));
-}
-
-} // namespace
 
 measurement measure(const shadow_method& m, const shaded_stage& stage)
 {

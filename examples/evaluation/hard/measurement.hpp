@@ -1,16 +1,12 @@
 // One method on one stage: what it shows, and what it costs.
 #pragma once
 
+#include "evaluation/core/timed_look_ups.hpp"
 #include "shaded_stage.hpp"
 
 #include <vector>
 
 namespace gnomon::evaluation {
-
-struct measured_time {
-    int lanes;
-    double ns_kernel, ns_per_receiver;
-};
 
 struct measurement {
     double build_ms = 0, map_bytes = 0;

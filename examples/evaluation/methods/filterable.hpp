@@ -4,12 +4,9 @@
 #pragma once
 
 #include "evaluation/core/filtered_map.hpp"
-#include "evaluation/core/method.hpp"
-
-#include <gnomon/simd/xsimd.hpp>
+#include "evaluation/core/timed_look_ups.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -20,7 +17,6 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -31,7 +27,6 @@ inline const registered<map_kind> filtered_map_kind{
 
 template <storage_format Format> class filterable_map final : public shadow_map {
   public:
-    using pack = gnomon::pack<xsimd::batch<float>>;
     template <class Real> using channels = format_channels<Format, Real>;
 
     filterable_map(const depth_map& depths, std::span<const float> taps) : map_(depths, taps) {}
@@ -48,7 +43,9 @@ template <storage_format Format> class filterable_map final : public shadow_map 
 
     std::vector<timed_look_up> timed(std::span<const map_receiver> where) const override
     {
-        return {one_by_one(where), by_packs(where)};
+        return timed_look_ups<channels>(
+            where, [this](const map_receiver& r) { return map_.fetch(r); },
+            [](const auto& filtered, auto z_f) { return intensity(filtered, z_f); });
     }
 
     template <class Real> static Real intensity(const channels<Real>& filtered, Real z_f)
@@ -57,58 +54,6 @@ template <storage_format Format> class filterable_map final : public shadow_map 
     }
 
   private:
-    template <class Real> struct fetched {
-        channels<Real> filtered;
-        Real depth;
-    };
-
-    template <class Real, class Fetch> timed_look_up timed_in(std::size_t receivers, int lanes, Fetch fetch) const
-    {
-        const std::size_t groups = receivers / std::size_t(lanes);
-        std::vector<fetched<Real>> values(groups);
-        tbb::parallel_for(std::size_t(0), groups, [&](std::size_t i) { values[i] = fetch(i); });
-        const auto run = [=](const auto& value_of, std::span<float> result) {
-            for (std::size_t i = 0; i < groups; ++i) {
-                const fetched<Real>& f = value_of(i);
-                const Real found = intensity(f.filtered, f.depth);
-                if constexpr (std::is_same_v<Real, float>) result[i] = found;
-                else found.store_unaligned(&result[i * std::size_t(lanes)]);
-                asm volatile("" ::: "memory"); // one at a time, whatever the compiler could do with some methods' loops
-            }
-        };
-        const std::size_t covered = groups * std::size_t(lanes);
-        return {lanes,
-                {covered,
-                 [=, values = std::move(values)](std::span<float> result) {
-                     run([&](std::size_t i) -> const fetched<Real>& { return values[i]; }, result);
-                 }},
-                {covered, [=](std::span<float> result) { run(fetch, result); }}};
-    }
-
-    timed_look_up one_by_one(std::span<const map_receiver> where) const
-    {
-        return timed_in<float>(where.size(), 1, [this, where](std::size_t i) {
-            return fetched<float>{map_.fetch(where[i]), where[i].depth};
-        });
-    }
-
-    // A pack of receivers at a time, as on a GPU. What is left over is not timed.
-    timed_look_up by_packs(std::span<const map_receiver> where) const
-    {
-        constexpr std::size_t count = sizeof(channels<pack>) / sizeof(pack);
-        return timed_in<pack>(where.size(), int(pack::size), [this, where](std::size_t group) {
-            alignas(pack) std::array<std::array<float, pack::size>, count> lanes;
-            alignas(pack) std::array<float, pack::size> depths;
-            for (std::size_t lane = 0; lane < pack::size; ++lane) {
-                const map_receiver& r = where[group * pack::size + lane];
-                const auto one = std::bit_cast<std::array<float, count>>(map_.fetch(r));
-                for (std::size_t k = 0; k < count; ++k) lanes[k][lane] = one[k];
-                depths[lane] = r.depth;
-            }
-            return fetched<pack>{std::bit_cast<channels<pack>>(lanes), pack::load_aligned(depths.data())};
-        });
-    }
-
     filtered_map<Format> map_;
 };
 
