@@ -1,6 +1,6 @@
 // Everything in the kernel dialect, in the order in which data flows: depth -> moments -> factored moments -> bounds and
-// certified bounds -> storage formats; the other filters; then moving triangles -> ranges -> lists -> receivers; last the
-// comparators. What is C++ only (.hpp: formats as types, passes over maps, adapters, packs) is included by name.
+// certified bounds -> storage formats; the other filters; soft shadows; then moving triangles -> ranges -> lists ->
+// receivers; last the comparators. What is C++ only (.hpp: formats as types, passes over maps, adapters, packs) is included by name.
 #ifndef GNOMON_GNOMON_H
 #define GNOMON_GNOMON_H
 #include "comparators/hamburger_cholesky.h"
@@ -46,14 +46,19 @@
 #include "motion/triangle/edge_widening.h"
 #include "motion/triangle/moving_triangle.h"
 #include "motion/triangle/triangle_setup.h"
+#include "soft/blocker.h"
+#include "soft/blocker6.h"
 #include "soft/depth_interval.h"
 #include "soft/fusion.h"
+#include "soft/penumbra.h"
+#include "soft/summed_area.h"
 #include "storage/convolution.h"
 #include "storage/exponential.h"
 #include "storage/exponential_variance.h"
 #include "storage/layered_variance.h"
 #include "storage/moments4.h"
 #include "storage/moments4_blended.h"
+#include "storage/moments4_summed.h"
 #include "storage/moments4_within.h"
 #include "storage/moments6.h"
 #include "storage/moments6_blended.h"

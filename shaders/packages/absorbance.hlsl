@@ -382,7 +382,7 @@ static const float bias4_raw_paper_b2 = 0.375;
 static const float bias4_raw_paper_b4 = 0.375;
 
 // Four moments after the sparse transform (quantization.h): r = 0.21652; the paper's vector has 0.20490.
-static const float gnomon_bias4_theta_b2 = 0.66391434671237689;
+static const float bias4_theta_b2 = 0.66391434671237689;
 static const float bias4_theta_b4 = 0.66391434671237689;
 static const float bias4_theta_paper_b2 = 0.628;
 static const float bias4_theta_paper_b4 = 0.628;
@@ -701,7 +701,7 @@ hankel4 hankel4_constant_bias(moments4 b, float bias2, float bias4, float alpha)
 struct gnomon_distribution3 { float depth0, depth1, depth2, weight0, weight1, weight2; };
 
 static const float gnomon_hamburger4_scale = 72057594037927936.0;     // 2^56
-static const float gnomon_hamburger4_lower_scale = 281474976710656.0; // 2^48
+static const float hamburger4_lower_scale = 281474976710656.0; // 2^48
 
 /// The polynomial Q(x) = V P_2(mean + x).
 float gnomon_hamburger4_q(hankel4 h, float x) { return (h.variance * x - h.third) * x - h.variance * h.variance; }
@@ -738,8 +738,8 @@ hamburger4_fractions gnomon_hamburger4_fractions_at(hankel4 h, float z_f)
     float u = clamp_or_nan(z_f, -1.0, 1.0) - h.mean;
     float q = gnomon_hamburger4_q(h, u);
     // The power of two is a factor of every term. The terms of a single depth would underflow otherwise.
-    float s = gnomon_hamburger4_lower_scale * q;
-    float n = gnomon_hamburger4_lower_scale * h.determinant;
+    float s = hamburger4_lower_scale * q;
+    float n = hamburger4_lower_scale * h.determinant;
     float un = u * n;
     float a = s * h.variance;
     float b = 0.5 * (un - s * h.third);

@@ -341,7 +341,7 @@ const bias4_raw_paper_b2_: f32 = 0.375;
 const bias4_raw_paper_b4_: f32 = 0.375;
 
 // Four moments after the sparse transform (quantization.h): r = 0.21652; the paper's vector has 0.20490.
-const gnomon_bias4_theta_b2_: f32 = 0x1.53ec94p-1; // 0.66391434671237689
+const bias4_theta_b2_: f32 = 0x1.53ec94p-1; // 0.66391434671237689
 const bias4_theta_b4_: f32 = 0x1.53ec94p-1; // 0.66391434671237689
 const bias4_theta_paper_b2_: f32 = 0x1.418938p-1; // 0.628
 const bias4_theta_paper_b4_: f32 = 0x1.418938p-1; // 0.628
@@ -638,7 +638,7 @@ fn hankel4_constant_bias(b: moments4_, bias2: f32, bias4: f32, alpha: f32) -> ha
 struct gnomon_distribution3_ { depth0_: f32, depth1_: f32, depth2_: f32, weight0_: f32, weight1_: f32, weight2_: f32 }
 
 const gnomon_hamburger4_scale: f32 = 72057594037927936.0; // 2^56
-const gnomon_hamburger4_lower_scale: f32 = 281474976710656.0; // 2^48
+const hamburger4_lower_scale: f32 = 281474976710656.0; // 2^48
 
 /// The polynomial Q(x) = V P_2(mean + x).
 fn gnomon_hamburger4_q(h: hankel4_, x: f32) -> f32 { return (h.variance * x - h.third) * x - h.variance * h.variance; }
@@ -675,8 +675,8 @@ fn gnomon_hamburger4_fractions_at(h: hankel4_, z_f: f32) -> hamburger4_fractions
     let u = clamp_or_nan(z_f, -1.0, 1.0) - h.mean;
     let q = gnomon_hamburger4_q(h, u);
     // The power of two is a factor of every term. The terms of a single depth would underflow otherwise.
-    let s = gnomon_hamburger4_lower_scale * q;
-    let n = gnomon_hamburger4_lower_scale * h.determinant;
+    let s = hamburger4_lower_scale * q;
+    let n = hamburger4_lower_scale * h.determinant;
     let un = u * n;
     let a = s * h.variance;
     let b = 0.5 * (un - s * h.third);

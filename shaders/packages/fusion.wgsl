@@ -515,7 +515,7 @@ fn hankel4_constant_bias(b: moments4_, bias2: f32, bias4: f32, alpha: f32) -> ha
 struct gnomon_distribution3_ { depth0_: f32, depth1_: f32, depth2_: f32, weight0_: f32, weight1_: f32, weight2_: f32 }
 
 const gnomon_hamburger4_scale: f32 = 72057594037927936.0; // 2^56
-const gnomon_hamburger4_lower_scale: f32 = 281474976710656.0; // 2^48
+const hamburger4_lower_scale: f32 = 281474976710656.0; // 2^48
 
 /// The polynomial Q(x) = V P_2(mean + x).
 fn gnomon_hamburger4_q(h: hankel4_, x: f32) -> f32 { return (h.variance * x - h.third) * x - h.variance * h.variance; }
@@ -552,8 +552,8 @@ fn gnomon_hamburger4_fractions_at(h: hankel4_, z_f: f32) -> hamburger4_fractions
     let u = clamp_or_nan(z_f, -1.0, 1.0) - h.mean;
     let q = gnomon_hamburger4_q(h, u);
     // The power of two is a factor of every term. The terms of a single depth would underflow otherwise.
-    let s = gnomon_hamburger4_lower_scale * q;
-    let n = gnomon_hamburger4_lower_scale * h.determinant;
+    let s = hamburger4_lower_scale * q;
+    let n = hamburger4_lower_scale * h.determinant;
     let un = u * n;
     let a = s * h.variance;
     let b = 0.5 * (un - s * h.third);

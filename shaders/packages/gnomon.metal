@@ -6478,6 +6478,129 @@ inline edge_equation edge_equation_widen(edge_equation f, float margin, float fa
 
 #endif
 
+// soft/blocker.h ------------------------------------------------------------------------------------------------------
+// The mean depth of blockers, the surfaces of a search region that are before the receiver, from moments of the region:
+// the blocker search of percentage-closer soft shadows in one look-up (Peters et al. 2017, Sec. 4.3; Yang et al. 2010).
+//
+// The moments name a canonical distribution with a node at the receiver's depth z_f (hamburger4.h). With A, the sum of
+// w (z_f - x) over its nodes x before z_f, and their weight w, the lower bound on the shadow intensity, the result is
+//     z_f - A / (epsilon + lower),
+// Equation 4 of the paper, in which epsilon makes little of blockers of little weight, and returns z_f where none is.
+// A needs no node: since the mean of (x - z_f) over all nodes is -u, with u = z_f - mean, and with the notation of
+// hamburger4.h,
+//     both nodes before z_f:    A = u
+//     one:                      A = (u (b + r) - V a) / (2 r)
+//     none:                     A = 0
+// so the whole takes one division and one square root. Two moments have the one node mean - V / u beside z_f, and A is
+// u where that is before z_f. The result is exact for a region of one or two surfaces, and of three with one at z_f.
+#ifndef GNOMON_SOFT_BLOCKER_H
+#define GNOMON_SOFT_BLOCKER_H
+
+namespace gnomon {
+
+constant constexpr float blocker_epsilon = 1e-3f;
+
+/// The depth z_f - distance_ in [-1, z_f], for z_f in [-1, 1].
+/// NaN: z_f.
+inline float blocker_depth_before(float z_f, float distance_)
+{
+    return gnomon_max(z_f - gnomon_max(distance_, 0.0f), -1.0f);
+}
+
+/// Mean blocker depth in [-1, z_f] from the mean and the variance of the depths: the formula of variance soft shadow
+/// maps.
+/// Domain: z_f in [-1, 1], clamped; variance at least 0.
+/// NaN: no blocker, z_f; a z_f of NaN is the far plane.
+/// Source: Yang 2010; Peters 2017, Eq. 4
+inline float blocker2_depth(float mean, float variance, float z_f)
+{
+    float z = clamp_or_high(z_f, -1.0f, 1.0f);
+    float u = z - mean;
+    float whole = variance + u * u;
+    float below = u * whole;
+    float total = blocker_epsilon * whole + u * u;
+    return blocker_depth_before(z, below / total);
+}
+
+/// Mean blocker depth in [-1, z_f] from four moments.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: no blocker, z_f, for a NaN in h; a z_f of NaN is the far plane.
+/// Source: Peters 2017, Eq. 4
+inline float blocker4_depth(hankel4 h, float z_f)
+{
+    float z = clamp_or_high(z_f, -1.0f, 1.0f);
+    float u = z - h.mean;
+    float q = hamburger4_q(h, u);
+    // The power of two is a factor of every term. The terms of a single depth would underflow otherwise.
+    float s = hamburger4_lower_scale * q;
+    float n = hamburger4_lower_scale * h.determinant;
+    float un = u * n;
+    float a = s * h.variance;
+    float b = 0.5f * (un - s * h.third);
+    float r = gnomon_sqrt(b * b - a * (h.variance * (n - a)));
+    float e = u * un + q * s;
+    float w = h.variance * n;
+    float whole = w + e;
+    bool between = q < 0.0f;
+    float rest = whole * gnomon_select(between, u * (b + r) - h.variance * a, u);
+    float share = gnomon_select(between, e * (r + b) - w * (u * a), e);
+    float total = blocker_epsilon * (whole * gnomon_select(between, r + r, 1.0f)) + share;
+    return blocker_depth_before(z, rest / total);
+}
+
+} // namespace gnomon
+
+#endif
+
+// soft/blocker6.h -----------------------------------------------------------------------------------------------------
+// The mean depth of blockers from six moments: blocker.h, for search regions that hold more surfaces.
+//
+// One node that is alone on its side of z_f is all that hamburger6.h finds. The mean of (x - z_f) over all nodes is -u,
+// so the sum A of w (z_f - x) over the nodes x before z_f is
+//     all before z_f:        u
+//     the lone one before:   w (z_f - x)            of that node
+//     the lone one behind:   u + w (x - z_f)
+//     none:                  0
+#ifndef GNOMON_SOFT_BLOCKER6_H
+#define GNOMON_SOFT_BLOCKER6_H
+
+namespace gnomon {
+
+/// Mean blocker depth in [-1, z_f] from six moments.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: no blocker, z_f, for a NaN in h; a z_f of NaN is the far plane.
+/// Source: Peters 2017, Eq. 4
+inline float blocker6_depth(hankel6 h, float z_f)
+{
+    float z = clamp_or_high(z_f, -1.0f, 1.0f);
+    polynomials6 p = hamburger6_polynomials(h, z - h.mean);
+    float inverse = 1.0f / hamburger6_kernel(h, p);
+    float w_f = h.whole * inverse;
+    bool positive1 = p.p1 > 0.0f;
+    bool positive2 = p.p2 > 0.0f;
+    bool positive3 = p.p3 > 0.0f;
+    bool all_below = positive1 && positive2 && positive3;
+    bool all_above = (!positive1) && positive2 && (!positive3);
+    bool outside = all_below || all_above;
+    float rest = gnomon_select(all_below, p.p1, 0.0f);
+    float lower = gnomon_select(all_below, 1.0f - w_f, 0.0f);
+    if (gnomon_any(!outside)) {
+        float side = gnomon_select(positive3, -1.0f, 1.0f);
+        derivatives6 d = hamburger6_derivatives(h, p);
+        hamburger6_cubic n = hamburger6_other_nodes(h, p, d, inverse, side);
+        cubic_step t = cubic_positive_root(n.b, n.c, n.d);
+        float away = t.denominator / gnomon_max(t.numerator, 0.0009765625f * t.denominator);
+        float w = h.whole / hamburger6_kernel(h, hamburger6_polynomials_shift(p, d, side * away));
+        rest = gnomon_select(outside, rest, gnomon_select(positive3, w * away, p.p1 + w * away));
+        lower = gnomon_select(outside, lower, gnomon_select(positive3, w, (1.0f - w_f) - w));
+    }
+    return blocker_depth_before(z, rest / (blocker_epsilon + gnomon_max(lower, 0.0f)));
+}
+
+} // namespace gnomon
+
+#endif
+
 // soft/depth_interval.h -----------------------------------------------------------------------------------------------
 // Shadow of a receiver that the least and the greatest depth of its search region decide (passes/depth_pyramid.hpp).
 //
@@ -6584,6 +6707,277 @@ inline float fusion_intensity(float blocked, float covered, float either)
     float two = saturate_or_zero((saturate_or_zero(either) - c) / (1.0f - c));
     return saturate_or_zero(one + (1.0f - one) * two);
 }
+
+} // namespace gnomon
+
+#endif
+
+// soft/penumbra.h -----------------------------------------------------------------------------------------------------
+// Percentage-closer soft shadows (Fernando 2005): from the depth of blockers to the width of the filter that makes
+// their penumbra, for lights that are rectangles aligned with the map, along one axis of the map at a time.
+//
+//     widest search:    width = penumbra_directional(z_f, -1, texels_per_depth, cap)           blockers at the near
+// plane
+//     blockers:         z_b = moments4_summed_blocker(...)                                     of the search rectangle
+//     filter:           width = penumbra_directional(z_f, z_b, texels_per_depth, cap)          at least one texel
+//     bias:             bias = depth_bias_receiver_plane(gradient, width_x / 2, width_y / 2, limit)
+//     shadow:           over_darken(moments4_summed_intensity(..., z_f - bias), 1 - epsilon)
+//
+// and the same by penumbra_local. In the umbra, where the intensity of the search rectangle is above 1 - epsilon, the
+// filter may be skipped: over_darken makes that 1 as well, so no step is seen. The paper's epsilon is 0.01. The bias is
+// that of filters/depth_bias.h: the most that the receiver's plane rises within the half widths of the filter.
+#ifndef GNOMON_SOFT_PENUMBRA_H
+#define GNOMON_SOFT_PENUMBRA_H
+
+namespace gnomon {
+
+/// A width of any size clamped to [1, widest], or 1 if widest is below 1.
+/// NaN: 1; a widest of NaN counts as none.
+inline float penumbra_width(float width, float widest)
+{
+    return gnomon_max(gnomon_min(widest, gnomon_max(width, 1.0f)), 1.0f);
+}
+
+/// The width of the penumbra of a directional light per unit of signed depth between blocker and receiver, in texels.
+/// tangent is that of half the light's angular size along this axis; depth_range is far - near, and texels_per_length
+/// the number of texels per unit of length in the map.
+/// Domain: at least 0.
+/// NaN: NaN, for which filters are one texel wide.
+/// Error: relative, 2 2^-p.
+inline float penumbra_texels_per_depth(float tangent, float depth_range, float texels_per_length)
+{
+    return tangent * depth_range * texels_per_length;
+}
+
+/// Width of the penumbra of a directional light, at least one texel and at most widest: (z_f - z_b) texels_per_depth
+/// for a receiver at depth z_f and blockers at z_b.
+/// Domain: any depths, clamped to [-1, 1]; texels_per_depth by penumbra_texels_per_depth. Blockers behind the receiver
+/// give 1.
+/// NaN: 1; a widest of NaN counts as none.
+/// Error: relative, 2 2^-p.
+/// Source: Fernando 2005; Peters 2017, Sec. 4.1
+inline float penumbra_directional(float z_f, float z_b, float texels_per_depth, float widest)
+{
+    float receiver = clamp_or_nan(z_f, -1.0f, 1.0f);
+    float blocker = clamp_or_nan(z_b, -1.0f, 1.0f);
+    return penumbra_width((receiver - blocker) * texels_per_depth, widest);
+}
+
+/// Width of the penumbra of a local light, at least one texel and at most widest: light_texels (1 / d_b - 1 / d_f) for
+/// a receiver and blockers at view distances d_f and d_b. light_texels is the size of the light times the number of
+/// texels per unit of length at distance 1 from the light, in the map of that axis.
+/// Domain: any depths, clamped to [-1, 1]; 0 < near_distance < far_distance. Blockers behind the receiver give 1.
+/// NaN: 1; a widest of NaN counts as none.
+/// Error: relative, 8 2^-p, for distances as rounded.
+/// Source: Fernando 2005; Peters 2017, Sec. 4.1
+inline float penumbra_local(float z_f, float z_b, float near_distance, float far_distance, float light_texels,
+                            float widest)
+{
+    float receiver = clamp_or_nan(z_f, -1.0f, 1.0f);
+    float blocker = clamp_or_nan(z_b, -1.0f, 1.0f);
+    float half_range = 0.5f * (far_distance - near_distance);
+    float d_f = near_distance + half_range * (receiver + 1.0f);
+    float d_b = near_distance + half_range * (blocker + 1.0f);
+    return penumbra_width(light_texels * ((receiver - blocker) * half_range) / (d_b * d_f), widest);
+}
+
+} // namespace gnomon
+
+#endif
+
+// soft/summed_area.h --------------------------------------------------------------------------------------------------
+// Summed-area tables of the channels of a shadow map, and look-ups of any rectangle in them (Crow 1984; Peters et al.
+// 2017, Sec. 4.2 to 4.4).
+//
+// Let P(x, y) be the sum of the channels over all texels (i, j) with i < x and j < y. The table holds P(x + 1, y + 1)
+// at texel (x, y), in 32-bit unsigned integers that wrap around; P is 0 where x or y is 0. The sum over the texels from
+// (x0, y0) to before (x1, y1) is a difference of four such integers, of which none that wraps does harm:
+//
+//     rectangle = summed_area_clip(summed_area_around(x, y, width_x, width_y), map_width, map_height, most_texels);
+//
+//     on the grid, 4 texels:       r = summed_area_grow(rectangle);
+//                                  s = P(r.x1, r.y1) - P(r.x0, r.y1) - P(r.x1, r.y0) + P(r.x0, r.y0);    in integers
+//                                  area = (r.x1 - r.x0) * (r.y1 - r.y0);
+//
+//     interpolated, 16 texels:     a = summed_area_split(rectangle.x0, rectangle.x1), b = the same of y0 and y1
+//                                  s = the sum over both axes of width_i width_j times the sum of rectangle (i, j)
+//                                  area = summed_area_width(a) * summed_area_width(b);
+//
+//     channel = s / (area * scale)                                        storage/moments4_summed.h and its siblings
+//
+// A code is the nearest whole number to scale times a channel in [0, 1]. most_texels is the most texels that a look-up
+// on the grid may cover: (ceil(w_x) + 1) (ceil(w_y) + 1) for the largest rectangle. Positions are in texels, with
+// centres at +0.5.
+#ifndef GNOMON_SOFT_SUMMED_AREA_H
+#define GNOMON_SOFT_SUMMED_AREA_H
+
+namespace gnomon {
+
+/// A rectangle of a map, from (x0, y0) to (x1, y1) in texels.
+struct summed_area_rectangle { float x0, y0, x1, y1; };
+
+constant constexpr float summed_area_range = 4294967296.0f;    // 2^32
+constant constexpr float summed_area_most_texels = 1048576.0f; // 2^20
+constant constexpr float summed_area_slack = 0.0009765625f;    // 2^-10
+
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0.
+inline float summed_area_nearest(float x)
+{
+    float rounder = 8388608.0f;
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
+/// The number that channels are multiplied by: the largest whole number S of the precision of float for which sums over
+/// most_texels texels do not wrap around, most_texels S <= 2^32 - 1. S is whole because the codes are: the nearest
+/// whole number to a fraction may be above it, as in the paper's own example of 784 texels.
+/// Domain: most_texels a whole number in [1, 2^20], clamped.
+/// NaN: as 2^20.
+/// Source: Peters 2017, Sec. 4.2
+inline float summed_area_scale(float most_texels)
+{
+    float n = clamp_or_high(most_texels, 1.0f, summed_area_most_texels);
+    float s = summed_area_range / n;
+    double_word p = two_product(s, n);
+    float step = 5.9604644775390625e-8f;
+    bool fits = (p.high - summed_area_range) + p.low < 0.0f;
+    s = gnomon_select(fits, s, s - step * s);
+    float whole = summed_area_nearest(s);
+    return whole - gnomon_select(s < whole, 1.0f, 0.0f);
+}
+
+/// The code of a channel: the whole number nearest to scale times the channel, which conversion to an unsigned integer
+/// leaves as it is.
+/// Domain: any channel, clamped to [0, 1]; scale by summed_area_scale.
+/// NaN: 0.
+/// Source: Peters 2017, Sec. 4.2
+inline float summed_area_code(float channel, float scale)
+{
+    return summed_area_nearest(scale * saturate_or_zero(channel));
+}
+
+/// The rectangle of the given widths about (x, y).
+/// NaN: NaN, which summed_area_clip makes empty.
+inline summed_area_rectangle summed_area_around(float x, float y, float width_x, float width_y)
+{
+    summed_area_rectangle r;
+    r.x0 = x - 0.5f * width_x;
+    r.y0 = y - 0.5f * width_y;
+    r.x1 = x + 0.5f * width_x;
+    r.y1 = y + 0.5f * width_y;
+    return r;
+}
+
+/// The smallest whole number not below x.
+/// Domain: |x| <= 65536, clamped.
+inline float summed_area_above(float x) { return -1.0f * texel_below(-1.0f * x); }
+
+/// The begin and the end of a rectangle along one axis.
+struct summed_area_interval { float begin, end; };
+
+/// The interval from begin to end if texels <= most, else the one about the same centre that covers no more than most
+/// texels wherever it is.
+inline summed_area_interval summed_area_shrink(float begin, float end, float texels, float most)
+{
+    float width = most - 1.0f;
+    float low = 0.5f * (begin + end) - 0.5f * width;
+    bool large = most < texels;
+    summed_area_interval r;
+    r.begin = gnomon_select(large, low, begin);
+    r.end = gnomon_select(large, low + width, end);
+    return r;
+}
+
+/// The part of a rectangle that a look-up may read: clipped to the map, and if the texels that it touches are more than
+/// most_texels, shrunk along both axes about its centre. A rectangle without a part in the map, or with its ends in the
+/// wrong order, becomes the empty one, all 0, and look-ups in it are lit.
+/// Domain: width and height whole numbers in [1, 65536]; most_texels in [4, 2^20], clamped.
+/// NaN: empty.
+/// Error: the ends are exact unless the rectangle shrinks.
+inline summed_area_rectangle summed_area_clip(summed_area_rectangle rectangle, float width, float height,
+                                              float most_texels)
+{
+    float limit = texel_limit;
+    float right = clamp_or_high(width, 1.0f, limit);
+    float bottom = clamp_or_high(height, 1.0f, limit);
+    float x0 = clamp_or_nan(rectangle.x0, 0.0f, right);
+    float y0 = clamp_or_nan(rectangle.y0, 0.0f, bottom);
+    float x1 = clamp_or_nan(rectangle.x1, 0.0f, right);
+    float y1 = clamp_or_nan(rectangle.y1, 0.0f, bottom);
+    float columns = summed_area_above(x1) - texel_below(x0);
+    float rows = summed_area_above(y1) - texel_below(y0);
+    float most = clamp_or_high(most_texels, 4.0f, summed_area_most_texels);
+    float share = gnomon_sqrt(gnomon_min(most / (columns * rows), 1.0f));
+    float least_columns = gnomon_min(columns, 2.0f);
+    float least_rows = gnomon_min(rows, 2.0f);
+    float most_columns = gnomon_min(gnomon_max(texel_below(share * columns + summed_area_slack), least_columns),
+                                    texel_below(most / least_rows));
+    float most_rows = gnomon_min(gnomon_max(texel_below(share * rows + summed_area_slack), least_rows),
+                                 texel_below(most / most_columns));
+    summed_area_interval x = summed_area_shrink(x0, x1, columns, most_columns);
+    summed_area_interval y = summed_area_shrink(y0, y1, rows, most_rows);
+    bool some = x0 < x1 && y0 < y1; // false for NaN
+    summed_area_rectangle r;
+    r.x0 = gnomon_select(some, x.begin, 0.0f);
+    r.y0 = gnomon_select(some, y.begin, 0.0f);
+    r.x1 = gnomon_select(some, x.end, 0.0f);
+    r.y1 = gnomon_select(some, y.end, 0.0f);
+    return r;
+}
+
+/// The smallest rectangle of whole texels that holds the given one: between these lines of the grid a look-up reads
+/// four texels. Empty for the empty rectangle.
+/// Domain: a rectangle by summed_area_clip.
+/// NaN: positions of NaN become 65536 or -65536.
+/// Source: Peters 2017, Sec. 4.3
+inline summed_area_rectangle summed_area_grow(summed_area_rectangle rectangle)
+{
+    summed_area_rectangle r;
+    r.x0 = texel_below(rectangle.x0);
+    r.y0 = texel_below(rectangle.y0);
+    r.x1 = summed_area_above(rectangle.x1);
+    r.y1 = summed_area_above(rectangle.y1);
+    return r;
+}
+
+/// An interval in three parts: in its first texel, in its last one, and the whole texels between. Part i is between
+/// lines i and i + 1 of the grid, and the interval covers each of its texels by width i, in [0, 1].
+struct summed_area_parts { float line0, line1, line2, line3, width0, width1, width2; };
+
+/// The parts of the interval from begin to end. In a single texel, the first part is the whole interval and the others
+/// have no texels and no width.
+/// Domain: 0 <= begin < end <= 65536, and the empty interval from 0 to 0, for which line3 is 1 and all widths are 0.
+/// NaN: lines are whole numbers in [-65537, 65537].
+/// Error: of a width, one rounding.
+/// Source: Peters 2017, Sec. 4.4
+inline summed_area_parts summed_area_split(float begin, float end)
+{
+    float first = texel_below(begin);
+    float last = gnomon_max(summed_area_above(end) - 1.0f, first);
+    bool single = last <= first;
+    summed_area_parts r;
+    r.line0 = first;
+    r.line1 = first + 1.0f;
+    r.line2 = gnomon_max(last, r.line1);
+    r.line3 = last + 1.0f;
+    r.width0 = saturate_or_zero(gnomon_select(single, end, r.line1) - begin);
+    r.width1 = gnomon_select(single, 0.0f, 1.0f);
+    r.width2 = gnomon_select(single, 0.0f, saturate_or_zero(end - last));
+    return r;
+}
+
+/// The width of an interval, in texels: the sum of the widths of its parts.
+inline float summed_area_width(summed_area_parts parts)
+{
+    return (parts.width0 + parts.width1 * (parts.line2 - parts.line1)) + parts.width2;
+}
+
+/// The mean of a channel over a rectangle: sum / (area scale), in [0, 1].
+/// Domain: a sum of codes, weighted by widths, over a rectangle of that area; scale by summed_area_scale. 0 for an area
+/// of 0 without a sum.
+/// NaN: 0.
+/// Error: relative, 2 2^-p.
+inline float summed_area_mean(float sum, float area, float scale) { return saturate_or_zero(sum / (area * scale)); }
 
 } // namespace gnomon
 
@@ -7239,6 +7633,100 @@ inline float moments4_float_blended_intensity(channels4 c, float roundings, floa
     noise.b3 = noise.b1;
     noise.b4 = noise.b1;
     return moments4_float_intensity_with_noise(c, noise, bias_weight_of_roundings(certified4_float_weight, n), z_f);
+}
+
+} // namespace gnomon
+
+#endif
+
+// storage/moments4_summed.h -------------------------------------------------------------------------------------------
+// Four moments in a summed-area table (soft/summed_area.h): from a depth to the codes of a texel, and from the mean
+// channels of a rectangle to a shadow and to the depth of blockers.
+//
+//   a texel:        c = moments4_summed_encode(z)               channels of theta4; a resolve averages them
+//                   codes = moments4_summed_codes(c, scale)     whole numbers, to be converted to 32-bit unsigned
+// integers
+//   a rectangle:    c = moments4_summed_channels(sums, area, scale)
+//                   z_b = moments4_summed_blocker(c, most_texels, z_f)
+//                   shadow = moments4_summed_intensity(c, most_texels, z_f - bias)
+//
+// Channels are off by moments4_summed_noise at most: by half a code, most_texels 2^-33, and by what float arithmetic
+// rounds from the depth to the moments.
+#ifndef GNOMON_STORAGE_MOMENTS4_SUMMED_H
+#define GNOMON_STORAGE_MOMENTS4_SUMMED_H
+
+namespace gnomon {
+
+constant constexpr float moments4_summed_code_noise = 1.1641532182693481e-10f; // 2^-33
+constant constexpr float moments4_summed_float_noise = 1.8e-7f;
+constant constexpr float moments4_summed_bias_ratio = 4.0f;
+
+/// The largest error of the channels of a rectangle, for a table by summed_area_scale(most_texels).
+/// Domain: most_texels at least 0.
+inline float moments4_summed_noise(float most_texels)
+{
+    return moments4_summed_code_noise * most_texels + moments4_summed_float_noise;
+}
+
+/// The four channels of the texel of a depth z, each in [0, 1].
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Eq. 3
+inline channels4 moments4_summed_encode(float z) { return theta4(moments4_from_depth(clamp_or_high(z, -1.0f, 1.0f))); }
+
+/// The codes of a texel with these channels: whole numbers in [0, 2^32 - 1].
+/// Domain: any channels, each limited to [0, 1]; scale by summed_area_scale.
+/// NaN: the codes of the far plane.
+inline channels4 moments4_summed_codes(channels4 c, float scale)
+{
+    float any = (clamp_or_nan(c.c1, 0.0f, 1.0f) + clamp_or_nan(c.c2, 0.0f, 1.0f)) +
+                (clamp_or_nan(c.c3, 0.0f, 1.0f) + clamp_or_nan(c.c4, 0.0f, 1.0f));
+    bool known = any == any;
+    channels4 border = moments4_summed_encode(1.0f);
+    channels4 r;
+    r.c1 = summed_area_code(gnomon_select(known, c.c1, border.c1), scale);
+    r.c2 = summed_area_code(gnomon_select(known, c.c2, border.c2), scale);
+    r.c3 = summed_area_code(gnomon_select(known, c.c3, border.c3), scale);
+    r.c4 = summed_area_code(gnomon_select(known, c.c4, border.c4), scale);
+    return r;
+}
+
+/// The mean channels of a rectangle, from the sums of its codes and its area.
+/// Domain: sums and area as for summed_area_mean; the border, which is lit, for an area of 0.
+/// NaN: channels of 0 for sums; the border for an area.
+inline channels4 moments4_summed_channels(channels4 sums, float area, float scale)
+{
+    bool some = 0.0f < area;
+    channels4 border = moments4_summed_encode(1.0f);
+    channels4 r;
+    r.c1 = gnomon_select(some, summed_area_mean(sums.c1, area, scale), border.c1);
+    r.c2 = gnomon_select(some, summed_area_mean(sums.c2, area, scale), border.c2);
+    r.c3 = gnomon_select(some, summed_area_mean(sums.c3, area, scale), border.c3);
+    r.c4 = gnomon_select(some, summed_area_mean(sums.c4, area, scale), border.c4);
+    return r;
+}
+
+/// The factored matrix of the channels of a rectangle, with the constant bias of a table for most_texels.
+inline hankel4 hankel4_from_summed(channels4 c, float most_texels)
+{
+    float weight = moments4_summed_bias_ratio * moments4_summed_noise(most_texels);
+    return hankel4_constant_bias(theta4_inverse(c), bias4_theta_b2, bias4_theta_b4, gnomon_min(weight, 0.5f));
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a rectangle.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+inline float moments4_summed_intensity(channels4 c, float most_texels, float z_f)
+{
+    return hamburger4_lower(hankel4_from_summed(c, most_texels), z_f);
+}
+
+/// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: no blocker, z_f, for a NaN in c; a z_f of NaN is the far plane.
+inline float moments4_summed_blocker(channels4 c, float most_texels, float z_f)
+{
+    return blocker4_depth(hankel4_from_summed(c, most_texels), z_f);
 }
 
 } // namespace gnomon

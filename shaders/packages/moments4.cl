@@ -463,7 +463,7 @@ __constant float bias4_raw_paper_b2 = 0.375f;
 __constant float bias4_raw_paper_b4 = 0.375f;
 
 // Four moments after the sparse transform (quantization.h): r = 0.21652; the paper's vector has 0.20490.
-__constant float gnomon_bias4_theta_b2 = 0.66391434671237689f;
+__constant float bias4_theta_b2 = 0.66391434671237689f;
 __constant float bias4_theta_b4 = 0.66391434671237689f;
 __constant float bias4_theta_paper_b2 = 0.628f;
 __constant float bias4_theta_paper_b4 = 0.628f;
@@ -986,7 +986,7 @@ __constant float gnomon_stored4_arithmetic_weight = 1e-6f;
 /// The factored matrix of the channels of theta4, with a constant bias of weight alpha.
 static inline hankel4 gnomon_hankel4_from_theta(channels4 c, float alpha)
 {
-    return hankel4_from_moments(theta4_inverse_add_bias(c, gnomon_bias4_theta_b2, alpha));
+    return hankel4_from_moments(theta4_inverse_add_bias(c, bias4_theta_b2, alpha));
 }
 
 /// The factored matrix of the channels of a 4 x float texel, with a constant bias of weight alpha.
@@ -1190,7 +1190,7 @@ static inline float gnomon_certified4_theta_within(channels4 c, float noise, flo
                                                    float z_f)
 {
     float z = clamp_or_nan(z_f, -1.0f, 1.0f);
-    moments4 b = theta4_inverse_add_bias(c, gnomon_bias4_theta_b2, alpha);
+    moments4 b = theta4_inverse_add_bias(c, bias4_theta_b2, alpha);
     float mean = gnomon_certificate4_theta_mean(gnomon_certificate4_make(hankel4_from_moments(b), z), c, noise);
     float within = gnomon_certificate4_theta_mean(gnomon_certificate4_within(b, least, greatest, z), c, noise);
     return gnomon_certified4_from_means(mean, within, least, greatest, z);
@@ -1535,7 +1535,7 @@ typedef struct gnomon_distribution3 gnomon_distribution3;
 struct gnomon_distribution3 { float depth0, depth1, depth2, weight0, weight1, weight2; };
 
 __constant float gnomon_hamburger4_scale = 72057594037927936.0f;     // 2^56
-__constant float gnomon_hamburger4_lower_scale = 281474976710656.0f; // 2^48
+__constant float hamburger4_lower_scale = 281474976710656.0f; // 2^48
 
 /// The polynomial Q(x) = V P_2(mean + x).
 static inline float gnomon_hamburger4_q(hankel4 h, float x)
@@ -1577,8 +1577,8 @@ static inline hamburger4_fractions gnomon_hamburger4_fractions_at(hankel4 h, flo
     float u = clamp_or_nan(z_f, -1.0f, 1.0f) - h.mean;
     float q = gnomon_hamburger4_q(h, u);
     // The power of two is a factor of every term. The terms of a single depth would underflow otherwise.
-    float s = gnomon_hamburger4_lower_scale * q;
-    float n = gnomon_hamburger4_lower_scale * h.determinant;
+    float s = hamburger4_lower_scale * q;
+    float n = hamburger4_lower_scale * h.determinant;
     float un = u * n;
     float a = s * h.variance;
     float b = 0.5f * (un - s * h.third);

@@ -449,7 +449,7 @@ static const float bias4_raw_paper_b2 = 0.375;
 static const float bias4_raw_paper_b4 = 0.375;
 
 // Four moments after the sparse transform (quantization.h): r = 0.21652; the paper's vector has 0.20490.
-static const float gnomon_bias4_theta_b2 = 0.66391434671237689;
+static const float bias4_theta_b2 = 0.66391434671237689;
 static const float bias4_theta_b4 = 0.66391434671237689;
 static const float bias4_theta_paper_b2 = 0.628;
 static const float bias4_theta_paper_b4 = 0.628;
@@ -964,7 +964,7 @@ static const float gnomon_stored4_arithmetic_weight = 1e-6;
 /// The factored matrix of the channels of theta4, with a constant bias of weight alpha.
 hankel4 gnomon_hankel4_from_theta(channels4 c, float alpha)
 {
-    return hankel4_from_moments(theta4_inverse_add_bias(c, gnomon_bias4_theta_b2, alpha));
+    return hankel4_from_moments(theta4_inverse_add_bias(c, bias4_theta_b2, alpha));
 }
 
 /// The factored matrix of the channels of a 4 x float texel, with a constant bias of weight alpha.
@@ -1161,7 +1161,7 @@ float gnomon_certified4_from_means(float mean, float within, float least, float 
 float gnomon_certified4_theta_within(channels4 c, float noise, float alpha, float least, float greatest, float z_f)
 {
     float z = clamp_or_nan(z_f, -1.0, 1.0);
-    moments4 b = theta4_inverse_add_bias(c, gnomon_bias4_theta_b2, alpha);
+    moments4 b = theta4_inverse_add_bias(c, bias4_theta_b2, alpha);
     float mean = gnomon_certificate4_theta_mean(gnomon_certificate4_make(hankel4_from_moments(b), z), c, noise);
     float within = gnomon_certificate4_theta_mean(gnomon_certificate4_within(b, least, greatest, z), c, noise);
     return gnomon_certified4_from_means(mean, within, least, greatest, z);
@@ -1499,7 +1499,7 @@ float over_darken(float intensity, float strength) { return saturate_or_zero(int
 struct gnomon_distribution3 { float depth0, depth1, depth2, weight0, weight1, weight2; };
 
 static const float gnomon_hamburger4_scale = 72057594037927936.0;     // 2^56
-static const float gnomon_hamburger4_lower_scale = 281474976710656.0; // 2^48
+static const float hamburger4_lower_scale = 281474976710656.0; // 2^48
 
 /// The polynomial Q(x) = V P_2(mean + x).
 float gnomon_hamburger4_q(hankel4 h, float x) { return (h.variance * x - h.third) * x - h.variance * h.variance; }
@@ -1536,8 +1536,8 @@ hamburger4_fractions gnomon_hamburger4_fractions_at(hankel4 h, float z_f)
     float u = clamp_or_nan(z_f, -1.0, 1.0) - h.mean;
     float q = gnomon_hamburger4_q(h, u);
     // The power of two is a factor of every term. The terms of a single depth would underflow otherwise.
-    float s = gnomon_hamburger4_lower_scale * q;
-    float n = gnomon_hamburger4_lower_scale * h.determinant;
+    float s = hamburger4_lower_scale * q;
+    float n = hamburger4_lower_scale * h.determinant;
     float un = u * n;
     float a = s * h.variance;
     float b = 0.5 * (un - s * h.third);

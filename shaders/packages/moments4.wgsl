@@ -395,7 +395,7 @@ const bias4_raw_paper_b2_: f32 = 0.375;
 const bias4_raw_paper_b4_: f32 = 0.375;
 
 // Four moments after the sparse transform (quantization.h): r = 0.21652; the paper's vector has 0.20490.
-const gnomon_bias4_theta_b2_: f32 = 0x1.53ec94p-1; // 0.66391434671237689
+const bias4_theta_b2_: f32 = 0x1.53ec94p-1; // 0.66391434671237689
 const bias4_theta_b4_: f32 = 0x1.53ec94p-1; // 0.66391434671237689
 const bias4_theta_paper_b2_: f32 = 0x1.418938p-1; // 0.628
 const bias4_theta_paper_b4_: f32 = 0x1.418938p-1; // 0.628
@@ -889,7 +889,7 @@ const gnomon_stored4_arithmetic_weight: f32 = 0x1.0c6f7ap-20; // 1e-6
 /// The factored matrix of the channels of theta4_, with a constant bias of weight alpha.
 fn gnomon_hankel4_from_theta(c: channels4_, alpha: f32) -> hankel4_
 {
-    return hankel4_from_moments(theta4_inverse_add_bias(c, gnomon_bias4_theta_b2_, alpha));
+    return hankel4_from_moments(theta4_inverse_add_bias(c, bias4_theta_b2_, alpha));
 }
 
 /// The factored matrix of the channels of a 4 x float texel, with a constant bias of weight alpha.
@@ -1085,7 +1085,7 @@ fn gnomon_certified4_from_means(mean: f32, within: f32, least: f32, greatest: f3
 fn gnomon_certified4_theta_within(c: channels4_, noise: f32, alpha: f32, least: f32, greatest: f32, z_f: f32) -> f32
 {
     let z = clamp_or_nan(z_f, -1.0, 1.0);
-    let b = theta4_inverse_add_bias(c, gnomon_bias4_theta_b2_, alpha);
+    let b = theta4_inverse_add_bias(c, bias4_theta_b2_, alpha);
     let mean = gnomon_certificate4_theta_mean(gnomon_certificate4_make(hankel4_from_moments(b), z), c, noise);
     let within = gnomon_certificate4_theta_mean(gnomon_certificate4_within(b, least, greatest, z), c, noise);
     return gnomon_certified4_from_means(mean, within, least, greatest, z);
@@ -1400,7 +1400,7 @@ fn over_darken(intensity: f32, strength: f32) -> f32 { return saturate_or_zero(i
 struct gnomon_distribution3_ { depth0_: f32, depth1_: f32, depth2_: f32, weight0_: f32, weight1_: f32, weight2_: f32 }
 
 const gnomon_hamburger4_scale: f32 = 72057594037927936.0; // 2^56
-const gnomon_hamburger4_lower_scale: f32 = 281474976710656.0; // 2^48
+const hamburger4_lower_scale: f32 = 281474976710656.0; // 2^48
 
 /// The polynomial Q(x) = V P_2(mean + x).
 fn gnomon_hamburger4_q(h: hankel4_, x: f32) -> f32 { return (h.variance * x - h.third) * x - h.variance * h.variance; }
@@ -1437,8 +1437,8 @@ fn gnomon_hamburger4_fractions_at(h: hankel4_, z_f: f32) -> hamburger4_fractions
     let u = clamp_or_nan(z_f, -1.0, 1.0) - h.mean;
     let q = gnomon_hamburger4_q(h, u);
     // The power of two is a factor of every term. The terms of a single depth would underflow otherwise.
-    let s = gnomon_hamburger4_lower_scale * q;
-    let n = gnomon_hamburger4_lower_scale * h.determinant;
+    let s = hamburger4_lower_scale * q;
+    let n = hamburger4_lower_scale * h.determinant;
     let un = u * n;
     let a = s * h.variance;
     let b = 0.5 * (un - s * h.third);

@@ -16,7 +16,7 @@ SOURCES = {".h", ".hpp", ".cpp"}
 # An include goes down this list or stays on its line, never up. gnomon.h stands with the passes: whoever includes
 # everything still needs no library.
 LAYERS = [["portable.h", "portable", "version.h"], ["numerics"], ["moments", "filters", "motion/triangle"], ["motion/range"],
-          ["motion/receiver"], ["motion/layers"], ["storage", "soft", "scattering"], ["comparators"], ["advisor"],
+          ["motion/receiver"], ["motion/layers"], ["soft", "scattering"], ["storage"], ["comparators"], ["advisor"],
           ["passes", "gnomon.h"], ["simd", "adapters"]]
 LAYER = {name: level for level, names in enumerate(LAYERS) for name in names}
 

@@ -6,6 +6,7 @@
 #include "situations.hpp"
 
 #include <gnomon/moments/hamburger4.h>
+#include <gnomon/soft/summed_area.h>
 #include <gnomon/storage/convolution.h>
 #include <gnomon/storage/exponential.h>
 #include <gnomon/storage/layered_variance.h>
@@ -121,6 +122,32 @@ inline constexpr input_family<T> input_families[] = {
          const auto mean = [&](double e) { return w * std::exp(e * s.texel) + (1 - w) * std::exp(e * s.b[0]); };
          put(mean(c)), put(mean(2 * c)), put(-mean(-d)), put(mean(-2 * d));
      }},
+    // Summed-area tables: the most texels of a look-up, the scale for them, rectangles in a map, and sums over rectangles
+    // with their area and scale.
+    {"texels", 1, [](auto put, const situation&, bit_source& bits) { put(double(4 + bits.below(4093))); }},
+    {"scale", 1, [](auto put, const situation&, bit_source& bits) { put(summed_area_scale(T(4 + bits.below(4093)))); }},
+    {"rectangle", 4,
+     [](auto put, const situation&, bit_source& bits) {
+         const double x = bits.uniform(-8, 1000), y = bits.uniform(-8, 1000), width = std::exp2(bits.uniform(-3, 7));
+         put(x), put(y), put(x + width), put(y + (bits.chance(0.3) ? width : std::exp2(bits.uniform(-3, 7))));
+     }},
+    {"parts", 7,
+     [](auto put, const situation&, bit_source& bits) {
+         const double begin = bits.uniform(0, 1000);
+         put(summed_area_split(T(begin), T(begin + std::exp2(bits.uniform(-3, 7)))));
+     }},
+    {"summed1", 3,
+     [](auto put, const situation&, bit_source& bits) {
+         const double area = bits.uniform(1, 784), scale = double(summed_area_scale(T(784)));
+         put(bits.uniform(0, 1) * area * scale), put(area), put(scale);
+     }},
+    {"summed4", 6,
+     [](auto put, const situation& s, bit_source& bits) {
+         const double area = bits.uniform(1, 784), scale = double(summed_area_scale(T(784)));
+         const auto c = theta4(moments4_in<T>(s));
+         for (const T x : {c.c1, c.c2, c.c3, c.c4}) put(double(x) * area * scale);
+         put(area), put(scale);
+     }},
     // Arithmetic.
     {"monic_cubic", 3,
      [](auto put, const situation&, bit_source& bits) {
@@ -224,8 +251,7 @@ inline constexpr input_family<T> input_families[] = {
     {"fragment_cover", 7,
      [](auto put, const situation&, bit_source& bits) {
          fragment_cover<T> state = fragment_cover_begin(any_timed_fragment<T>(bits));
-         for (std::size_t n = bits.below(3); n > 0; --n)
-             state = fragment_cover_add(state, any_timed_fragment<T>(bits));
+         for (std::size_t n = bits.below(3); n > 0; --n) state = fragment_cover_add(state, any_timed_fragment<T>(bits));
          put(state);
      }},
     {"range_cover", 7,

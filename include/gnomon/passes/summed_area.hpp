@@ -1,0 +1,216 @@
+// Summed-area tables (soft/summed_area.h) of shadow maps in main memory, and look-ups of rectangles in them. No
+// allocation. The table has as many texels as the map; look-ups never read beyond its edges.
+//
+//     using table = gnomon::moments4_summed;
+//     std::vector<table::texel> texels(width * height);
+//     const gnomon::map_view<table::texel> sums{texels, width, height};
+//     gnomon::build_summed_area<table>(depths, sums, 784);                       // rectangles of up to 27 x 27 texels
+//     const auto rectangle = gnomon::summed_area_around(x, y, 27.f, 27.f);
+//     const float z_b = table::blocker(gnomon::grid_average<table>(sums, 784, rectangle), 784, z_f);
+//
+// Depths are several samples to a texel, and their channels are averaged: the resolve is part of the pass. Build the table
+// at once, or in bands of rows on several threads, each in two steps with the sum over the bands above it between them:
+//
+//     gnomon::summed_area_total<table>(depths, most_texels, rows, total);        each band; then, from the top, add totals
+//     gnomon::build_summed_area<table>(depths, sums, most_texels, rows, above);  each band
+//
+// The first step reads the band and writes one row; every texel of the table is written once. The two-pass form, as on GPUs,
+// is summed_area_along_x and then summed_area_along_y. All have the same bits, since integers sum in any order.
+#ifndef GNOMON_PASSES_SUMMED_AREA_HPP
+#define GNOMON_PASSES_SUMMED_AREA_HPP
+
+#include "../soft/summed_area.h"
+#include "../storage/summed_texel.hpp"
+#include "map_view.hpp"
+
+#include <algorithm>
+
+GNOMON_NAMESPACE_BEGIN
+
+/// The largest number of texels that a table may be made for: beyond it a channel has fewer than 12 bits.
+inline constexpr std::size_t summed_area_limit = std::size_t{1} << 20;
+
+namespace detail {
+
+template <class Table> using sums = format_texel<Table>;
+
+template <class Table> void add_to(sums<Table>& a, const sums<Table>& b)
+{
+    for (std::size_t k = 0; k < a.size(); ++k) a[k] += b[k];
+}
+
+/// The channels of a texel that holds channels, or depth samples, whose channels are averaged.
+template <summed_table Table> format_channels<Table> channels_of(const format_channels<Table>& c) { return c; }
+template <summed_table Table, std::size_t samples>
+format_channels<Table> channels_of(const std::array<float, samples>& depths)
+{
+    using array = std::array<float, channel_count<Table>>;
+    array sum{};
+    for (const float z : depths) {
+        const auto c = gnomon_bit_cast<array>(Table::from_depth(z));
+        for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += c[k];
+    }
+    for (float& x : sum) x *= 1.0f / float(samples);
+    return gnomon_bit_cast<format_channels<Table>>(sum);
+}
+
+/// The codes of a texel.
+template <summed_table Table, class Source> sums<Table> codes_of(const Source& source, float scale)
+{
+    const auto c =
+        gnomon_bit_cast<std::array<float, channel_count<Table>>>(Table::codes(channels_of<Table>(source), scale));
+    sums<Table> codes{};
+    for (std::size_t k = 0; k < codes.size(); ++k) codes[k] = static_cast<std::uint32_t>(c[k]);
+    return codes;
+}
+
+inline void expect_most_texels(std::string_view pass, std::size_t most_texels)
+{
+    GNOMON_EXPECTS(most_texels >= 4, mismatch(pass, "most_texels", most_texels, "the least that a look-up covers", 4));
+    GNOMON_EXPECTS(most_texels <= summed_area_limit,
+                   mismatch(pass, "most_texels", most_texels, "summed_area_limit", summed_area_limit));
+}
+
+/// The map's extent, which must be in the range of a look-up's positions.
+template <class T> void expect_table(std::string_view pass, map_view<T> map)
+{
+    expect_map(pass, "table", map);
+    GNOMON_EXPECTS(map.width <= 65536 && map.height <= 65536,
+                   mismatch(pass, "table.width", map.width, "table.height", map.height));
+}
+
+/// The sums before line x and line y of the grid, which are 0 at the left and the upper edge.
+template <class Table> sums<Table> sums_before(map_view<const sums<Table>> table, std::size_t x, std::size_t y)
+{
+    return x > 0 && y > 0 ? table(x - 1, y - 1) : sums<Table>{};
+}
+
+/// The sums over the texels from (x0, y0) to before (x1, y1), as numbers.
+template <class Table>
+std::array<float, channel_count<Table>> sums_between(const sums<Table>& low, const sums<Table>& left,
+                                                     const sums<Table>& above, const sums<Table>& high)
+{
+    std::array<float, channel_count<Table>> r{};
+    for (std::size_t k = 0; k < r.size(); ++k) r[k] = float(high[k] - left[k] - above[k] + low[k]);
+    return r;
+}
+
+} // namespace detail
+
+/// Build the given rows of the table of a map, from what the rows above sum up to: the row of the table above these rows,
+/// or nothing for the first. Source has channels of Table, or arrays of depth samples.
+template <summed_table Table, class Source>
+void build_summed_area(map_view<const Source> source, map_view<format_texel<Table>> table, std::size_t most_texels,
+                       row_range rows, std::span<const std::type_identity_t<format_texel<Table>>> above)
+{
+    constexpr std::string_view pass = "build_summed_area";
+    expect_map(pass, "source", source);
+    detail::expect_table(pass, table);
+    expect_same_extent(pass, source, table);
+    expect_rows(pass, table, rows);
+    detail::expect_most_texels(pass, most_texels);
+    GNOMON_EXPECTS(above.empty() || above.size() == table.width,
+                   mismatch(pass, "above.size()", above.size(), "table.width", table.width));
+    const float scale = summed_area_scale(float(most_texels));
+    const format_texel<Table>* previous = above.empty() ? nullptr : above.data();
+    for (std::size_t y = rows.first; y < rows.last; ++y) {
+        format_texel<Table>* const row = &table(0, y);
+        format_texel<Table> running{};
+        for (std::size_t x = 0; x < table.width; ++x) {
+            detail::add_to<Table>(running, detail::codes_of<Table>(source(x, y), scale));
+            format_texel<Table> sum = running;
+            if (previous != nullptr) detail::add_to<Table>(sum, previous[x]);
+            row[x] = sum;
+        }
+        previous = row;
+    }
+}
+
+/// Build the table of a map.
+template <summed_table Table, class Source>
+void build_summed_area(map_view<const Source> source, map_view<format_texel<Table>> table, std::size_t most_texels)
+{
+    build_summed_area<Table>(source, table, most_texels, {0, table.height}, {});
+}
+
+/// Sum up a band of rows of a map to one row: what the table below the band has more than above.
+template <summed_table Table, class Source>
+void summed_area_total(map_view<const Source> source, std::size_t most_texels, row_range rows,
+                       std::span<format_texel<Table>> total)
+{
+    constexpr std::string_view pass = "summed_area_total";
+    expect_map(pass, "source", source);
+    expect_rows(pass, source, rows);
+    detail::expect_most_texels(pass, most_texels);
+    GNOMON_EXPECTS(total.size() == source.width,
+                   mismatch(pass, "total.size()", total.size(), "source.width", source.width));
+    const float scale = summed_area_scale(float(most_texels));
+    std::fill(total.begin(), total.end(), format_texel<Table>{});
+    for (std::size_t y = rows.first; y < rows.last; ++y)
+        for (std::size_t x = 0; x < source.width; ++x)
+            detail::add_to<Table>(total[x], detail::codes_of<Table>(source(x, y), scale));
+    for (std::size_t x = 1; x < source.width; ++x) detail::add_to<Table>(total[x], total[x - 1]);
+}
+
+/// The first of two passes: the running sums of the codes along the given rows.
+template <summed_table Table, class Source>
+void summed_area_along_x(map_view<const Source> source, map_view<format_texel<Table>> table, std::size_t most_texels,
+                         row_range rows)
+{
+    for (std::size_t y = rows.first; y < rows.last; ++y)
+        build_summed_area<Table>(source, table, most_texels, {y, y + 1}, {});
+}
+
+/// The second of two passes: the running sums along y, in place.
+template <summed_table Table> void summed_area_along_y(map_view<format_texel<Table>> table)
+{
+    detail::expect_table("summed_area_along_y", table);
+    for (std::size_t y = 1; y < table.height; ++y)
+        for (std::size_t x = 0; x < table.width; ++x) detail::add_to<Table>(table(x, y), table(x, y - 1));
+}
+
+/// The mean channels of a table over the texels that a rectangle touches: clipped to the map, and shrunk where these are more
+/// than most_texels. Reads four texels. The border where nothing is left.
+template <summed_table Table>
+format_channels<Table> grid_average(map_view<const format_texel<Table>> table, std::size_t most_texels,
+                                    const summed_area_rectangle<float>& rectangle)
+{
+    const summed_area_rectangle<float> r =
+        summed_area_grow(summed_area_clip(rectangle, float(table.width), float(table.height), float(most_texels)));
+    const auto x0 = std::size_t(r.x0), y0 = std::size_t(r.y0), x1 = std::size_t(r.x1), y1 = std::size_t(r.y1);
+    const auto sum = detail::sums_between<Table>(
+        detail::sums_before<Table>(table, x0, y0), detail::sums_before<Table>(table, x0, y1),
+        detail::sums_before<Table>(table, x1, y0), detail::sums_before<Table>(table, x1, y1));
+    return Table::mean(gnomon_bit_cast<format_channels<Table>>(sum), (r.x1 - r.x0) * (r.y1 - r.y0),
+                       summed_area_scale(float(most_texels)));
+}
+
+/// The mean channels of a table over a rectangle: clipped to the map, and shrunk where it touches more than most_texels.
+/// Reads sixteen texels. The border where nothing is left.
+template <summed_table Table>
+format_channels<Table> rectangle_average(map_view<const format_texel<Table>> table, std::size_t most_texels,
+                                         const summed_area_rectangle<float>& rectangle)
+{
+    const summed_area_rectangle<float> r =
+        summed_area_clip(rectangle, float(table.width), float(table.height), float(most_texels));
+    const summed_area_parts<float> a = summed_area_split(r.x0, r.x1), b = summed_area_split(r.y0, r.y1);
+    const std::array columns{std::size_t(a.line0), std::size_t(a.line1), std::size_t(a.line2), std::size_t(a.line3)};
+    const std::array rows{std::size_t(b.line0), std::size_t(b.line1), std::size_t(b.line2), std::size_t(b.line3)};
+    const std::array across{a.width0, a.width1, a.width2}, along{b.width0, b.width1, b.width2};
+    std::array<std::array<format_texel<Table>, 4>, 4> corners;
+    for (std::size_t j = 0; j < 4; ++j)
+        for (std::size_t i = 0; i < 4; ++i) corners[j][i] = detail::sums_before<Table>(table, columns[i], rows[j]);
+    std::array<float, channel_count<Table>> sum{};
+    for (std::size_t j = 0; j < 3; ++j)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto part =
+                detail::sums_between<Table>(corners[j][i], corners[j + 1][i], corners[j][i + 1], corners[j + 1][i + 1]);
+            const float weight = across[i] * along[j];
+            for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight * part[k];
+        }
+    return Table::mean(gnomon_bit_cast<format_channels<Table>>(sum), summed_area_width(a) * summed_area_width(b),
+                       summed_area_scale(float(most_texels)));
+}
+
+GNOMON_NAMESPACE_END
+#endif

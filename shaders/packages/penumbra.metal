@@ -1,0 +1,163 @@
+// Gnomon 0.1.0, penumbra.metal: shadow filtering in Metal, this file alone.
+// Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
+// Written by shaders/package.py from the kernels in include/gnomon: change them there.
+#ifndef GNOMON_PENUMBRA_METAL
+#define GNOMON_PENUMBRA_METAL
+
+// the language --------------------------------------------------------------------------------------------------------
+// Metal: C++14 with address spaces. Kernels are not templates, as in the other shader languages: Real is float.
+// Compile with -fno-fast-math and -ffp-contract=off for the same bits as on the CPU.
+#if !defined(__METAL_VERSION__)
+#error "gnomon: penumbra.metal is Metal; another language's compiler reads it"
+#elif defined(GNOMON_PORTABLE_H)
+#error "gnomon: penumbra.metal and the headers of include/gnomon exclude one another"
+#elif defined(GNOMON_PACKAGE) && GNOMON_PACKAGE != 100
+#error "gnomon: penumbra.metal is not of the same version as a package before it"
+#endif
+#define GNOMON_PACKAGE 100 // major, minor and patch, two digits each
+
+#ifndef GNOMON_PORTABLE_MSL_H
+#define GNOMON_PORTABLE_MSL_H
+
+#if defined(__FAST_MATH__)
+#error "gnomon: fast mathematics voids the treatment of NaN: compile with -fno-fast-math, or mathMode = .safe"
+#endif
+
+#include <metal_stdlib>
+
+#if __METAL_VERSION__ >= 320 // to the end of the file
+#pragma METAL fp math_mode(safe)
+#endif
+
+namespace gnomon {
+
+constant constexpr float gnomon_pivot_floor = 9.31322574615478515625e-10f; // 2^-30
+
+inline float gnomon_select(bool mask, float a, float b) { return mask ? a : b; }
+inline bool gnomon_any(bool mask) { return mask; }
+inline float gnomon_abs(float a) { return metal::fabs(a); }
+inline float gnomon_sqrt(float a) { return metal::precise::sqrt(a); }
+// x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
+// bits of NaN are above the bound, which is one.
+inline float gnomon_kept(float x) { return as_type<float>(metal::min(as_type<int>(x), 0x7FC00000)); }
+inline float gnomon_apart(float x) { return as_type<float>(metal::min(as_type<uint>(x), 0xFFC00000u)); }
+// A compiler that knew both operands would write min() and max(), which lose a NaN. gnomon_kept would not hide an operand
+// that is kept already, since two minima of integers become one; gnomon_apart is another one.
+inline float gnomon_min(float a, float b) { return gnomon_select(a < b, a, gnomon_apart(b)); }
+inline float gnomon_max(float a, float b) { return gnomon_select(b < a, a, gnomon_apart(b)); }
+inline float gnomon_product(float a, float b) { return gnomon_kept(a * b); }
+inline float gnomon_sum(float a, float b) { return gnomon_kept(a + b); }
+inline float gnomon_difference(float a, float b) { return gnomon_kept(a - b); }
+inline float gnomon_fma(float a, float b, float c) { return gnomon_kept(metal::fma(a, b, c)); }
+// By integers, so that a NaN becomes 0 where a compiler assumes that there is none.
+inline float gnomon_saturate(float x)
+{
+    int bits = as_type<int>(x);
+    return gnomon_select(bits > 0x7F800000, 0.0f, as_type<float>(metal::min(metal::max(bits, 0), 0x3F800000)));
+}
+// a without the low half of its significand.
+inline float gnomon_high_part(float a) { return as_type<float>(as_type<uint>(a) & 0xFFFFF000u); }
+// The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
+inline float gnomon_power_of_two(float n) { return as_type<float>((as_type<uint>(n + 12582912.0f) << 23) + 0x3F800000u); }
+
+} // namespace gnomon
+
+#endif
+
+// numerics/select.h ---------------------------------------------------------------------------------------------------
+// Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
+#ifndef GNOMON_NUMERICS_SELECT_H
+#define GNOMON_NUMERICS_SELECT_H
+
+namespace gnomon {
+
+/// x clamped to [low, high].
+/// NaN: stays NaN, so that the last step of a kernel can answer it.
+inline float clamp_or_nan(float x, float low, float high) { return gnomon_min(high, gnomon_max(low, x)); }
+
+/// x clamped to [low, high].
+/// NaN: high.
+inline float clamp_or_high(float x, float low, float high) { return gnomon_max(low, gnomon_min(x, high)); }
+
+/// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
+/// NaN: 0, lit.
+inline float saturate_or_zero(float x) { return gnomon_saturate(x); }
+
+} // namespace gnomon
+
+#endif
+
+// soft/penumbra.h -----------------------------------------------------------------------------------------------------
+// Percentage-closer soft shadows (Fernando 2005): from the depth of blockers to the width of the filter that makes
+// their penumbra, for lights that are rectangles aligned with the map, along one axis of the map at a time.
+//
+//     widest search:    width = penumbra_directional(z_f, -1, texels_per_depth, cap)           blockers at the near
+// plane
+//     blockers:         z_b = moments4_summed_blocker(...)                                     of the search rectangle
+//     filter:           width = penumbra_directional(z_f, z_b, texels_per_depth, cap)          at least one texel
+//     bias:             bias = depth_bias_receiver_plane(gradient, width_x / 2, width_y / 2, limit)
+//     shadow:           over_darken(moments4_summed_intensity(..., z_f - bias), 1 - epsilon)
+//
+// and the same by penumbra_local. In the umbra, where the intensity of the search rectangle is above 1 - epsilon, the
+// filter may be skipped: over_darken makes that 1 as well, so no step is seen. The paper's epsilon is 0.01. The bias is
+// that of filters/depth_bias.h: the most that the receiver's plane rises within the half widths of the filter.
+#ifndef GNOMON_SOFT_PENUMBRA_H
+#define GNOMON_SOFT_PENUMBRA_H
+
+namespace gnomon {
+
+/// A width of any size clamped to [1, widest], or 1 if widest is below 1.
+/// NaN: 1; a widest of NaN counts as none.
+inline float penumbra_width(float width, float widest)
+{
+    return gnomon_max(gnomon_min(widest, gnomon_max(width, 1.0f)), 1.0f);
+}
+
+/// The width of the penumbra of a directional light per unit of signed depth between blocker and receiver, in texels.
+/// tangent is that of half the light's angular size along this axis; depth_range is far - near, and texels_per_length
+/// the number of texels per unit of length in the map.
+/// Domain: at least 0.
+/// NaN: NaN, for which filters are one texel wide.
+/// Error: relative, 2 2^-p.
+inline float penumbra_texels_per_depth(float tangent, float depth_range, float texels_per_length)
+{
+    return tangent * depth_range * texels_per_length;
+}
+
+/// Width of the penumbra of a directional light, at least one texel and at most widest: (z_f - z_b) texels_per_depth
+/// for a receiver at depth z_f and blockers at z_b.
+/// Domain: any depths, clamped to [-1, 1]; texels_per_depth by penumbra_texels_per_depth. Blockers behind the receiver
+/// give 1.
+/// NaN: 1; a widest of NaN counts as none.
+/// Error: relative, 2 2^-p.
+/// Source: Fernando 2005; Peters 2017, Sec. 4.1
+inline float penumbra_directional(float z_f, float z_b, float texels_per_depth, float widest)
+{
+    float receiver = clamp_or_nan(z_f, -1.0f, 1.0f);
+    float blocker = clamp_or_nan(z_b, -1.0f, 1.0f);
+    return penumbra_width((receiver - blocker) * texels_per_depth, widest);
+}
+
+/// Width of the penumbra of a local light, at least one texel and at most widest: light_texels (1 / d_b - 1 / d_f) for
+/// a receiver and blockers at view distances d_f and d_b. light_texels is the size of the light times the number of
+/// texels per unit of length at distance 1 from the light, in the map of that axis.
+/// Domain: any depths, clamped to [-1, 1]; 0 < near_distance < far_distance. Blockers behind the receiver give 1.
+/// NaN: 1; a widest of NaN counts as none.
+/// Error: relative, 8 2^-p, for distances as rounded.
+/// Source: Fernando 2005; Peters 2017, Sec. 4.1
+inline float penumbra_local(float z_f, float z_b, float near_distance, float far_distance, float light_texels,
+                            float widest)
+{
+    float receiver = clamp_or_nan(z_f, -1.0f, 1.0f);
+    float blocker = clamp_or_nan(z_b, -1.0f, 1.0f);
+    float half_range = 0.5f * (far_distance - near_distance);
+    float d_f = near_distance + half_range * (receiver + 1.0f);
+    float d_b = near_distance + half_range * (blocker + 1.0f);
+    return penumbra_width(light_texels * ((receiver - blocker) * half_range) / (d_b * d_f), widest);
+}
+
+} // namespace gnomon
+
+#endif
+
+#endif
