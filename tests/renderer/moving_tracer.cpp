@@ -207,10 +207,10 @@ TEST_CASE("sizes of moving queries are checked, and an empty scene is lit")
     const moving_camera light{camera{}, glm::dvec3(0)};
     std::vector<float> visible(2);
     const std::vector<receiver_motion> receivers(2);
-    CHECK_THROWS_WITH(rays.mean_visibility(light, receivers, 0, visible), "tracer: 0 times, at least one expected");
+    CHECK_THROWS_WITH(rays.mean_visibility(light, receivers, 0, visible), "tracer: 0 samples, at least one expected");
     CHECK_THROWS_WITH(rays.mean_visibility(light, receivers, 4, std::span(visible).first(1)),
                       "tracer: 2 receivers, room for 1 results");
-    CHECK_THROWS_WITH(rays.photograph(light, camera{}, 4, 4, -1), "tracer: -1 times, at least one expected");
+    CHECK_THROWS_WITH(rays.photograph(light, camera{}, 4, 4, -1), "tracer: -1 samples, at least one expected");
     const std::vector<receiver> fixed(2);
     CHECK_THROWS_WITH(rays.visibility(light, fixed, std::vector<float>(3), visible),
                       "tracer: 2 receivers, times for 3");

@@ -109,7 +109,7 @@ stage long_range_stage(double aspect)
             const float t = static_cast<float>(k) / 12 - 1;
             path.push_back({7 * t, 6.6f + 0.5f * t * t, -1.6f - 0.7f * static_cast<float>(i)});
         }
-        add_tube(cables, path, 0.03f, 8);
+        add_tube(cables, path, 0.05f, 8);
     }
     for (const float x : {-0.7f, 0.7f})
         for (const float z : {-0.16f, 0.16f}) add_box(bench, upright({x, 0.22f, 1.6f + z}, {0.06f, 0.44f, 0.06f}));
@@ -133,18 +133,18 @@ stage pillar_stage(double aspect)
 {
     mesh pillar = painted("pillar", {0.50f, 0.47f, 0.42f}), bricks = painted("bricks", {0.42f, 0.13f, 0.07f});
     mesh mortar = painted("mortar", {0.45f, 0.42f, 0.38f});
-    const float half = 0.25f, beside = 0.12f, width = 3.2f;
+    const float half = 0.25f, beside = 0.065f, width = 3.2f;
     add_box(pillar, upright({0, 0.06f, 0}, {2 * half, 0.12f, 2 * half}));
-    add_box(pillar, upright({0, 0.8f, 0}, {2 * half, 1.5f, 2 * half}));
-    add_box(pillar, upright({0, 1.6f, 0}, {2.4f * half, 0.1f, 2.4f * half}));
+    add_box(pillar, upright({0, 0.65f, 0}, {2 * half, 1.1f, 2 * half}));
+    add_box(pillar, upright({0, 1.25f, 0}, {2.4f * half, 0.1f, 2.4f * half}));
     add_brick_wall(bricks, mortar, {half + beside + 0.5f * width, 0, -5}, {width, 3.6f, 0.3f});
     stage result{{"pillar", {pillar, bricks, mortar}}, {}, {}, {}};
     const glm::vec3 direction = glm::normalize(glm::vec3(0, -0.42f, 0.9f));
     result.light = orthographic_view(casters_and_shadows(bounds_of(result.world), direction), direction);
-    result.light_size = glm::dvec2(0.03);
+    result.light_size = glm::dvec2(0.02);
     result.world.meshes.push_back(ground({0, 0, 0}, 40, 40, {0.40f, 0.39f, 0.36f}));
-    result.eye = perspective_view_from({-0.9, 2.9, 5.4}, {0.75, 1.15, -0.6}, bounds_of(result.world).corners(),
-                                       glm::radians(42.0), aspect);
+    result.eye = perspective_view_from({-0.5, 2.3, 3.3}, {0.5, 0.65, -0.6}, bounds_of(result.world).corners(),
+                                       glm::radians(46.0), aspect);
     result.interests = {{"alone", "contact of the pillar alone", {-half, 0, half + 0.1f}, {0.05f, 0.6f, 0.1f}},
                         {"both", "contact beside the wall's shadow", {half, 0, half + 0.1f}, {0.95f, 0.35f, 0.02f}}};
     return result;

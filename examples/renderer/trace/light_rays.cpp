@@ -24,9 +24,13 @@ glm::uvec3 corners_around(const glm::uvec3& triangle, const glm::vec3& weights)
     return corner;
 }
 
-// The share of light that passes all crossings of a ray. Both triangles at an edge report one crossing each.
-glm::dvec3 transmitted(const scene& world, const std::vector<crossing>& ray)
+// The share of light that passes all crossings of a ray, which are put in order. Embree may report a crossing twice, and
+// both triangles at an edge report one each.
+glm::dvec3 transmitted(const scene& world, std::vector<crossing>& ray)
 {
+    const auto triangle = [](const crossing& at) { return std::pair(at.mesh, at.triangle); };
+    std::ranges::sort(ray, {}, triangle);
+    ray.erase(std::ranges::unique(ray, {}, triangle).begin(), ray.end());
     struct shared {
         std::uint32_t mesh;
         glm::uvec3 corners;

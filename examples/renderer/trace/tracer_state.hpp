@@ -50,7 +50,7 @@ struct corners {
 
 inline void check_samples(int samples)
 {
-    if (samples < 1) throw std::invalid_argument(fmt::format("tracer: {} times, at least one expected", samples));
+    if (samples < 1) throw std::invalid_argument(fmt::format("tracer: {} samples, at least one expected", samples));
 }
 
 inline void check_room(std::size_t receivers, std::size_t results)
