@@ -41,7 +41,7 @@ TECHNIQUES = {
     "moments6": (["moments/quantization.h", "moments/affine.h", "storage/moments6.h", "storage/moments6_blended.h",
                   "moments/hamburger6.h"], "6"),
     "absorbance": (["moments/absorbance.h"], "4"),
-    "moments4_summed": (["storage/moments4_summed.h"], "4"),
+    "moments4_summed": (["storage/moments4_summed.h", "storage/moments4_summed_within.h"], "4"),
     "two_point": (["moments/two_point.h"], ""),
     "depth": (["moments/depth.h"], ""),
 }

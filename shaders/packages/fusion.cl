@@ -710,6 +710,76 @@ static inline gnomon_distribution3 hamburger4_distribution(hankel4 h, float z_f)
 
 #endif
 
+// soft/blocker.h ------------------------------------------------------------------------------------------------------
+// The mean depth of blockers, the surfaces of a search region that are before the receiver, from moments of the region:
+// the blocker search of percentage-closer soft shadows in one look-up (Peters et al. 2017, Sec. 4.3; Yang et al. 2010).
+//
+// The moments name a canonical distribution with a node at the receiver's depth z_f (hamburger4.h). With A, the sum of
+// w (z_f - x) over its nodes x before z_f, and their weight w, the lower bound on the shadow intensity, the result is
+//     z_f - A / (epsilon + lower),
+// Equation 4 of the paper, in which epsilon makes little of blockers of little weight, and returns z_f where none is.
+// A needs no node: since the mean of (x - z_f) over all nodes is -u, with u = z_f - mean, and with the notation of
+// hamburger4.h,
+//     both nodes before z_f:    A = u
+//     one:                      A = (u (b + r) - V a) / (2 r)
+//     none:                     A = 0
+// so the whole takes one division and one square root. Two moments have the one node mean - V / u beside z_f, and A is
+// u where that is before z_f. The result is exact for a region of one or two surfaces, and of three with one at z_f.
+#ifndef GNOMON_SOFT_BLOCKER_H
+#define GNOMON_SOFT_BLOCKER_H
+
+__constant float blocker_epsilon = 1e-3f;
+
+/// The depth z_f - distance_ in [-1, z_f], for z_f in [-1, 1].
+/// NaN: z_f.
+static inline float gnomon_blocker_depth_before(float z_f, float distance_)
+{
+    return gnomon_max(z_f - gnomon_max(distance_, 0.0f), -1.0f);
+}
+
+/// Mean blocker depth in [-1, z_f] from the mean and the variance of the depths: the formula of variance soft shadow
+/// maps.
+/// Domain: z_f in [-1, 1], clamped; variance at least 0.
+/// NaN: no blocker, z_f; a z_f of NaN is the far plane.
+/// Source: Yang 2010; Peters 2017, Eq. 4
+static inline float blocker2_depth(float mean, float variance, float z_f)
+{
+    float z = clamp_or_high(z_f, -1.0f, 1.0f);
+    float u = z - mean;
+    float whole = variance + u * u;
+    float below = u * whole;
+    float total = blocker_epsilon * whole + u * u;
+    return gnomon_blocker_depth_before(z, below / total);
+}
+
+/// Mean blocker depth in [-1, z_f] from four moments.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: no blocker, z_f, for a NaN in h; a z_f of NaN is the far plane.
+/// Source: Peters 2017, Eq. 4
+static inline float blocker4_depth(hankel4 h, float z_f)
+{
+    float z = clamp_or_high(z_f, -1.0f, 1.0f);
+    float u = z - h.mean;
+    float q = gnomon_hamburger4_q(h, u);
+    // The power of two is a factor of every term. The terms of a single depth would underflow otherwise.
+    float s = hamburger4_lower_scale * q;
+    float n = hamburger4_lower_scale * h.determinant;
+    float un = u * n;
+    float a = s * h.variance;
+    float b = 0.5f * (un - s * h.third);
+    float r = gnomon_sqrt(b * b - a * (h.variance * (n - a)));
+    float e = u * un + q * s;
+    float w = h.variance * n;
+    float whole = w + e;
+    bool between = q < 0.0f;
+    float rest = whole * gnomon_select(between, u * (b + r) - h.variance * a, u);
+    float share = gnomon_select(between, e * (r + b) - w * (u * a), e);
+    float total = blocker_epsilon * (whole * gnomon_select(between, r + r, 1.0f)) + share;
+    return gnomon_blocker_depth_before(z, rest / total);
+}
+
+#endif
+
 // soft/fusion.h -------------------------------------------------------------------------------------------------------
 // Soft shadows of two occluders, one behind the other, of which each has a penumbra of its own. A single mean blocker
 // depth gives both the same width, so that the contact of the one is as soft as that of the other (Peters et al. 2017,
@@ -731,35 +801,29 @@ static inline gnomon_distribution3 hamburger4_distribution(hankel4 h, float z_f)
 #ifndef GNOMON_SOFT_FUSION_H
 #define GNOMON_SOFT_FUSION_H
 
-__constant float fusion_least_epsilon = 7.8886090522101181e-31f; // 2^-100, which keeps quotients finite
-
 /// The depths of two occluders, first <= second, and the depth between that parts them. A between of -1 says that there
 /// is one occluder, the second, or none.
 typedef struct gnomon_occluder_pair gnomon_occluder_pair;
 struct gnomon_occluder_pair { float first, second, between; };
 
-/// The depth of an occluder at depth z with a weight, in [-1, z_f]: near z_f where the weight is not far above epsilon.
-static inline float gnomon_fusion_depth(float z, float weight, float z_f, float epsilon)
+/// The depth of an occluder at depth z with a weight, in [-1, z_f].
+static inline float gnomon_fusion_depth(float z, float weight, float z_f)
 {
-    float distance = gnomon_max(0.0f, z_f - z);
-    distance = distance * (weight / (weight + epsilon));
-    return gnomon_max(-1.0f, z_f - distance);
+    return gnomon_blocker_depth_before(z_f, (z_f - z) * (weight / (weight + blocker_epsilon)));
 }
 
-/// The two occluders before z_f in a search region, from the canonical distribution d with depth0 = z_f. Each is moved
-/// towards z_f as epsilon / weight grows, like the mean blocker depth of blocker.h. One occluder is the second, and
-/// first equals second.
-/// Domain: epsilon above 0; 1e-3 suits moments that are stored in 32 bits a channel.
+/// The two occluders before z_f in a search region, from the canonical distribution d with depth0 = z_f. Like the mean
+/// blocker depth of blocker.h, each is near z_f where its weight is not far above blocker_epsilon. One occluder is the
+/// second, and first equals second.
 /// NaN: no occluder, both at the depth of the receiver.
-static inline gnomon_occluder_pair fusion_occluders(gnomon_distribution3 d, float epsilon)
+static inline gnomon_occluder_pair fusion_occluders(gnomon_distribution3 d)
 {
     float z_f = clamp_or_high(d.depth0, -1.0f, 1.0f);
     float z1 = clamp_or_high(d.depth1, -1.0f, z_f);
     float z2 = clamp_or_high(d.depth2, -1.0f, z_f);
-    float e = gnomon_max(epsilon, fusion_least_epsilon);
     bool two = d.depth1 < d.depth2 && d.depth2 < z_f;
-    float first = gnomon_fusion_depth(z1, saturate_or_zero(d.weight1), z_f, e);
-    float second = gnomon_fusion_depth(z2, saturate_or_zero(d.weight2), z_f, e);
+    float first = gnomon_fusion_depth(z1, saturate_or_zero(d.weight1), z_f);
+    float second = gnomon_fusion_depth(z2, saturate_or_zero(d.weight2), z_f);
     gnomon_occluder_pair r;
     r.second = gnomon_select(two, second, first);
     r.first = gnomon_min(first, r.second);

@@ -1157,6 +1157,82 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif
 
+// soft/blocker.h ------------------------------------------------------------------------------------------------------
+// The mean depth of blockers, the surfaces of a search region that are before the receiver, from moments of the region:
+// the blocker search of percentage-closer soft shadows in one look-up (Peters et al. 2017, Sec. 4.3; Yang et al. 2010).
+//
+// The moments name a canonical distribution with a node at the receiver's depth z_f (hamburger4.h). With A, the sum of
+// w (z_f - x) over its nodes x before z_f, and their weight w, the lower bound on the shadow intensity, the result is
+//     z_f - A / (epsilon + lower),
+// Equation 4 of the paper, in which epsilon makes little of blockers of little weight, and returns z_f where none is.
+// A needs no node: since the mean of (x - z_f) over all nodes is -u, with u = z_f - mean, and with the notation of
+// hamburger4.h,
+//     both nodes before z_f:    A = u
+//     one:                      A = (u (b + r) - V a) / (2 r)
+//     none:                     A = 0
+// so the whole takes one division and one square root. Two moments have the one node mean - V / u beside z_f, and A is
+// u where that is before z_f. The result is exact for a region of one or two surfaces, and of three with one at z_f.
+#ifndef GNOMON_SOFT_BLOCKER_H
+#define GNOMON_SOFT_BLOCKER_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+inline constexpr double blocker_epsilon = 1e-3;
+
+/// The depth z_f - distance_ in [-1, z_f], for z_f in [-1, 1].
+/// NaN: z_f.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real blocker_depth_before(Real z_f, Real distance_)
+{
+    return gnomon_max(z_f - gnomon_max(distance_, Real(0)), Real(-1));
+}
+
+/// Mean blocker depth in [-1, z_f] from the mean and the variance of the depths: the formula of variance soft shadow
+/// maps.
+/// Domain: z_f in [-1, 1], clamped; variance at least 0.
+/// NaN: no blocker, z_f; a z_f of NaN is the far plane.
+/// Source: Yang 2010; Peters 2017, Eq. 4
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real blocker2_depth(Real mean, Real variance, Real z_f)
+{
+    Real z = clamp_or_high(z_f, Real(-1), Real(1));
+    Real u = z - mean;
+    Real whole = variance + u * u;
+    Real below = u * whole;
+    Real total = literal<Real>(blocker_epsilon) * whole + u * u;
+    return blocker_depth_before(z, below / total);
+}
+
+/// Mean blocker depth in [-1, z_f] from four moments.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: no blocker, z_f, for a NaN in h; a z_f of NaN is the far plane.
+/// Source: Peters 2017, Eq. 4
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real blocker4_depth(hankel4<Real> h, Real z_f)
+{
+    Real z = clamp_or_high(z_f, Real(-1), Real(1));
+    Real u = z - h.mean;
+    Real q = hamburger4_q(h, u);
+    // The power of two is a factor of every term. The terms of a single depth would underflow otherwise.
+    Real s = literal<Real>(hamburger4_lower_scale) * q;
+    Real n = literal<Real>(hamburger4_lower_scale) * h.determinant;
+    Real un = u * n;
+    Real a = s * h.variance;
+    Real b = Real(0.5) * (un - s * h.third);
+    Real r = gnomon_sqrt(b * b - a * (h.variance * (n - a)));
+    Real e = u * un + q * s;
+    Real w = h.variance * n;
+    Real whole = w + e;
+    mask_t<Real> between = q < Real(0);
+    Real rest = whole * gnomon_select(between, u * (b + r) - h.variance * a, u);
+    Real share = gnomon_select(between, e * (r + b) - w * (u * a), e);
+    Real total = literal<Real>(blocker_epsilon) * (whole * gnomon_select(between, r + r, Real(1))) + share;
+    return blocker_depth_before(z, rest / total);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
 // soft/fusion.h -------------------------------------------------------------------------------------------------------
 // Soft shadows of two occluders, one behind the other, of which each has a penumbra of its own. A single mean blocker
 // depth gives both the same width, so that the contact of the one is as soft as that of the other (Peters et al. 2017,
@@ -1180,36 +1256,30 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 
 GNOMON_WARNINGS_OFF namespace gnomon {
 
-inline constexpr double fusion_least_epsilon = 7.8886090522101181e-31; // 2^-100, which keeps quotients finite
-
 /// The depths of two occluders, first <= second, and the depth between that parts them. A between of -1 says that there
 /// is one occluder, the second, or none.
 template <class Real, class = require_real<Real>> struct occluder_pair { Real first, second, between; };
 
-/// The depth of an occluder at depth z with a weight, in [-1, z_f]: near z_f where the weight is not far above epsilon.
+/// The depth of an occluder at depth z with a weight, in [-1, z_f].
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real fusion_depth(Real z, Real weight, Real z_f, std::type_identity_t<Real> epsilon)
+GNOMON_INLINE constexpr Real fusion_depth(Real z, Real weight, Real z_f)
 {
-    Real distance = gnomon_max(Real(0), z_f - z);
-    distance = distance * (weight / (weight + epsilon));
-    return gnomon_max(Real(-1), z_f - distance);
+    return blocker_depth_before(z_f, (z_f - z) * (weight / (weight + literal<Real>(blocker_epsilon))));
 }
 
-/// The two occluders before z_f in a search region, from the canonical distribution d with depth0 = z_f. Each is moved
-/// towards z_f as epsilon / weight grows, like the mean blocker depth of blocker.h. One occluder is the second, and
-/// first equals second.
-/// Domain: epsilon above 0; 1e-3 suits moments that are stored in 32 bits a channel.
+/// The two occluders before z_f in a search region, from the canonical distribution d with depth0 = z_f. Like the mean
+/// blocker depth of blocker.h, each is near z_f where its weight is not far above blocker_epsilon. One occluder is the
+/// second, and first equals second.
 /// NaN: no occluder, both at the depth of the receiver.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr occluder_pair<Real> fusion_occluders(distribution3<Real> d, std::type_identity_t<Real> epsilon)
+GNOMON_INLINE constexpr occluder_pair<Real> fusion_occluders(distribution3<Real> d)
 {
     Real z_f = clamp_or_high(d.depth0, Real(-1), Real(1));
     Real z1 = clamp_or_high(d.depth1, Real(-1), z_f);
     Real z2 = clamp_or_high(d.depth2, Real(-1), z_f);
-    Real e = gnomon_max(epsilon, literal<Real>(fusion_least_epsilon));
     mask_t<Real> two = d.depth1 < d.depth2 && d.depth2 < z_f;
-    Real first = fusion_depth(z1, saturate_or_zero(d.weight1), z_f, e);
-    Real second = fusion_depth(z2, saturate_or_zero(d.weight2), z_f, e);
+    Real first = fusion_depth(z1, saturate_or_zero(d.weight1), z_f);
+    Real second = fusion_depth(z2, saturate_or_zero(d.weight2), z_f);
     occluder_pair<Real> r;
     r.second = gnomon_select(two, second, first);
     r.first = gnomon_min(first, r.second);

@@ -1512,3 +1512,99 @@ fn moments4_summed_blocker(c: channels4_, most_texels: f32, z_f: f32) -> f32
 {
     return blocker4_depth(hankel4_from_summed(c, most_texels), z_f);
 }
+
+// moments/hausdorff4.h ------------------------------------------------------------------------------------------------
+// Shadow intensity from four moments of depths that are known to lie in [-1, 1], as all depths of a map do: the sharp
+// lower bound of the Hausdorff moment problem (Krein & Nudelman 1977), where hamburger4.h has that for any depths.
+//
+// Where both nodes of the canonical distribution beside z_f lie in [-1, 1], the bound is that of hamburger4.h.
+// Elsewhere the canonical distribution on [-1, 1] has the nodes -1, z_f, 1 and one more. About the mean, with s = -1 -
+// mean, t = 1 - mean, u = z_f - mean and e_k = E[(y - s) (y - t) y^k], the fourth node is
+//     x = (e2 - u e1) / (e1 - u e0)
+// and its weights follow by interpolation, such as
+//     w(s) = E[(y - u) (y - x) (y - t)] / ((s - u) (s - x) (s - t)),   w(x) = (e1 - u e0) / ((x - s) (x - u) (x - t))
+// Each weight has an error of its own where nodes nearly meet. The weights before z_f, and 1 minus those from z_f on,
+// are the same bound, and the smaller of both never darkens.
+//
+// The quadratic whose roots are the nodes beside z_f tells by its values at s and t which distribution it is. At most
+// one node lies outside, since a root of P_2 is between the nodes.
+//
+// The bias must keep the moments those of depths in [-1, 1]. The vector of hamburger4.h is no guarantee: it has
+// E[z^2] = E[z^4], all depths at -1, 0 and 1. The vector below is the farthest, in the maximum norm and after the
+// sparse transform, from the boundary of the moments of depths in [-1, 1]: r = 0.1616, where that for any depths has
+// 0.2165.
+
+const bias4_theta_within_b2_: f32 = 0x1.2f62b6p-1; // 0.59255
+const bias4_theta_within_b4_: f32 = 0x1.ecd4aap-2; // 0.48128
+
+/// Lower bound on the shadow intensity at z_f, in [0, 1], for depths in [-1, 1]. At least that of hamburger4_lower, but
+/// for rounding.
+/// Domain: z_f in [-1, 1], clamped; h of moments with a bias for depths in [-1, 1].
+/// NaN: 0, lit, for a NaN in h or z_f.
+/// Error: against the kernel in double (tests/soft/within.cpp),
+///     error, float, hankel4_from_summed_within: p99 3e-3, p99.9 3e-2, max 5e-1
+fn hausdorff4_lower(h: hankel4_, z_f: f32) -> f32
+{
+    let z = clamp_or_nan(z_f, -1.0, 1.0);
+    let u = z - h.mean;
+    let s = -1.0 - h.mean;
+    let t = 1.0 - h.mean;
+    let q = gnomon_hamburger4_q(h, u);
+    let w = h.variance * h.determinant;
+    let at_s = w + (u * s * h.determinant + q * gnomon_hamburger4_q(h, s));
+    let at_t = w + (u * t * h.determinant + q * gnomon_hamburger4_q(h, t));
+    let between = q < 0.0;
+    let outside = (between && (0.0 < at_s || 0.0 < at_t)) || (!between && (at_s < 0.0 || at_t < 0.0));
+    // Times the variance, so that the fourth moment takes no division.
+    let sum = s + t;
+    let product = s * t;
+    let e0 = h.variance * (h.variance + product);
+    let e1 = h.variance * (h.third - sum * h.variance);
+    let e2 = (h.determinant + h.third * h.third) + h.variance * ((h.variance + product) * h.variance - sum * h.third);
+    let d = e1 - u * e0;
+    let x = clamp_or_nan((e2 - u * e1) / d, s, t);
+    let tx = t * x;
+    let ux = u * x;
+    let of_s = (h.third - ((u + x) + t) * h.variance) - u * tx;
+    let of_u = (h.third - ((s + x) + t) * h.variance) - s * tx;
+    let of_t = (h.third - ((s + u) + x) * h.variance) - s * ux;
+    let at_low = saturate_or_zero(of_s / ((s - u) * ((s - x) * (s - t))));
+    let at_node = saturate_or_zero(d / (h.variance * ((x - s) * ((x - u) * (x - t)))));
+    let at_receiver = saturate_or_zero(of_u / ((u - s) * ((u - x) * (u - t))));
+    let at_high = saturate_or_zero(of_t / ((t - s) * ((t - u) * (t - x))));
+    let node = gnomon_select(x < u, at_node, 0.0);
+    let rest = 1.0 - ((at_receiver + at_high) + gnomon_select(x < u, 0.0, at_node));
+    let within = gnomon_min(at_low + node, rest);
+    let lower = hamburger4_lower(h, z_f);
+    return gnomon_select(outside && (-1.0 < z), saturate_or_zero(gnomon_max(lower, within)), lower);
+}
+
+// storage/moments4_summed_within.h ------------------------------------------------------------------------------------
+// Four moments in a summed-area table (moments4_summed.h), where the sharp bound for depths in [-1, 1] (hausdorff4.h)
+// takes the place of that for any depths. Intensities exceed Z(z < z_f) by at most moments4_summed_within_weight.
+
+const moments4_summed_within_bias_ratio: f32 = 0x1.8cccccp+2; // 6.2, 1 / r
+const moments4_summed_within_float_weight: f32 = 0x1.0c6f7ap-20; // 1e-6
+
+/// The weight of the bias of hankel4_from_summed_within: what the errors of the channels make necessary, and what float
+/// arithmetic rounds in the bound.
+/// Domain: most_texels at least 0.
+fn moments4_summed_within_weight(most_texels: f32) -> f32
+{
+    return moments4_summed_within_bias_ratio * moments4_summed_noise(most_texels) + moments4_summed_within_float_weight;
+}
+
+/// The factored matrix of the channels of a rectangle, with a bias for depths in [-1, 1].
+fn hankel4_from_summed_within(c: channels4_, most_texels: f32) -> hankel4_
+{
+    return hankel4_constant_bias(theta4_inverse(c), bias4_theta_within_b2_, bias4_theta_within_b4_,
+                                 gnomon_min(moments4_summed_within_weight(most_texels), 0.5));
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a rectangle.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments4_summed_intensity_within(c: channels4_, most_texels: f32, z_f: f32) -> f32
+{
+    return hausdorff4_lower(hankel4_from_summed_within(c, most_texels), z_f);
+}

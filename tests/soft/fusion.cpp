@@ -98,7 +98,7 @@ std::array<double, estimates> shown(const scene_1d& s, const averages& map, doub
     for (const auto& [z, w] : {std::pair(d.depth1, d.weight1), std::pair(d.depth2, d.weight2)})
         if (z < z_f) blocker += w * (z_f - std::max(z, -1.0)), weight += w;
     const double width = s.width(s.floor - blocker / weight);
-    const occluder_pair<double> two = fusion_occluders(d, 1e-3);
+    const occluder_pair<double> two = fusion_occluders(d);
     const double k1 = s.width(two.first), k2 = s.width(two.second);
     const auto bound = [&](double k, double z) { return hamburger4_lower(map.moments(x, k), z); };
     const double near = map.below(x, search, z_f);
@@ -172,21 +172,19 @@ TEST_CASE("occluders before a surface at z_f are found exactly, apart from epsil
             return w1 * std::pow(z1, k) + w2 * std::pow(z2, k) + (1 - w1 - w2) * std::pow(z_f, k);
         };
         const hankel4<double> h = hankel4_from_moments(moments4<double>{power(1), power(2), power(3), power(4)});
-        const occluder_pair<double> r = fusion_occluders(hamburger4_distribution(h, z_f), 1e-9);
-        CHECK(r.first == doctest::Approx(z1).epsilon(1e-4));
-        CHECK(r.second == doctest::Approx(z2).epsilon(1e-4));
+        const occluder_pair<double> r = fusion_occluders(hamburger4_distribution(h, z_f));
+        CHECK(r.first == doctest::Approx(z_f - (z_f - z1) * w1 / (w1 + blocker_epsilon)).epsilon(1e-4));
+        CHECK(r.second == doctest::Approx(z_f - (z_f - z2) * w2 / (w2 + blocker_epsilon)).epsilon(1e-4));
         CHECK(r.between == doctest::Approx((z1 + z2) / 2).epsilon(1e-4));
     }
 }
 
 TEST_CASE("one occluder, or none, is no pair")
 {
-    const auto at = [](double z_f) {
-        return fusion_occluders(distribution3<double>{z_f, -0.5, 0.5, 0.2, 0.4, 0.4}, 1e-9);
-    };
+    const auto at = [](double z_f) { return fusion_occluders(distribution3<double>{z_f, -0.5, 0.5, 0.2, 0.4, 0.4}); };
     CHECK(at(0.2).between == -1);
     CHECK(at(0.2).first == at(0.2).second);
-    CHECK(at(0.2).second == doctest::Approx(-0.5));
+    CHECK(at(0.2).second == doctest::Approx(0.2 - 0.7 * 0.4 / 0.401)); // of weight 0.4
     CHECK(at(-0.7).second == -0.7);
     CHECK(at(0.9).between == 0);
 }
@@ -209,7 +207,7 @@ TEST_CASE("any bits name two depths in [-1, 1] in their order")
     bit_source bits(10);
     const auto x = [&] { return bits.chance(0.5) ? source.pattern() : source.special(); };
     for (int i = 0; i < 100'000; ++i) {
-        const occluder_pair<float> r = fusion_occluders(distribution3<float>{x(), x(), x(), x(), x(), x()}, x());
+        const occluder_pair<float> r = fusion_occluders(distribution3<float>{x(), x(), x(), x(), x(), x()});
         CHECK((r.first >= -1 && r.first <= r.second && r.second <= 1));
         CHECK((r.between >= -1 && r.between <= 1));
         const float shown = fusion_intensity(x(), x(), x());

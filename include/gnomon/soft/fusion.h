@@ -17,37 +17,31 @@
 // fusion_occluders found two.
 #ifndef GNOMON_SOFT_FUSION_H
 #define GNOMON_SOFT_FUSION_H
-#include "../moments/hamburger4.h"
+#include "blocker.h"
 GNOMON_NAMESPACE_BEGIN
-
-GNOMON_CONSTANT(fusion_least_epsilon, 7.8886090522101181e-31); // 2^-100, which keeps quotients finite
 
 /// The depths of two occluders, first <= second, and the depth between that parts them. A between of -1 says that there
 /// is one occluder, the second, or none.
 GNOMON_STRUCT(occluder_pair) { Real first, second, between; };
 
-/// The depth of an occluder at depth z with a weight, in [-1, z_f]: near z_f where the weight is not far above epsilon.
-GNOMON_DETAIL_KERNEL Real fusion_depth(Real z, Real weight, Real z_f, GNOMON_SETTING epsilon)
+/// The depth of an occluder at depth z with a weight, in [-1, z_f].
+GNOMON_DETAIL_KERNEL Real fusion_depth(Real z, Real weight, Real z_f)
 {
-    Real distance = gnomon_max(Real(0), z_f - z);
-    distance = distance * (weight / (weight + epsilon));
-    return gnomon_max(Real(-1), z_f - distance);
+    return blocker_depth_before(z_f, (z_f - z) * (weight / (weight + GNOMON_LITERAL(blocker_epsilon))));
 }
 
-/// The two occluders before z_f in a search region, from the canonical distribution d with depth0 = z_f. Each is moved
-/// towards z_f as epsilon / weight grows, like the mean blocker depth of blocker.h. One occluder is the second, and first
-/// equals second.
-/// Domain: epsilon above 0; 1e-3 suits moments that are stored in 32 bits a channel.
+/// The two occluders before z_f in a search region, from the canonical distribution d with depth0 = z_f. Like the mean
+/// blocker depth of blocker.h, each is near z_f where its weight is not far above blocker_epsilon. One occluder is the
+/// second, and first equals second.
 /// NaN: no occluder, both at the depth of the receiver.
-GNOMON_KERNEL GNOMON_T(occluder_pair) fusion_occluders(GNOMON_T(distribution3) d, GNOMON_SETTING epsilon)
+GNOMON_KERNEL GNOMON_T(occluder_pair) fusion_occluders(GNOMON_T(distribution3) d)
 {
     Real z_f = clamp_or_high(d.depth0, Real(-1), Real(1));
     Real z1 = clamp_or_high(d.depth1, Real(-1), z_f);
     Real z2 = clamp_or_high(d.depth2, Real(-1), z_f);
-    Real e = gnomon_max(epsilon, GNOMON_LITERAL(fusion_least_epsilon));
     GNOMON_MASK two = d.depth1 < d.depth2 && d.depth2 < z_f;
-    Real first = fusion_depth(z1, saturate_or_zero(d.weight1), z_f, e);
-    Real second = fusion_depth(z2, saturate_or_zero(d.weight2), z_f, e);
+    Real first = fusion_depth(z1, saturate_or_zero(d.weight1), z_f);
+    Real second = fusion_depth(z2, saturate_or_zero(d.weight2), z_f);
     GNOMON_T(occluder_pair) r;
     r.second = gnomon_select(two, second, first);
     r.first = gnomon_min(first, r.second);
