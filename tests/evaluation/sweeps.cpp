@@ -1,6 +1,7 @@
 // The edges of the regions in which methods fail, held where they are. tests/evaluation/sweeps.txt has a line for each
 // layer of each sweep, SWEEP LAYER ROW..., a row for each value of y: runs of points that pass (.) and fail (#) along x,
 // such as .20#12. With GNOMON_WRITE_SWEEPS=1 the test writes the file anew.
+#include "evaluation/atlas/fog.hpp"
 #include "evaluation/atlas/region.hpp"
 #include "evaluation/atlas/sweep.hpp"
 #include "support/documented.hpp"
@@ -16,6 +17,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace gnomon::evaluation;
@@ -158,6 +160,15 @@ TEST_CASE("the exact intensity of a region is the weight in front of the receive
     CHECK(exact_intensity(region, 1.f) == 1);
 }
 
+TEST_CASE("the exact intensity of fog is what the layers before the receiver take of the light")
+{
+    const std::array fog{pane{0.5f, 0.5f}, pane{0.f, 0.25f}};
+    CHECK(exact_intensity(fog, 0.8f, 0.f) == 0);
+    CHECK(exact_intensity(fog, 0.8f, 0.5f) == 0.25);
+    CHECK(exact_intensity(fog, 0.8f, 0.8f) == 0.625);
+    CHECK(exact_intensity(fog, 0.8f, 0.9f) == 1);
+}
+
 TEST_CASE("no method whose bounds are certified darkens a lit surface in any sweep")
 {
     for (const sweep_layer& l : named("filter_passes").layers()) {
@@ -167,6 +178,30 @@ TEST_CASE("no method whose bounds are certified darkens a lit surface in any swe
             CHECK(l.error(2, distance) <= 1e-5);
         }
     }
+}
+
+TEST_CASE("four moments darken no receiver in blended fog where they allow for blends, and do where they do not")
+{
+    for (const fog_map& m : fog_maps()) {
+        if (!m.id.starts_with("moments4_") && m.id != "msm4_unorm16") continue;
+        double worst = 0;
+        for (const auto& [count, opacity] : {std::pair{10, 0.3f}, {200, 0.1f}, {1000, 0.01f}, {1000, 0.001f}}) {
+            INFO(m.id << ": " << count << " layers of " << opacity);
+            worst =
+                std::max(worst, errors_in_fog(m, std::vector<float>(std::size_t(count), opacity), opacity).darkening);
+        }
+        if (m.id == "msm4_unorm16") CHECK(worst > 0.3);
+        else CHECK(worst < 1e-5);
+    }
+}
+
+TEST_CASE("an alpha test takes as much light as the fragments that it leaves out, from any map")
+{
+    const std::array opacities{0.2f, 0.009f, 0.3f, 0.008f, 0.007f};
+    const double lost = 0.8 * 0.7 * (1 - 0.991 * 0.992 * 0.993);
+    for (const fog_map& m : fog_maps())
+        if (m.id == "moments4_float_blended" || m.id == "absorbance4_float" || m.id == "evsm_float")
+            CHECK(errors_in_fog(m, opacities, 0.01f).leak == doctest::Approx(lost).epsilon(0.1));
 }
 
 TEST_CASE("more bits of a format never enlarge the failing region of two surfaces")
