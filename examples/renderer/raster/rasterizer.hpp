@@ -1,4 +1,5 @@
-// A minimal rasterizer on the CPU. Parallel over tiles; results do not depend on the number of threads.
+// A minimal rasterizer on the CPU. Parallel over tiles; results do not depend on the number of threads. All meshes are
+// drawn as opaque ones; fragments.hpp has translucent ones.
 //
 // Coverage follows the rules of Direct3D: vertices snap to subpixels, edge functions are exact integers, the top-left
 // rule gives a sample on a shared edge to exactly one triangle, and four samples lie in the standard rotated pattern.

@@ -182,25 +182,24 @@ scene translucent_scene()
     mesh walls = painted("walls", {0.50f, 0.44f, 0.36f}), coping = painted("coping", {0.36f, 0.34f, 0.32f});
     add_box(walls, upright({0.1f, 1.5f, back - 0.15f}, {7.3f, 3.0f, 0.3f}));
     add_box(walls, upright({left, 1.5f, -1.2f}, {0.3f, 3.0f, 1.6f}));
-    add_box(coping, upright({0.1f, 3.04f, back - 0.15f}, {7.4f, 0.08f, 0.42f}));
-    add_box(coping, upright({left, 3.04f, -1.15f}, {0.42f, 0.08f, 1.6f}));
+    add_box(coping, upright({0.1f, 3.04f, back - 0.15f}, {7.3f, 0.08f, 0.3f}));
+    add_box(coping, upright({left, 3.04f, -1.2f}, {0.3f, 0.08f, 1.6f}));
     result.meshes.push_back(std::move(walls));
     result.meshes.push_back(std::move(coping));
-    // Pipes along the wall end in it.
-    const auto to_wall = [&](float y, float z) {
-        return std::array{glm::vec3(right - 0.4f, y, z), glm::vec3(right - 0.4f, y, back)};
+    const auto along_wall = [&](const char* name, const glm::vec3& albedo, float height, float before, float radius) {
+        return pipe(
+            name, albedo,
+            {{left, height, back + before}, {right - 0.4f, height, back + before}, {right - 0.4f, height, back}},
+            radius);
     };
-    const auto yellow = to_wall(1.85f, back + 0.5f), green = to_wall(1.2f, back + 0.28f),
-               blue = to_wall(0.62f, back + 1.05f);
-    result.meshes.push_back(pipe("red pipe", {0.52f, 0.03f, 0.02f},
-                                 {{left, 2.55f, -1.78f}, {1.9f, 2.55f, -1.78f}, {1.9f, -0.1f, -1.78f}}, 0.10f));
     result.meshes.push_back(
-        pipe("yellow pipe", {0.60f, 0.40f, 0.02f}, {{left, 1.85f, back + 0.5f}, yellow[0], yellow[1]}, 0.13f));
-    result.meshes.push_back(pipe("green pipe", {0.03f, 0.30f, 0.06f},
-                                 {{-2.2f, -0.1f, back + 0.28f}, {-2.2f, 1.2f, back + 0.28f}, green[0], green[1]},
-                                 0.09f));
-    result.meshes.push_back(
-        pipe("blue pipe", {0.02f, 0.07f, 0.50f}, {{left, 0.62f, back + 1.05f}, blue[0], blue[1]}, 0.12f));
+        pipe("red pipe", {0.52f, 0.03f, 0.02f},
+             {{left, 2.55f, back + 0.22f}, {1.9f, 2.55f, back + 0.22f}, {1.9f, -0.1f, back + 0.22f}}, 0.10f));
+    result.meshes.push_back(along_wall("yellow pipe", {0.60f, 0.40f, 0.02f}, 1.85f, 0.5f, 0.13f));
+    result.meshes.push_back(along_wall("green pipe", {0.03f, 0.30f, 0.06f}, 0.95f, 0.14f, 0.08f));
+    // From the camera, the shadow of the blue pipe in the smoke is a thin sheet.
+    result.meshes.push_back(pipe("blue pipe", {0.02f, 0.07f, 0.50f},
+                                 {{1.0f, 0.75f, back}, {0.05f, 0.75f, 0.3f}, {0.05f, -0.1f, 0.3f}}, 0.11f));
     result.meshes.push_back(ground({0.6f, 0, 0}, 40, 40, {0.34f, 0.33f, 0.31f}));
     add_window(result, {2.0f, 0, 0.6f}, {1.2f, 1.6f}, 0.12f);
     result.meshes.push_back(smoke({0.0f, 1.65f, -0.25f}, {3.3f, 2.9f, 2.0f}));
@@ -213,8 +212,8 @@ stage translucent_stage(double aspect)
     result.eye = perspective_view_from({-1.9, 2.3, 5.8}, {0.1, 1.3, -0.6}, bounds_of(result.world).corners(),
                                        glm::radians(36.0), aspect);
     result.light = orthographic_view(bounds{{-3.6f, 0, -2.3f}, {3.8f, 3.1f, 0.7f}}.corners(), yard_light);
-    result.interests = {{"pipe", "ground behind the blue pipe", {-0.55f, 0, -1.4f}, {0.05f, 0.6f, 0.1f}},
-                        {"silhouette", "smoke before the blue pipe", {0.16f, 1.5f, -0.24f}, {0.1f, 0.2f, 0.9f}},
+    result.interests = {{"pipe", "wall behind the green pipe", {-0.35f, 0.72f, -2.0f}, {0.05f, 0.6f, 0.1f}},
+                        {"silhouette", "smoke before the blue pipe", {0.62f, 1.42f, -0.3f}, {0.1f, 0.2f, 0.9f}},
                         {"smoke", "inside the smoke", {-0.1f, 2.0f, -0.35f}, {0.95f, 0.35f, 0.02f}},
                         {"glass", "shadow of the window", {1.7f, 0, -0.1f}, {0.75f, 0.05f, 0.6f}}};
     return result;
