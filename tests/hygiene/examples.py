@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compiles the examples of README.md, docs/lessons.md and docs/shaders.md, so that what a newcomer copies works.
+"""Compiles the examples of README.md, docs/lessons.md, docs/engines.md and docs/shaders.md, so that what a newcomer copies works.
 
 usage: examples.py ROOT PACKAGES               prints what a compiler has against an example; exit code 1 if there is any
        examples.py ROOT PACKAGES SECTION CHECKER...    those of a section, by a checker that takes a folder: in WGSL beside packages
@@ -29,6 +29,11 @@ EXAMPLES = {
     },
     "docs/lessons.md": {
         "A filter of your own": (".cpp", ["g++", *CXX, "-c"]),
+    },
+    "docs/engines.md": {
+        "Translucent occluders": (".frag", GLSLANG),
+        "Table of soft shadows": (".comp", GLSLANG),
+        "Soft shadows": (".frag", GLSLANG),
     },
     "docs/shaders.md": {
         "Vulkan": (".frag", GLSLANG),

@@ -2,79 +2,11 @@
 """Runs a lesson in an empty folder and checks what it prints and draws: lessons_test.py FOLDER_OF_PROGRAMS LessonNN"""
 
 import re
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-import matplotlib.image
 import numpy as np
 
-ROOT = Path(__file__).resolve().parents[2]
-PROGRAMS = Path(sys.argv.pop(1)).resolve()
-HALF_CODE = 0.5 / 255
-SIZE = (540, 960, 3)
-
-# Of the picture of the fence: ground on which no shadow falls, and ground that the sign board shadows.
-LIT = (slice(440, 530), slice(640, 940))
-SHADOWED = (slice(415, 445), slice(420, 500))
-
-
-def name_of(number):
-    return next((ROOT / "examples" / "lessons").glob(f"{number:02}_*.cpp")).stem
-
-
-def run(number, folder):
-    """The output of a lesson, whose pictures are below the folder."""
-    program = PROGRAMS / f"lesson_{name_of(number)}"
-    done = subprocess.run([program], cwd=folder, capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stderr) == (0, ""), (done.returncode, done.stderr)
-    return done.stdout
-
-
-def picture(number, folder):
-    return matplotlib.image.imread(Path(folder) / "out" / "lessons" / f"{name_of(number)}.png")[..., :3]
-
-
-def linear(srgb):
-    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
-
-
-def rows(text):
-    """The numbers of each line that begins with one."""
-    found = [re.findall(r"[-+]?\d+(?:\.\d+)?", line) for line in text.splitlines() if re.match(r"\s*[-+]?\d", line)]
-    return [[float(word) for word in line] for line in found]
-
-
-def source(number):
-    return (ROOT / "examples" / "lessons" / f"{name_of(number)}.cpp").read_text(encoding="utf-8")
-
-
-class Lesson(unittest.TestCase):
-    """Runs lesson NUMBER once; self.printed is its output."""
-
-    NUMBER = 0
-
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.printed = run(cls.NUMBER, cls.folder.name)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
-
-    def drawn(self):
-        return picture(self.NUMBER, self.folder.name)
-
-    def check_fence(self, seen):
-        """The light of sun and sky on open ground, that of the sky alone (stage.cpp, shading.hpp) below the sign."""
-        self.assertEqual(seen.shape, SIZE)
-        albedo, sky, sun = np.array([[0.40, 0.43, 0.34], [0.30, 0.35, 0.44], [1.0, 0.94, 0.84]])
-        cosine = 0.55 / np.sqrt(0.75**2 + 0.55**2 + 0.25**2)
-        self.assertLess(np.abs(linear(seen[LIT]) - albedo * (sky + cosine * sun)).max(), 0.005) # no acne anywhere
-        self.assertLess(np.abs(linear(seen[SHADOWED]) - albedo * sky).max(), 0.03) # next to no light leaks
+from lesson import HALF_CODE, ROOT, SIZE, Lesson, linear, picture, rows, run, source
 
 
 class Lesson01(Lesson):
@@ -108,8 +40,7 @@ class Lesson02(Lesson):
         self.check_fence(self.drawn())
 
     def test_the_document_shows_this_very_picture(self):
-        shown = matplotlib.image.imread(ROOT / "docs" / "images" / "lesson_hard_shadow_map.png")[..., :3]
-        self.assertLess(np.abs(shown - self.drawn()).mean(), HALF_CODE)
+        self.check_document("lesson_hard_shadow_map")
 
 
 class Lesson03(Lesson):
@@ -220,8 +151,7 @@ class Lesson07(Lesson):
         self.assertLess(np.mean(bend > 0.03), 0.02) # no noise: bends are at edges alone
 
     def test_the_document_shows_this_very_picture(self):
-        shown = matplotlib.image.imread(ROOT / "docs" / "images" / "lesson_map_of_ranges.png")[..., :3]
-        self.assertLess(np.abs(shown - self.drawn()).mean(), HALF_CODE)
+        self.check_document("lesson_map_of_ranges")
 
 
 class Lesson08(Lesson):
@@ -251,8 +181,67 @@ class Lesson08(Lesson):
         self.assertEqual(self.drawn().shape, (400, 5 * 400 + 4 * 4, 3))
 
     def test_the_document_shows_this_very_picture(self):
-        shown = matplotlib.image.imread(ROOT / "docs" / "images" / "lesson_bias.png")[..., :3]
-        self.assertLess(np.abs(shown - self.drawn()).mean(), HALF_CODE)
+        self.check_document("lesson_bias")
+
+
+class Lesson09(Lesson):
+    NUMBER = 9
+    STAGE = (ROOT / "examples/renderer/scene/translucent_stage.cpp").read_text(encoding="utf-8")
+
+    def sunlight(self, rows, columns):
+        """The share of the sun's red, green and blue light on ground, by the colours of the stage and of shading.hpp."""
+        albedo = np.array(re.search(r"ground\(\{[^}]*\}, 40, 40, \{(.*?)f\}", self.STAGE)[1].split("f, "), float)
+        x, y, z = (float(word) for word in re.search(r"yard_light = \S+\(glm::vec3\((.*?)f\)", self.STAGE)[1].split("f, "))
+        sky, sun = np.array([[0.30, 0.35, 0.44], [1.0, 0.94, 0.84]])
+        seen = linear(self.drawn()[rows, columns])
+        return (seen / albedo - sky) / (-y / np.sqrt(x * x + y * y + z * z) * sun)
+
+    def test_the_ground_behind_glass_has_the_light_that_each_pane_lets_through(self):
+        found = self.sunlight(slice(405, 450), slice(570, 690)).reshape(-1, 3)
+        panes = re.findall(r"glass\[\d\]\.opacity = \{(.*?)f\}", self.STAGE)
+        self.assertEqual(len(panes), 4)
+        for pane in panes:
+            transmittance = 1 - np.array(pane.split("f, "), float)
+            near = np.abs(found - transmittance).max(axis=1) < 0.06
+            self.assertGreater(near.sum(), 50, pane)
+
+    def test_open_ground_is_lit_and_smoke_takes_a_part_of_the_light(self):
+        self.assertLess(np.abs(self.sunlight(slice(500, 535), slice(300, 600)) - 1).max(), 0.02)
+        smoke = self.sunlight(slice(400, 450), slice(230, 540))
+        self.assertGreater(np.mean((smoke > 0.1) & (smoke < 0.9)), 0.3)
+        self.assertGreater(smoke.min(), -0.02)
+
+    def test_the_document_shows_this_very_picture(self):
+        self.check_document("lesson_translucent_map")
+
+
+class Lesson10(Lesson):
+    NUMBER = 10
+
+    def width(self, y):
+        """Pixels from 90% to 10% of the shadow of the left post, on its right side, in a row without other shadows."""
+        row = linear(self.drawn()[y, 190:420]).mean(axis=1)
+        share = (row.max() - row) / (row.max() - row.min())
+        outwards = share[int(np.argmax(share[: int(2.3 * (y - 430)) + 25])) :]
+        return int(np.argmax(outwards < 0.1)) - int(np.argmax(outwards < 0.9))
+
+    def test_the_shadow_of_a_post_gets_softer_in_proportion_to_the_distance_from_its_foot(self):
+        rows = np.array([438, 446, 458, 470])
+        widths = [self.width(y) for y in rows]
+        slope, begin = np.polyfit(rows, widths, 1)
+        self.assertGreater(slope, 0.25)
+        self.assertLess(np.abs(np.polyval((slope, begin), rows) - widths).max(), 1.5)
+        self.assertLess(np.polyval((slope, begin), 430), 3) # the foot of the post
+
+    def test_the_ground_is_lit_and_shadowed_where_it_should_be(self):
+        seen = linear(self.drawn())
+        lit, umbra = seen[250:300, 250:400], seen[459:463, 455:500]
+        self.assertLess(np.ptp(lit, axis=(0, 1)).max(), 0.002) # no acne
+        self.assertLess(np.ptp(umbra, axis=(0, 1)).max(), 0.02) # no leaks
+        self.assertLess(umbra.mean(), 0.4 * lit.mean())
+
+    def test_the_document_shows_this_very_picture(self):
+        self.check_document("lesson_soft_shadow")
 
 
 if __name__ == "__main__":
