@@ -207,7 +207,7 @@ class Lesson09(Lesson):
 
     def test_open_ground_is_lit_and_smoke_takes_a_part_of_the_light(self):
         self.assertLess(np.abs(self.sunlight(slice(500, 535), slice(300, 600)) - 1).max(), 0.02)
-        smoke = self.sunlight(slice(400, 450), slice(230, 540))
+        smoke = self.sunlight(slice(405, 445), slice(210, 430))
         self.assertGreater(np.mean((smoke > 0.1) & (smoke < 0.9)), 0.3)
         self.assertGreater(smoke.min(), -0.02)
 
