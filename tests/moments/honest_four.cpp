@@ -7,13 +7,12 @@
 #include "support/contacts.hpp"
 #include "support/moments_of.hpp"
 #include "support/statistics.hpp"
+#include "support/truncated_half.hpp"
 
 #include <gnomon/storage/formats.hpp>
 
 #include <doctest/doctest.h>
 
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -100,22 +99,6 @@ TEST_CASE_TEMPLATE("a lit surface is never darkened", Format, moments4_unorm16, 
     report<Format>("constant bias, two filter passes", darkest_filtered<Format>(evaluations, constant_passes),
                    Format::filtered_bias_weight + stored4_arithmetic_weight);
 }
-
-namespace {
-
-/// Half floats on a device that stores what is next towards zero, as Direct3D demands.
-struct truncated_half : moments4_half {
-    static texel encode(const channels4<float>& c)
-    {
-        const auto numbers = std::bit_cast<std::array<float, 4>>(c);
-        texel t = moments4_half::encode(c);
-        for (std::size_t k = 0; k < 4; ++k)
-            if (std::abs(half_decode(t[k])) > std::abs(numbers[k])) --t[k];
-        return t;
-    }
-};
-
-} // namespace
 
 TEST_CASE("half floats that are truncated darken no lit surface")
 {

@@ -23,7 +23,7 @@ GNOMON_NAMESPACE_BEGIN
 /// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for blends.
 /// Domain: roundings >= 0, clamped.
 /// NaN: stays NaN.
-GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_unorm16_blended(GNOMON_T(channels4) c, Real roundings)
+GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_unorm16_blended(GNOMON_T(channels4) c, GNOMON_SETTING roundings)
 {
     return hankel4_from_theta(
         c, bias_weight_of_roundings(GNOMON_LITERAL(stored4_unorm16_weight), blended_roundings(roundings, Real(1))));
@@ -32,7 +32,7 @@ GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_unorm16_blended(GNOMON_T(channels4)
 /// The factored matrix of the channels of a 4 x half texel, biased for blends.
 /// Domain: roundings >= 0, clamped.
 /// NaN: stays NaN.
-GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_half_blended(GNOMON_T(channels4) c, Real roundings)
+GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_half_blended(GNOMON_T(channels4) c, GNOMON_SETTING roundings)
 {
     Real n = blended_roundings(roundings, GNOMON_LITERAL(blended_half_roundings));
     return hankel4_from_theta(channels4_shifted(c, Real(0.5)),
@@ -42,7 +42,7 @@ GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_half_blended(GNOMON_T(channels4) c,
 /// The factored matrix of the channels of a 4 x float texel, biased for blends.
 /// Domain: roundings >= 0, clamped.
 /// NaN: stays NaN.
-GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_float_blended(GNOMON_T(channels4) c, Real roundings)
+GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_float_blended(GNOMON_T(channels4) c, GNOMON_SETTING roundings)
 {
     Real n = blended_roundings(roundings, GNOMON_LITERAL(blended_float_roundings));
     return hankel4_stored_as_float(c, bias_weight_of_roundings(GNOMON_LITERAL(stored4_float_weight), n));
@@ -51,7 +51,7 @@ GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_float_blended(GNOMON_T(channels4) c
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel that was blended into.
 /// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
-GNOMON_KERNEL Real moments4_unorm16_blended_intensity(GNOMON_T(channels4) c, Real roundings, Real z_f)
+GNOMON_KERNEL Real moments4_unorm16_blended_intensity(GNOMON_T(channels4) c, GNOMON_SETTING roundings, Real z_f)
 {
     Real n = blended_roundings(roundings, Real(1));
     return moments4_theta_intensity(c, n * GNOMON_LITERAL(certified4_unorm16_noise),
@@ -61,7 +61,7 @@ GNOMON_KERNEL Real moments4_unorm16_blended_intensity(GNOMON_T(channels4) c, Rea
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel that was blended into.
 /// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
-GNOMON_KERNEL Real moments4_half_blended_intensity(GNOMON_T(channels4) c, Real roundings, Real z_f)
+GNOMON_KERNEL Real moments4_half_blended_intensity(GNOMON_T(channels4) c, GNOMON_SETTING roundings, Real z_f)
 {
     Real n = blended_roundings(roundings, GNOMON_LITERAL(blended_half_roundings));
     return moments4_theta_intensity(channels4_shifted(c, Real(0.5)), n * GNOMON_LITERAL(certified4_half_noise),
@@ -71,7 +71,7 @@ GNOMON_KERNEL Real moments4_half_blended_intensity(GNOMON_T(channels4) c, Real r
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel that was blended into.
 /// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
-GNOMON_KERNEL Real moments4_float_blended_intensity(GNOMON_T(channels4) c, Real roundings, Real z_f)
+GNOMON_KERNEL Real moments4_float_blended_intensity(GNOMON_T(channels4) c, GNOMON_SETTING roundings, Real z_f)
 {
     Real n = blended_roundings(roundings, GNOMON_LITERAL(blended_float_roundings));
     // Roundings of earlier states of the texel, in which a moment was larger, are no fraction of that moment.

@@ -18,7 +18,7 @@ GNOMON_NAMESPACE_BEGIN
 /// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for blends.
 /// Domain: roundings >= 0, clamped.
 /// NaN: stays NaN.
-GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm10_blended(GNOMON_T(channels6) c, Real roundings)
+GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm10_blended(GNOMON_T(channels6) c, GNOMON_SETTING roundings)
 {
     Real weight =
         bias_weight_of_roundings(GNOMON_LITERAL(stored6_unorm10_weight), blended_roundings(roundings, Real(1)));
@@ -30,7 +30,7 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm10_blended(GNOMON_T(channels6)
 /// The factored matrix of the channels of a 6 x 16 UNORM texel, biased for blends.
 /// Domain: roundings >= 0, clamped.
 /// NaN: stays NaN.
-GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm16_blended(GNOMON_T(channels6) c, Real roundings)
+GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm16_blended(GNOMON_T(channels6) c, GNOMON_SETTING roundings)
 {
     Real weight =
         bias_weight_of_roundings(GNOMON_LITERAL(stored6_unorm16_weight), blended_roundings(roundings, Real(1)));
@@ -44,7 +44,7 @@ GNOMON_CONSTANT(blended6_float_weights, 1.5);
 /// The factored matrix of the channels of a 6 x float texel, biased for blends.
 /// Domain: roundings >= 0, clamped.
 /// NaN: stays NaN.
-GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_float_blended(GNOMON_T(channels6) c, Real roundings)
+GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_float_blended(GNOMON_T(channels6) c, GNOMON_SETTING roundings)
 {
     Real n = blended_roundings(roundings, GNOMON_LITERAL(blended6_float_weights));
     return hankel6_constant_bias(moments6_from_channels(c), GNOMON_LITERAL(bias6_raw_b2), GNOMON_LITERAL(bias6_raw_b4),
@@ -55,7 +55,7 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_float_blended(GNOMON_T(channels6) c
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 6 x 10 UNORM texel that was blended into.
 /// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
-GNOMON_KERNEL Real moments6_unorm10_blended_intensity(GNOMON_T(channels6) c, Real roundings, Real z_f)
+GNOMON_KERNEL Real moments6_unorm10_blended_intensity(GNOMON_T(channels6) c, GNOMON_SETTING roundings, Real z_f)
 {
     return hamburger6_lower(hankel6_from_unorm10_blended(c, roundings), z_f);
 }
@@ -63,7 +63,7 @@ GNOMON_KERNEL Real moments6_unorm10_blended_intensity(GNOMON_T(channels6) c, Rea
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 6 x 16 UNORM texel that was blended into.
 /// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
-GNOMON_KERNEL Real moments6_unorm16_blended_intensity(GNOMON_T(channels6) c, Real roundings, Real z_f)
+GNOMON_KERNEL Real moments6_unorm16_blended_intensity(GNOMON_T(channels6) c, GNOMON_SETTING roundings, Real z_f)
 {
     return hamburger6_lower(hankel6_from_unorm16_blended(c, roundings), z_f);
 }
@@ -71,7 +71,7 @@ GNOMON_KERNEL Real moments6_unorm16_blended_intensity(GNOMON_T(channels6) c, Rea
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 6 x float texel that was blended into.
 /// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
-GNOMON_KERNEL Real moments6_float_blended_intensity(GNOMON_T(channels6) c, Real roundings, Real z_f)
+GNOMON_KERNEL Real moments6_float_blended_intensity(GNOMON_T(channels6) c, GNOMON_SETTING roundings, Real z_f)
 {
     return hamburger6_lower(hankel6_from_float_blended(c, roundings), z_f);
 }
