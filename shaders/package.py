@@ -40,7 +40,7 @@ TECHNIQUES = {
                   "storage/moments4_blended.h", "moments/hamburger4.h"], "4"),
     "moments6": (["moments/quantization.h", "moments/affine.h", "storage/moments6.h", "storage/moments6_blended.h",
                   "moments/hamburger6.h"], "6"),
-    "absorbance": (["moments/absorbance.h"], "4"),
+    "absorbance": (["storage/absorbance4.h"], "4"),
     "moments4_summed": (["storage/moments4_summed.h", "storage/moments4_summed_within.h"], "4"),
     "two_point": (["moments/two_point.h"], ""),
     "depth": (["moments/depth.h"], ""),

@@ -53,6 +53,7 @@
 #include "soft/fusion.h"
 #include "soft/penumbra.h"
 #include "soft/summed_area.h"
+#include "storage/absorbance4.h"
 #include "storage/convolution.h"
 #include "storage/exponential.h"
 #include "storage/exponential_variance.h"

@@ -1508,7 +1508,8 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 //
 // Opaque occluders are in a map of their own: their absorbance is infinite, and filtered with that of others it would
 // shadow all of the filter region. For the same reason a filter over absorbances is darker than the mean transmittance,
-// exp(-mean a) <= mean exp(-a), and near it only where absorbance varies little in the filter region.
+// exp(-mean a) <= mean exp(-a), and near it only where absorbance varies little in the filter region. Fragments behind
+// an opaque occluder are added, too: then both maps are independent, and their transmittances multiply.
 #ifndef GNOMON_MOMENTS_ABSORBANCE_H
 #define GNOMON_MOMENTS_ABSORBANCE_H
 
@@ -1589,13 +1590,12 @@ GNOMON_INLINE constexpr Real absorbance_transmittance(Real b0, Real intensity)
     return gnomon_select(t < Real(1), t, Real(1));
 }
 
-/// The share of the absorbance in front of z_f by the bounds on it, less what the bias has put there.
+/// The share of the absorbance in front of z_f by the bounds on it, less what the bias of weight alpha has put there.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real absorbance4_intensity(absorbance4<Real> b, std::type_identity_t<Real> alpha,
+GNOMON_INLINE constexpr Real absorbance4_intensity(hankel4<Real> h, std::type_identity_t<Real> alpha,
                                                    std::type_identity_t<Real> overestimation, Real z_f)
 {
-    hamburger_bounds bounds = hamburger4_bounds(absorbance4_factor(b, alpha), z_f);
-    return (bounds_intensity(bounds, overestimation) - alpha) / (Real(1) - alpha);
+    return (bounds_intensity(hamburger4_bounds(h, z_f), overestimation) - alpha) / (Real(1) - alpha);
 }
 
 /// The transmittance in [0, 1] at depth z_f of all fragments in front of it. alpha is the weight of the constant
@@ -1608,7 +1608,8 @@ template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real absorbance4_transmittance(absorbance4<Real> b, std::type_identity_t<Real> alpha,
                                                        std::type_identity_t<Real> overestimation, Real z_f)
 {
-    return absorbance_transmittance(b.b0, absorbance4_intensity(b, alpha, overestimation, z_f));
+    return absorbance_transmittance(b.b0,
+                                    absorbance4_intensity(absorbance4_factor(b, alpha), alpha, overestimation, z_f));
 }
 
 /// Shadow intensity in [0, 1] behind opaque occluders, which give the intensity `opaque`, and translucent ones of the
@@ -1684,12 +1685,680 @@ GNOMON_INLINE constexpr coloured_transmittance<Real>
     shared_depths.b2 = b.b2;
     shared_depths.b3 = b.b3;
     shared_depths.b4 = b.b4;
-    Real intensity = absorbance4_intensity(shared_depths, alpha, overestimation, z_f);
+    Real intensity = absorbance4_intensity(absorbance4_factor(shared_depths, alpha), alpha, overestimation, z_f);
     coloured_transmittance<Real> t;
     t.red = absorbance_transmittance(b.red, intensity);
     t.green = absorbance_transmittance(b.green, intensity);
     t.blue = absorbance_transmittance(b.blue, intensity);
     return t;
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// moments/channels.h --------------------------------------------------------------------------------------------------
+// The channels of a shadow map's texel, as a texture unit returns them: filtered or not, still behind the transform of
+// the storage format. Types of their own, so that channels never pass for moments, nor moments for channels.
+#ifndef GNOMON_MOMENTS_CHANNELS_H
+#define GNOMON_MOMENTS_CHANNELS_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+template <class Real, class = require_real<Real>> struct channels1 { Real c1; };
+
+template <class Real, class = require_real<Real>> struct channels2 { Real c1, c2; };
+
+template <class Real, class = require_real<Real>> struct channels5 { Real c1, c2, c3, c4, c5; };
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// moments/channels.h, four moments ------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_CHANNELS_4
+#define GNOMON_MOMENTS_CHANNELS_4
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+template <class Real, class = require_real<Real>> struct channels4 { Real c1, c2, c3, c4; };
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// moments/quantization.h, four moments --------------------------------------------------------------------------------
+// The sparse quantization transforms (Peters et al. 2017, Sec. 2.4 and 5.4.3): affine maps of the moments to channels
+// in [0, 1], for storage as UNORM. Odd and even moments are transformed separately. The transforms spread the codes of
+// the format as evenly as possible over the moments of depth distributions.
+//
+// Each channel is a polynomial in z that touches 0 and 1 on [-1, 1], and the determinant of the transform is the
+// largest possible. The gain in entropy over storing the moments themselves is 4.21 bits for four moments and 12.51
+// bits for six. tests/derivations computes the entries to full precision. The paper's entries for six moments are
+// slightly off the optimum: up to 5e-3 away, and the channels exceed [0, 1] by 6e-9.
+#ifndef GNOMON_MOMENTS_QUANTIZATION_4
+#define GNOMON_MOMENTS_QUANTIZATION_4
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The moments that a format without transform holds as they are.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr moments4<Real> moments4_from_channels(channels4<Real> c)
+{
+    moments4<Real> b;
+    b.b1 = c.c1;
+    b.b2 = c.c2;
+    b.b3 = c.c3;
+    b.b4 = c.c4;
+    return b;
+}
+
+/// The moments b as the channels of a format without transform.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr channels4<Real> channels4_from_moments(moments4<Real> b)
+{
+    channels4<Real> c;
+    c.c1 = b.b1;
+    c.c2 = b.b2;
+    c.c3 = b.b3;
+    c.c4 = b.b4;
+    return c;
+}
+
+inline constexpr double theta4_31 = 0.8660254037844386;   // sqrt(3) / 2
+inline constexpr double theta4_33 = -0.38490017945975052; // -2 sqrt(3) / 9
+inline constexpr double theta4_inverse11 = -0.33333333333333331;
+inline constexpr double theta4_inverse13 = 1.7320508075688772;
+inline constexpr double theta4_inverse33 = 1.299038105676658;
+
+/// Theta_4*: the four channels, in [0, 1], of four moments of signed depth.
+/// Source: Peters 2017, Eq. 3
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr channels4<Real> theta4(moments4<Real> b)
+{
+    channels4<Real> c;
+    c.c1 = Real(1.5) * b.b1 - Real(2) * b.b3 + Real(0.5);
+    c.c2 = Real(4) * (b.b2 - b.b4);
+    c.c3 = literal<Real>(theta4_31) * b.b1 + literal<Real>(theta4_33) * b.b3 + Real(0.5);
+    c.c4 = Real(0.5) * (b.b2 + b.b4);
+    return c;
+}
+
+/// The four moments of channels c: the inverse of theta4.
+/// Source: Peters 2017, Eq. 3
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr moments4<Real> theta4_inverse(channels4<Real> c)
+{
+    Real c1 = c.c1 - Real(0.5);
+    Real c3 = c.c3 - Real(0.5);
+    moments4<Real> b;
+    b.b1 = literal<Real>(theta4_inverse11) * c1 + literal<Real>(theta4_inverse13) * c3;
+    b.b2 = Real(0.125) * c.c2 + c.c4;
+    b.b3 = literal<Real>(theta4_inverse33) * c3 - Real(0.75) * c1;
+    b.b4 = c.c4 - Real(0.125) * c.c2;
+    return b;
+}
+
+/// The biased moments (1 - alpha) b + alpha (0, bias, 0, bias), where b are the moments of channels c: theta4_inverse
+/// and moments4_add_bias in one, with four products less.
+/// Domain: alpha in [0, 1], as of moments4_add_bias.
+/// NaN: NaN, lit.
+/// Source: Peters 2017, Eq. 3; Peters 2017, Sec. 2.5
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr moments4<Real> theta4_inverse_add_bias(channels4<Real> c, std::type_identity_t<Real> bias,
+                                                               std::type_identity_t<Real> alpha)
+{
+    Real keep = Real(1) - alpha;
+    Real c1 = c.c1 - Real(0.5);
+    Real c3 = c.c3 - Real(0.5);
+    Real c2 = (Real(0.125) * keep) * c.c2;
+    Real c4 = keep * c.c4 + alpha * bias;
+    moments4<Real> b;
+    b.b1 = (keep * literal<Real>(theta4_inverse11)) * c1 + (keep * literal<Real>(theta4_inverse13)) * c3;
+    b.b2 = c4 + c2;
+    b.b3 = (keep * literal<Real>(theta4_inverse33)) * c3 - (Real(0.75) * keep) * c1;
+    b.b4 = c4 - c2;
+    return b;
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// moments/certified4.h ------------------------------------------------------------------------------------------------
+// Shadow intensity from four stored moments, certified: never above Z(z < z_f), for any errors of storage within
+// the stated noise.
+//
+// A quartic p with p <= 1 before z_f and p <= 0 from z_f on has E[p] <= Z(z < z_f) for every distribution Z. Storage
+// moves channel k by at most noise_k, so E[p] is at least its value from the stored channels minus
+// sum_k noise_k |p_k|, where p_k is the coefficient at channel k. That bound holds for every such p. A p with its nodes
+// at those of the biased moments (hamburger4.h) is nearly the best (docs/decisions/2-bias.md).
+//
+// In y = z - z_f, and in the notation of hamburger4.h, the two nodes beside z_f are the roots of a y^2 + b y + w with
+//     a = Q V,    b = u N + Q (2 V u - G),    w = V N + u^2 N + Q^2,    r^2 = b^2 - 4 a w.
+// Of the nodes before z_f the nearer one is at y = -1 / c with c = (b + r) / (2 w). The certificate is
+//     Q < 0, one node on either side:    p = -(1 + d + k y)^2 (2 (c - k) y + c (c - 2 k) y^2)
+//     Q >= 0 and b > 0, both before:     p = 1 - (1 + c y)^2 (1 + g y)^2
+//     otherwise, none before:            no p, and the bound is 0
+// with d = b / (2 r) - 1/2, k = c d and g = (b - r) / (2 w). Both p are 1 at the nodes before z_f, and 0 at z_f and at
+// the nodes behind. Any other c >= 0, d in [-1, 0] and g >= 0 give a valid p as well, so rounding in the nodes costs
+// only some leaking.
+#ifndef GNOMON_MOMENTS_CERTIFIED4_H
+#define GNOMON_MOMENTS_CERTIFIED4_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The polynomial p(z) = top - (s0 + s1 z + s2 z^2 + s3 z^3 + s4 z^4). top is 0 or 1, or -2^100 if
+/// nothing is certified.
+template <class Real, class = require_real<Real>> struct certificate4 { Real top, s0, s1, s2, s3, s4; };
+
+inline constexpr double certificate4_nothing = -1267650600228229401496703205376.0; // -2^100
+
+/// The certificate p = n0 - (t0 + t1 y)^2 (n0 + 2 n1 y + n2 y^2), y = z - z_f, as a polynomial in z.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr certificate4<Real> certificate4_about(Real z_f, Real n0, Real t0, Real t1, Real n1, Real n2)
+{
+    Real nz = n2 * z_f;
+    Real ns = (n1 + n1) - nz;
+    Real k0 = n0 - ns * z_f;
+    Real k1 = ns - nz;
+    Real m = t0 - t1 * z_f;
+    Real m0 = m * m;
+    Real m1 = m * (t1 + t1);
+    Real m2 = t1 * t1;
+    certificate4<Real> p;
+    p.top = n0;
+    p.s0 = m0 * k0;
+    p.s1 = m0 * k1 + m1 * k0;
+    p.s2 = m0 * n2 + (m1 * k1 + m2 * k0);
+    p.s3 = m1 * n2 + m2 * k1;
+    p.s4 = m2 * n2;
+    return p;
+}
+
+/// The certificate for a receiver at z_f, from the matrix of biased moments of 16-bit storage. Neither quotient waits
+/// for the square root. b + r and b - r may cancel, which is harmless since the bias keeps the nodes far apart.
+/// Domain: z_f in [-1, 1]; h positive definite.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr certificate4<Real> certificate4_make(hankel4<Real> h, Real z_f)
+{
+    Real u = z_f - h.mean;
+    Real vu = h.variance * u;
+    Real slope = vu - h.third;
+    Real q = slope * u - h.variance * h.variance;
+    Real un = u * h.determinant;
+    Real w = h.variance * h.determinant + (u * un + q * q);
+    Real w2 = w + w;
+    Real a = q * h.variance;
+    Real b = un + q * (vu + slope);
+    Real square = b * b - (a + a) * w2;
+    Real inverse = Real(1) / w2;
+    Real ratio = b / (square + square);
+    Real r = gnomon_sqrt(gnomon_max(Real(0), square));
+    Real c = (b + r) * inverse;
+    Real g = (b - r) * inverse;
+    Real d = ratio * r - Real(0.5);
+    Real k = c * d;
+    mask_t<Real> between = q < Real(0);
+    Real n0 = gnomon_select(between, Real(0), Real(1));
+    Real n1 = gnomon_select(between, c - k, g);
+    Real n2 = gnomon_select(between, c, g) * gnomon_select(between, (c - k) - k, g);
+    Real t0 = gnomon_select(between, Real(1) + d, Real(1));
+    Real t1 = gnomon_select(between, k, c);
+    certificate4 p = certificate4_about(z_f, n0, t0, t1, n1, n2);
+    p.top = gnomon_select(between || (Real(0) < b), n0, literal<Real>(certificate4_nothing));
+    return p;
+}
+
+/// The least possible value of E[p], given channels c of theta4 that are each off by at most noise. The coefficients of
+/// p at the channels are the transpose of theta4_inverse times those at the moments.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real certificate4_theta_mean(certificate4<Real> p, channels4<Real> c,
+                                                     std::type_identity_t<Real> noise)
+{
+    Real third = Real(0.75) * p.s3;
+    Real p1 = literal<Real>(theta4_inverse11) * p.s1 - third;
+    Real p2 = Real(0.125) * (p.s2 - p.s4);
+    Real p3 = literal<Real>(theta4_inverse13) * (p.s1 + third);
+    Real p4 = p.s2 + p.s4;
+    Real mean = (p.s0 + (p2 * c.c2 + p4 * c.c4)) + (p1 * (c.c1 - Real(0.5)) + p3 * (c.c3 - Real(0.5)));
+    Real doubt = noise * ((gnomon_abs(p1) + gnomon_abs(p2)) + (gnomon_abs(p3) + gnomon_abs(p4)));
+    return p.top - (mean + doubt);
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels c of theta4 that are each off by at
+/// most noise. h is the matrix of their moments with a bias.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real certified4_theta_lower(hankel4<Real> h, channels4<Real> c,
+                                                    std::type_identity_t<Real> noise, Real z_f)
+{
+    certificate4 p = certificate4_make(h, clamp_or_nan(z_f, Real(-1), Real(1)));
+    return saturate_or_zero(certificate4_theta_mean(p, c, noise));
+}
+
+inline constexpr double certified4_scale = 137438953472.0; // 2^37
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
+/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. Float
+/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
+/// the node before z_f, or 1 minus the weight of z_f. The contribution of the bias is then subtracted. 0 if rounding
+/// left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real certified4_constant_bias_lower(hankel4<Real> h, moments4<Real> noise,
+                                                            std::type_identity_t<Real> bias2,
+                                                            std::type_identity_t<Real> bias4,
+                                                            std::type_identity_t<Real> alpha, Real z_f)
+{
+    Real z = clamp_or_nan(z_f, Real(-1), Real(1));
+    Real u = z - h.mean;
+    Real vu = h.variance * u;
+    Real slope = vu - h.third;
+    Real q = slope * u - h.variance * h.variance;
+    // The power of two is a factor of a, b and w, which otherwise underflow for a single depth.
+    Real s = literal<Real>(certified4_scale) * q;
+    Real n = literal<Real>(certified4_scale) * h.determinant;
+    Real un = u * n;
+    Real e = u * un + q * s;
+    Real w = h.variance * n + e;
+    Real w2 = w + w;
+    Real a = s * h.variance;
+    Real a2 = a + a;
+    Real b = un + s * (vu + slope);
+    Real r = gnomon_sqrt(gnomon_max(Real(0), b * b - a2 * w2));
+    mask_t<Real> between = q < Real(0);
+    mask_t<Real> positive = Real(0) < b;
+    // Each quotient in the form that does not cancel.
+    Real outer = r + gnomon_abs(b);
+    Real c = gnomon_select(positive, outer, Real(-2) * a) / gnomon_select(positive, w2, outer);
+    Real inverse = Real(1) / gnomon_select(between, r + r, outer);
+    Real g = a2 * inverse; // k if one node is on either side
+    Real n0 = gnomon_select(between, Real(0), Real(1));
+    Real n1 = gnomon_select(between, c - g, g);
+    Real n2 = gnomon_select(between, c, g) * gnomon_select(between, (c - g) - g, g);
+    Real t0 = gnomon_select(between, Real(0.5) + b * inverse, Real(1));
+    Real t1 = gnomon_select(between, g, c);
+    certificate4 p = certificate4_about(z, n0, t0, t1, n1, n2);
+    Real share = gnomon_select(between, Real(0.5) * (e * (r + b)) - w * (a * u), e);
+    Real mean = share / (w * gnomon_select(between, r, Real(1)));
+    Real added = alpha * ((p.top - p.s0) - (bias2 * p.s2 + bias4 * p.s4));
+    Real doubt = (noise.b1 * gnomon_abs(p.s1) + noise.b2 * gnomon_abs(p.s2)) +
+                 (noise.b3 * gnomon_abs(p.s3) + noise.b4 * gnomon_abs(p.s4));
+    mask_t<Real> known = (between || positive) &&
+                         (literal<Real>(pivot_floor<lane_t<Real>>) * h.variance < h.determinant);
+    return gnomon_select(known, saturate_or_zero(mean - (added + doubt)), Real(0));
+}
+
+/// The largest error of each moment of b after one rounding to float: 2 delta |b_j|, but at most delta.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr moments4<Real> moments4_rounding(moments4<Real> b, std::type_identity_t<Real> delta)
+{
+    moments4<Real> e;
+    e.b1 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b1));
+    e.b2 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b2));
+    e.b3 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b3));
+    e.b4 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b4));
+    return e;
+}
+
+/// The largest error of each filtered moment of b after roundings before the filter, which the moments of |z| bound.
+/// For the third, E |z|^3 <= (b2 + b4) / 2.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr moments4<Real> moments4_rounding_filtered(moments4<Real> b, std::type_identity_t<Real> delta)
+{
+    moments4<Real> e;
+    e.b1 = delta;
+    e.b2 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b2));
+    e.b3 = gnomon_min(delta, delta * gnomon_abs(b.b2 + b.b4));
+    e.b4 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b4));
+    return e;
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// storage/moments4.h --------------------------------------------------------------------------------------------------
+// Four moments in a storage format: from a depth to the channels of a texel, and from filtered channels to a shadow.
+// Each format undoes its own transform and allows for what its storage rounds, so that nobody pairs the wrong ones.
+//
+//   format          bytes   transform   write                     read                         matrix for both bounds
+//   4 x 16 UNORM      8     theta4      moments4_unorm16_encode   moments4_unorm16_intensity   hankel4_from_unorm16
+//   4 x half          8     theta4 - .5 moments4_half_encode      moments4_half_intensity      hankel4_from_half
+//   4 x float        16     none        moments4_float_encode     moments4_float_intensity     hankel4_from_float
+//
+// Filters are linear: average channels as they are. X_intensity and hankel4_from_X allow for one rounding: of channels
+// that are stored once and filtered without further rounding, as 16-bit texels by a texture unit that returns floats.
+// Texels of floats round again there and need X_filtered. X_filtered_intensity and hankel4_from_X_filtered allow for a
+// pass along rows and one along columns, of nine taps at most, that store their results in the format again, half
+// floats truncated or rounded. Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at most
+//   X_intensity         stored4_arithmetic_weight, the error of float arithmetic
+//   hankel4_from_X      the weight of the constant bias, roundings * delta / r (bias.h), and that of arithmetic
+// Tests search for the largest excess by hill climbing (tests/moments/honest_four.cpp). Certificates (certified4.h)
+// leak less than a constant bias in every format. Float arithmetic moves the nodes of a certificate, which costs or
+// gains a little leaking. Difference of an intensity in float from the intensity in double:
+//     error, float, moments4_float_intensity: p99 3e-5, p99.9 1e-4, max 5e-4
+//     error, float, moments4_float_filtered_intensity: p99 1e-5, p99.9 5e-5, max 2e-4
+//     error, float, moments4_half_intensity: p99 5e-5, p99.9 4e-4, max 2e-2
+//     error, float, moments4_half_filtered_intensity: p99 3e-5, p99.9 2e-4, max 2e-3
+//     error, float, moments4_unorm16_intensity: p99 6e-4, p99.9 7e-3, max 3e-1
+//     error, float, moments4_unorm16_filtered_intensity: p99 3e-4, p99.9 3e-3, max 3e-2
+#ifndef GNOMON_STORAGE_MOMENTS4_H
+#define GNOMON_STORAGE_MOMENTS4_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The four channels of a 4 x 16 UNORM texel of a depth z, each in [0, 1].
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Eq. 3
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr channels4<Real> moments4_unorm16_encode(Real z)
+{
+    return theta4(moments4_from_depth(clamp_or_high(z, Real(-1), Real(1))));
+}
+
+/// The channels c, each with shift added.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr channels4<Real> channels4_shifted(channels4<Real> c, std::type_identity_t<Real> shift)
+{
+    c.c1 = c.c1 + shift;
+    c.c2 = c.c2 + shift;
+    c.c3 = c.c3 + shift;
+    c.c4 = c.c4 + shift;
+    return c;
+}
+
+/// The multiple of 2^-12 that is nearest to x. In [-1/2, 1/2] half floats hold every multiple.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real half_nearest(Real x) { return Real(0.000244140625) * nearest_integer(Real(4096) * x); }
+
+/// The four channels of a 4 x half texel of a depth z, each in [-1/2, 1/2]. They are half floats already, since devices
+/// may truncate what they store.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Eq. 3
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr channels4<Real> moments4_half_encode(Real z)
+{
+    channels4 c = channels4_shifted(moments4_unorm16_encode(z), Real(-0.5));
+    c.c1 = half_nearest(c.c1);
+    c.c2 = half_nearest(c.c2);
+    c.c3 = half_nearest(c.c3);
+    c.c4 = half_nearest(c.c4);
+    return c;
+}
+
+/// The four channels of a 4 x float texel of a depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr channels4<Real> moments4_float_encode(Real z)
+{
+    return channels4_from_moments(moments4_from_depth(clamp_or_high(z, Real(-1), Real(1))));
+}
+
+inline constexpr double stored4_unorm16_weight = 3.6e-5;
+inline constexpr double stored4_unorm16_filtered_weight = 1.1e-4;
+inline constexpr double stored4_half_weight = 5.7e-4;
+inline constexpr double stored4_half_filtered_weight = 2.85e-3;
+inline constexpr double stored4_float_weight = 3e-7;
+inline constexpr double stored4_float_filtered_weight = 2e-6;
+inline constexpr double stored4_arithmetic_weight = 1e-6;
+
+/// The factored matrix of the channels of theta4, with a constant bias of weight alpha.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_theta(channels4<Real> c, std::type_identity_t<Real> alpha)
+{
+    return hankel4_from_moments(theta4_inverse_add_bias(c, literal<Real>(bias4_theta_b2), alpha));
+}
+
+/// The factored matrix of the channels of a 4 x float texel, with a constant bias of weight alpha.
+/// Domain: alpha from 3e-7 on.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_stored_as_float(channels4<Real> c, std::type_identity_t<Real> alpha)
+{
+    return hankel4_constant_bias(moments4_from_channels(c), literal<Real>(bias4_raw_b2), literal<Real>(bias4_raw_b4),
+                                 alpha);
+}
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for one rounding.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_unorm16(channels4<Real> c)
+{
+    return hankel4_from_theta(c, literal<Real>(stored4_unorm16_weight));
+}
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for a filter of two passes.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_unorm16_filtered(channels4<Real> c)
+{
+    return hankel4_from_theta(c, literal<Real>(stored4_unorm16_filtered_weight));
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for one rounding.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_half(channels4<Real> c)
+{
+    return hankel4_from_theta(channels4_shifted(c, Real(0.5)), literal<Real>(stored4_half_weight));
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for a filter of two passes.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_half_filtered(channels4<Real> c)
+{
+    return hankel4_from_theta(channels4_shifted(c, Real(0.5)), literal<Real>(stored4_half_filtered_weight));
+}
+
+/// The factored matrix of the channels of a 4 x float texel, biased for one rounding.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_float(channels4<Real> c)
+{
+    return hankel4_stored_as_float(c, literal<Real>(stored4_float_weight));
+}
+
+/// The factored matrix of the channels of a 4 x float texel, biased for a filter of two passes.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_float_filtered(channels4<Real> c)
+{
+    return hankel4_stored_as_float(c, literal<Real>(stored4_float_filtered_weight));
+}
+
+// The error of each channel that certificates allow for, and the weight of the bias of their nodes. Every weight is
+// honest. These leak least without specks: noise puts specks into contact shadows where a weight is too small.
+inline constexpr double certified4_unorm16_noise = 8e-6; // half a code, and the error of theta4 in float
+inline constexpr double certified4_unorm16_filtered_noise = 2.4e-5;
+inline constexpr double certified4_unorm16_weight = 3.6e-5;
+inline constexpr double certified4_unorm16_filtered_weight = 9e-5;
+inline constexpr double certified4_half_noise = 1.225e-4;         // 2^-13, and the error of theta4 in float
+inline constexpr double certified4_half_filtered_noise = 6.12e-4; // passes may truncate: 2^-12 each
+inline constexpr double certified4_half_weight = 6e-4;
+inline constexpr double certified4_half_filtered_weight = 2.3e-3;
+inline constexpr double certified4_float_noise = 3.3e-8;                        // 1.1 times 2^-25
+inline constexpr double certified4_float_filtered_noise = 2.384185791015625e-7; // 8 times: sums of nine taps round, too
+inline constexpr double certified4_float_weight = 3e-7;
+inline constexpr double certified4_float_filtered_weight = 1.5e-6;
+
+/// Shadow intensity at z_f from channels c of theta4, each off by at most noise, by nodes with a bias of weight alpha.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments4_theta_intensity(channels4<Real> c, std::type_identity_t<Real> noise,
+                                                      std::type_identity_t<Real> alpha, Real z_f)
+{
+    return certified4_theta_lower(hankel4_from_theta(c, alpha), c, noise, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments4_unorm16_intensity(channels4<Real> c, Real z_f)
+{
+    return moments4_theta_intensity(c, literal<Real>(certified4_unorm16_noise),
+                                    literal<Real>(certified4_unorm16_weight), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments4_unorm16_filtered_intensity(channels4<Real> c, Real z_f)
+{
+    return moments4_theta_intensity(c, literal<Real>(certified4_unorm16_filtered_noise),
+                                    literal<Real>(certified4_unorm16_filtered_weight), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments4_half_intensity(channels4<Real> c, Real z_f)
+{
+    return moments4_theta_intensity(channels4_shifted(c, Real(0.5)), literal<Real>(certified4_half_noise),
+                                    literal<Real>(certified4_half_weight), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments4_half_filtered_intensity(channels4<Real> c, Real z_f)
+{
+    return moments4_theta_intensity(channels4_shifted(c, Real(0.5)), literal<Real>(certified4_half_filtered_noise),
+                                    literal<Real>(certified4_half_filtered_weight), z_f);
+}
+
+/// Shadow intensity at z_f from the channels of a 4 x float texel, each off by at most its entry in noise, by nodes
+/// with a bias of weight alpha.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments4_float_intensity_with_noise(channels4<Real> c, moments4<Real> noise,
+                                                                 std::type_identity_t<Real> alpha, Real z_f)
+{
+    return certified4_constant_bias_lower(hankel4_stored_as_float(c, alpha), noise, literal<Real>(bias4_raw_b2),
+                                          literal<Real>(bias4_raw_b4), alpha, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments4_float_intensity(channels4<Real> c, Real z_f)
+{
+    return moments4_float_intensity_with_noise(
+        c, moments4_rounding(moments4_from_channels(c), literal<Real>(certified4_float_noise)),
+        literal<Real>(certified4_float_weight), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments4_float_filtered_intensity(channels4<Real> c, Real z_f)
+{
+    return moments4_float_intensity_with_noise(
+        c, moments4_rounding_filtered(moments4_from_channels(c), literal<Real>(certified4_float_filtered_noise)),
+        literal<Real>(certified4_float_filtered_weight), z_f);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// storage/absorbance4.h -----------------------------------------------------------------------------------------------
+// Absorbance moments in a storage format: from a fragment to the channels of a texel, which additive blending sums in
+// any order, and from filtered channels to a transmittance.
+//
+//   format      bytes   channels               write                      read
+//   5 x half     10     theta4 - .5, times b0  absorbance4_half_encode    absorbance4_half_transmittance
+//   5 x float    20     b1 to b4               absorbance4_float_encode   absorbance4_float_transmittance
+//
+// The fifth channel is b0; a texture of four channels and one of a single channel hold a texel. Maps are cleared to 0.
+//
+// additions is the number of fragments that were added to a texel, and of filter passes that store their results in the
+// format. Each rounds b0 and the channels in relation to a sum that never falls, so that errors in relation to b0 add
+// up to additions times those of one: 4 roundings of floats (bias.h), or 8 of half floats, which may be truncated. A
+// fragment's own channels, and the division by b0, take 12 roundings of floats. Beside the bounds b0 itself is off by
+// 2^-24 of its value for each addition, or 2^-10 for half floats, to the lit side where they are truncated.
+#ifndef GNOMON_STORAGE_ABSORBANCE4_H
+#define GNOMON_STORAGE_ABSORBANCE4_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The five channels of a 5 x float texel of a fragment at depth z of opacity alpha.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr channels5<Real> absorbance4_float_encode(Real z, Real alpha)
+{
+    absorbance4 b = absorbance4_of_fragment(z, alpha);
+    channels5<Real> c;
+    c.c1 = b.b1;
+    c.c2 = b.b2;
+    c.c3 = b.b3;
+    c.c4 = b.b4;
+    c.c5 = b.b0;
+    return c;
+}
+
+/// The five channels of a 5 x half texel of a fragment at depth z of opacity alpha.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr channels5<Real> absorbance4_half_encode(Real z, Real alpha)
+{
+    Real a = absorbance_of_opacity(alpha);
+    channels4 s = channels4_shifted(moments4_unorm16_encode(z), Real(-0.5));
+    channels5<Real> c;
+    c.c1 = a * s.c1;
+    c.c2 = a * s.c2;
+    c.c3 = a * s.c3;
+    c.c4 = a * s.c4;
+    c.c5 = a;
+    return c;
+}
+
+inline constexpr double absorbance4_half_additions = 8.0;
+inline constexpr double absorbance4_half_least = 1.220703125e-4; // 2^-13: below, half floats are denormal
+inline constexpr double absorbance4_float_additions = 4.0;
+inline constexpr double absorbance4_float_more = 3.0; // 12 / 4
+
+/// The transmittance in [0, 1] at depth z_f from the channels of a 5 x float texel. overestimation is that of
+/// bounds_intensity: 1 for surfaces, 1/2 for receivers among the fragments.
+/// Domain: additions >= 0, clamped; overestimation in [0, 1], clamped; any z_f, limited to [-1, 1].
+/// NaN: 1, lit; an overestimation of NaN counts as 0.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real absorbance4_float_transmittance(channels5<Real> c, std::type_identity_t<Real> additions,
+                                                             std::type_identity_t<Real> overestimation, Real z_f)
+{
+    absorbance4<Real> b;
+    b.b0 = c.c5;
+    b.b1 = c.c1;
+    b.b2 = c.c2;
+    b.b3 = c.c3;
+    b.b4 = c.c4;
+    Real n = blended_roundings(additions + literal<Real>(absorbance4_float_more),
+                               literal<Real>(absorbance4_float_additions));
+    return absorbance4_transmittance(b, bias_weight_of_roundings(literal<Real>(stored4_float_weight), n),
+                                     overestimation, z_f);
+}
+
+/// The transmittance in [0, 1] at depth z_f from the channels of a 5 x half texel. overestimation is that of
+/// bounds_intensity: 1 for surfaces, 1/2 for receivers among the fragments.
+/// Domain: additions >= 0, clamped; overestimation in [0, 1], clamped; any z_f, limited to [-1, 1].
+/// NaN: 1, lit; an overestimation of NaN counts as 0.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real absorbance4_half_transmittance(channels5<Real> c, std::type_identity_t<Real> additions,
+                                                            std::type_identity_t<Real> overestimation, Real z_f)
+{
+    Real scale = Real(1) / gnomon_max(literal<Real>(absorbance4_half_least), c.c5);
+    channels4<Real> s;
+    s.c1 = c.c1 * scale;
+    s.c2 = c.c2 * scale;
+    s.c3 = c.c3 * scale;
+    s.c4 = c.c4 * scale;
+    Real weight = bias_weight_of_roundings(literal<Real>(stored4_half_weight),
+                                           blended_roundings(additions, literal<Real>(absorbance4_half_additions)));
+    hankel4 h = hankel4_from_theta(channels4_shifted(s, Real(0.5)), weight);
+    return absorbance_transmittance(c.c5, absorbance4_intensity(h, weight, overestimation, z_f));
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon

@@ -960,7 +960,8 @@ moments4 moments4_over(moments4 below, float z, float alpha)
 //
 // Opaque occluders are in a map of their own: their absorbance is infinite, and filtered with that of others it would
 // shadow all of the filter region. For the same reason a filter over absorbances is darker than the mean transmittance,
-// exp(-mean a) <= mean exp(-a), and near it only where absorbance varies little in the filter region.
+// exp(-mean a) <= mean exp(-a), and near it only where absorbance varies little in the filter region. Fragments behind
+// an opaque occluder are added, too: then both maps are independent, and their transmittances multiply.
 #ifndef GNOMON_MOMENTS_ABSORBANCE_H
 #define GNOMON_MOMENTS_ABSORBANCE_H
 
@@ -1035,11 +1036,10 @@ float absorbance_transmittance(float b0, float intensity)
     return gnomon_select(t < 1.0, t, 1.0);
 }
 
-/// The share of the absorbance in front of z_f by the bounds on it, less what the bias has put there.
-float gnomon_absorbance4_intensity(absorbance4 b, float alpha, float overestimation, float z_f)
+/// The share of the absorbance in front of z_f by the bounds on it, less what the bias of weight alpha has put there.
+float gnomon_absorbance4_intensity(hankel4 h, float alpha, float overestimation, float z_f)
 {
-    hamburger_bounds bounds = hamburger4_bounds(absorbance4_factor(b, alpha), z_f);
-    return (bounds_intensity(bounds, overestimation) - alpha) / (1.0 - alpha);
+    return (bounds_intensity(hamburger4_bounds(h, z_f), overestimation) - alpha) / (1.0 - alpha);
 }
 
 /// The transmittance in [0, 1] at depth z_f of all fragments in front of it. alpha is the weight of the constant
@@ -1050,7 +1050,9 @@ float gnomon_absorbance4_intensity(absorbance4 b, float alpha, float overestimat
 /// NaN: 1, lit; an overestimation of NaN counts as 0.
 float absorbance4_transmittance(absorbance4 b, float alpha, float overestimation, float z_f)
 {
-    return absorbance_transmittance(b.b0, gnomon_absorbance4_intensity(b, alpha, overestimation, z_f));
+    return absorbance_transmittance(b.b0,
+                                    gnomon_absorbance4_intensity(absorbance4_factor(b, alpha), alpha, overestimation,
+                                                                 z_f));
 }
 
 /// Shadow intensity in [0, 1] behind opaque occluders, which give the intensity `opaque`, and translucent ones of the
@@ -1118,12 +1120,599 @@ gnomon_coloured_transmittance coloured_absorbance4_transmittance(gnomon_coloured
     shared_depths.b2 = b.b2;
     shared_depths.b3 = b.b3;
     shared_depths.b4 = b.b4;
-    float intensity = gnomon_absorbance4_intensity(shared_depths, alpha, overestimation, z_f);
+    float intensity = gnomon_absorbance4_intensity(absorbance4_factor(shared_depths, alpha), alpha, overestimation,
+                                                   z_f);
     gnomon_coloured_transmittance t;
     t.red = absorbance_transmittance(b.red, intensity);
     t.green = absorbance_transmittance(b.green, intensity);
     t.blue = absorbance_transmittance(b.blue, intensity);
     return t;
+}
+
+#endif
+
+// moments/channels.h --------------------------------------------------------------------------------------------------
+// The channels of a shadow map's texel, as a texture unit returns them: filtered or not, still behind the transform of
+// the storage format. Types of their own, so that channels never pass for moments, nor moments for channels.
+#ifndef GNOMON_MOMENTS_CHANNELS_H
+#define GNOMON_MOMENTS_CHANNELS_H
+
+struct channels1 { float c1; };
+
+struct channels2 { float c1, c2; };
+
+struct channels5 { float c1, c2, c3, c4, c5; };
+
+#endif
+
+// moments/channels.h, four moments ------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_CHANNELS_4
+#define GNOMON_MOMENTS_CHANNELS_4
+
+struct channels4 { float c1, c2, c3, c4; };
+
+#endif
+
+// moments/quantization.h, four moments --------------------------------------------------------------------------------
+// The sparse quantization transforms (Peters et al. 2017, Sec. 2.4 and 5.4.3): affine maps of the moments to channels
+// in [0, 1], for storage as UNORM. Odd and even moments are transformed separately. The transforms spread the codes of
+// the format as evenly as possible over the moments of depth distributions.
+//
+// Each channel is a polynomial in z that touches 0 and 1 on [-1, 1], and the determinant of the transform is the
+// largest possible. The gain in entropy over storing the moments themselves is 4.21 bits for four moments and 12.51
+// bits for six. tests/derivations computes the entries to full precision. The paper's entries for six moments are
+// slightly off the optimum: up to 5e-3 away, and the channels exceed [0, 1] by 6e-9.
+#ifndef GNOMON_MOMENTS_QUANTIZATION_4
+#define GNOMON_MOMENTS_QUANTIZATION_4
+
+/// The moments that a format without transform holds as they are.
+moments4 moments4_from_channels(channels4 c)
+{
+    moments4 b;
+    b.b1 = c.c1;
+    b.b2 = c.c2;
+    b.b3 = c.c3;
+    b.b4 = c.c4;
+    return b;
+}
+
+/// The moments b as the channels of a format without transform.
+channels4 channels4_from_moments(moments4 b)
+{
+    channels4 c;
+    c.c1 = b.b1;
+    c.c2 = b.b2;
+    c.c3 = b.b3;
+    c.c4 = b.b4;
+    return c;
+}
+
+static const float gnomon_theta4_31 = 0.8660254037844386;   // sqrt(3) / 2
+static const float gnomon_theta4_33 = -0.38490017945975052; // -2 sqrt(3) / 9
+static const float gnomon_theta4_inverse11 = -0.33333333333333331;
+static const float gnomon_theta4_inverse13 = 1.7320508075688772;
+static const float gnomon_theta4_inverse33 = 1.299038105676658;
+
+/// Theta_4*: the four channels, in [0, 1], of four moments of signed depth.
+/// Source: Peters 2017, Eq. 3
+channels4 theta4(moments4 b)
+{
+    channels4 c;
+    c.c1 = 1.5 * b.b1 - 2.0 * b.b3 + 0.5;
+    c.c2 = 4.0 * (b.b2 - b.b4);
+    c.c3 = gnomon_theta4_31 * b.b1 + gnomon_theta4_33 * b.b3 + 0.5;
+    c.c4 = 0.5 * (b.b2 + b.b4);
+    return c;
+}
+
+/// The four moments of channels c: the inverse of theta4.
+/// Source: Peters 2017, Eq. 3
+moments4 theta4_inverse(channels4 c)
+{
+    float c1 = c.c1 - 0.5;
+    float c3 = c.c3 - 0.5;
+    moments4 b;
+    b.b1 = gnomon_theta4_inverse11 * c1 + gnomon_theta4_inverse13 * c3;
+    b.b2 = 0.125 * c.c2 + c.c4;
+    b.b3 = gnomon_theta4_inverse33 * c3 - 0.75 * c1;
+    b.b4 = c.c4 - 0.125 * c.c2;
+    return b;
+}
+
+/// The biased moments (1 - alpha) b + alpha (0, bias, 0, bias), where b are the moments of channels c: theta4_inverse
+/// and moments4_add_bias in one, with four products less.
+/// Domain: alpha in [0, 1], as of moments4_add_bias.
+/// NaN: NaN, lit.
+/// Source: Peters 2017, Eq. 3; Peters 2017, Sec. 2.5
+moments4 theta4_inverse_add_bias(channels4 c, float bias, float alpha)
+{
+    float keep = 1.0 - alpha;
+    float c1 = c.c1 - 0.5;
+    float c3 = c.c3 - 0.5;
+    float c2 = (0.125 * keep) * c.c2;
+    float c4 = keep * c.c4 + alpha * bias;
+    moments4 b;
+    b.b1 = (keep * gnomon_theta4_inverse11) * c1 + (keep * gnomon_theta4_inverse13) * c3;
+    b.b2 = c4 + c2;
+    b.b3 = (keep * gnomon_theta4_inverse33) * c3 - (0.75 * keep) * c1;
+    b.b4 = c4 - c2;
+    return b;
+}
+
+#endif
+
+// moments/certified4.h ------------------------------------------------------------------------------------------------
+// Shadow intensity from four stored moments, certified: never above Z(z < z_f), for any errors of storage within
+// the stated noise.
+//
+// A quartic p with p <= 1 before z_f and p <= 0 from z_f on has E[p] <= Z(z < z_f) for every distribution Z. Storage
+// moves channel k by at most noise_k, so E[p] is at least its value from the stored channels minus
+// sum_k noise_k |p_k|, where p_k is the coefficient at channel k. That bound holds for every such p. A p with its nodes
+// at those of the biased moments (hamburger4.h) is nearly the best (docs/decisions/2-bias.md).
+//
+// In y = z - z_f, and in the notation of hamburger4.h, the two nodes beside z_f are the roots of a y^2 + b y + w with
+//     a = Q V,    b = u N + Q (2 V u - G),    w = V N + u^2 N + Q^2,    r^2 = b^2 - 4 a w.
+// Of the nodes before z_f the nearer one is at y = -1 / c with c = (b + r) / (2 w). The certificate is
+//     Q < 0, one node on either side:    p = -(1 + d + k y)^2 (2 (c - k) y + c (c - 2 k) y^2)
+//     Q >= 0 and b > 0, both before:     p = 1 - (1 + c y)^2 (1 + g y)^2
+//     otherwise, none before:            no p, and the bound is 0
+// with d = b / (2 r) - 1/2, k = c d and g = (b - r) / (2 w). Both p are 1 at the nodes before z_f, and 0 at z_f and at
+// the nodes behind. Any other c >= 0, d in [-1, 0] and g >= 0 give a valid p as well, so rounding in the nodes costs
+// only some leaking.
+#ifndef GNOMON_MOMENTS_CERTIFIED4_H
+#define GNOMON_MOMENTS_CERTIFIED4_H
+
+/// The polynomial p(z) = top - (s0 + s1 z + s2 z^2 + s3 z^3 + s4 z^4). top is 0 or 1, or -2^100 if
+/// nothing is certified.
+struct gnomon_certificate4 { float top, s0, s1, s2, s3, s4; };
+
+static const float gnomon_certificate4_nothing = -1267650600228229401496703205376.0; // -2^100
+
+/// The certificate p = n0 - (t0 + t1 y)^2 (n0 + 2 n1 y + n2 y^2), y = z - z_f, as a polynomial in z.
+gnomon_certificate4 gnomon_certificate4_about(float z_f, float n0, float t0, float t1, float n1, float n2)
+{
+    float nz = n2 * z_f;
+    float ns = (n1 + n1) - nz;
+    float k0 = n0 - ns * z_f;
+    float k1 = ns - nz;
+    float m = t0 - t1 * z_f;
+    float m0 = m * m;
+    float m1 = m * (t1 + t1);
+    float m2 = t1 * t1;
+    gnomon_certificate4 p;
+    p.top = n0;
+    p.s0 = m0 * k0;
+    p.s1 = m0 * k1 + m1 * k0;
+    p.s2 = m0 * n2 + (m1 * k1 + m2 * k0);
+    p.s3 = m1 * n2 + m2 * k1;
+    p.s4 = m2 * n2;
+    return p;
+}
+
+/// The certificate for a receiver at z_f, from the matrix of biased moments of 16-bit storage. Neither quotient waits
+/// for the square root. b + r and b - r may cancel, which is harmless since the bias keeps the nodes far apart.
+/// Domain: z_f in [-1, 1]; h positive definite.
+gnomon_certificate4 gnomon_certificate4_make(hankel4 h, float z_f)
+{
+    float u = z_f - h.mean;
+    float vu = h.variance * u;
+    float slope = vu - h.third;
+    float q = slope * u - h.variance * h.variance;
+    float un = u * h.determinant;
+    float w = h.variance * h.determinant + (u * un + q * q);
+    float w2 = w + w;
+    float a = q * h.variance;
+    float b = un + q * (vu + slope);
+    float square = b * b - (a + a) * w2;
+    float inverse = 1.0 / w2;
+    float ratio = b / (square + square);
+    float r = gnomon_sqrt(gnomon_max(0.0, square));
+    float c = (b + r) * inverse;
+    float g = (b - r) * inverse;
+    float d = ratio * r - 0.5;
+    float k = c * d;
+    bool between = q < 0.0;
+    float n0 = gnomon_select(between, 0.0, 1.0);
+    float n1 = gnomon_select(between, c - k, g);
+    float n2 = gnomon_select(between, c, g) * gnomon_select(between, (c - k) - k, g);
+    float t0 = gnomon_select(between, 1.0 + d, 1.0);
+    float t1 = gnomon_select(between, k, c);
+    gnomon_certificate4 p = gnomon_certificate4_about(z_f, n0, t0, t1, n1, n2);
+    p.top = gnomon_select(between || (0.0 < b), n0, gnomon_certificate4_nothing);
+    return p;
+}
+
+/// The least possible value of E[p], given channels c of theta4 that are each off by at most noise. The coefficients of
+/// p at the channels are the transpose of theta4_inverse times those at the moments.
+float gnomon_certificate4_theta_mean(gnomon_certificate4 p, channels4 c, float noise)
+{
+    float third = 0.75 * p.s3;
+    float p1 = gnomon_theta4_inverse11 * p.s1 - third;
+    float p2 = 0.125 * (p.s2 - p.s4);
+    float p3 = gnomon_theta4_inverse13 * (p.s1 + third);
+    float p4 = p.s2 + p.s4;
+    float mean = (p.s0 + (p2 * c.c2 + p4 * c.c4)) + (p1 * (c.c1 - 0.5) + p3 * (c.c3 - 0.5));
+    float doubt = noise * ((gnomon_abs(p1) + gnomon_abs(p2)) + (gnomon_abs(p3) + gnomon_abs(p4)));
+    return p.top - (mean + doubt);
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels c of theta4 that are each off by at
+/// most noise. h is the matrix of their moments with a bias.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+float certified4_theta_lower(hankel4 h, channels4 c, float noise, float z_f)
+{
+    gnomon_certificate4 p = gnomon_certificate4_make(h, clamp_or_nan(z_f, -1.0, 1.0));
+    return saturate_or_zero(gnomon_certificate4_theta_mean(p, c, noise));
+}
+
+static const float certified4_scale = 137438953472.0; // 2^37
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
+/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. Float
+/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
+/// the node before z_f, or 1 minus the weight of z_f. The contribution of the bias is then subtracted. 0 if rounding
+/// left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+float certified4_constant_bias_lower(hankel4 h, moments4 noise, float bias2, float bias4, float alpha, float z_f)
+{
+    float z = clamp_or_nan(z_f, -1.0, 1.0);
+    float u = z - h.mean;
+    float vu = h.variance * u;
+    float slope = vu - h.third;
+    float q = slope * u - h.variance * h.variance;
+    // The power of two is a factor of a, b and w, which otherwise underflow for a single depth.
+    float s = certified4_scale * q;
+    float n = certified4_scale * h.determinant;
+    float un = u * n;
+    float e = u * un + q * s;
+    float w = h.variance * n + e;
+    float w2 = w + w;
+    float a = s * h.variance;
+    float a2 = a + a;
+    float b = un + s * (vu + slope);
+    float r = gnomon_sqrt(gnomon_max(0.0, b * b - a2 * w2));
+    bool between = q < 0.0;
+    bool positive = 0.0 < b;
+    // Each quotient in the form that does not cancel.
+    float outer = r + gnomon_abs(b);
+    float c = gnomon_select(positive, outer, -2.0 * a) / gnomon_select(positive, w2, outer);
+    float inverse = 1.0 / gnomon_select(between, r + r, outer);
+    float g = a2 * inverse; // k if one node is on either side
+    float n0 = gnomon_select(between, 0.0, 1.0);
+    float n1 = gnomon_select(between, c - g, g);
+    float n2 = gnomon_select(between, c, g) * gnomon_select(between, (c - g) - g, g);
+    float t0 = gnomon_select(between, 0.5 + b * inverse, 1.0);
+    float t1 = gnomon_select(between, g, c);
+    gnomon_certificate4 p = gnomon_certificate4_about(z, n0, t0, t1, n1, n2);
+    float share = gnomon_select(between, 0.5 * (e * (r + b)) - w * (a * u), e);
+    float mean = share / (w * gnomon_select(between, r, 1.0));
+    float added = alpha * ((p.top - p.s0) - (bias2 * p.s2 + bias4 * p.s4));
+    float doubt = (noise.b1 * gnomon_abs(p.s1) + noise.b2 * gnomon_abs(p.s2)) +
+                  (noise.b3 * gnomon_abs(p.s3) + noise.b4 * gnomon_abs(p.s4));
+    bool known = (between || positive) && (gnomon_pivot_floor * h.variance < h.determinant);
+    return gnomon_select(known, saturate_or_zero(mean - (added + doubt)), 0.0);
+}
+
+/// The largest error of each moment of b after one rounding to float: 2 delta |b_j|, but at most delta.
+moments4 moments4_rounding(moments4 b, float delta)
+{
+    moments4 e;
+    e.b1 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b1));
+    e.b2 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b2));
+    e.b3 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b3));
+    e.b4 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b4));
+    return e;
+}
+
+/// The largest error of each filtered moment of b after roundings before the filter, which the moments of |z| bound.
+/// For the third, E |z|^3 <= (b2 + b4) / 2.
+moments4 moments4_rounding_filtered(moments4 b, float delta)
+{
+    moments4 e;
+    e.b1 = delta;
+    e.b2 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b2));
+    e.b3 = gnomon_min(delta, delta * gnomon_abs(b.b2 + b.b4));
+    e.b4 = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b4));
+    return e;
+}
+
+#endif
+
+// storage/moments4.h --------------------------------------------------------------------------------------------------
+// Four moments in a storage format: from a depth to the channels of a texel, and from filtered channels to a shadow.
+// Each format undoes its own transform and allows for what its storage rounds, so that nobody pairs the wrong ones.
+//
+//   format          bytes   transform   write                     read                         matrix for both bounds
+//   4 x 16 UNORM      8     theta4      moments4_unorm16_encode   moments4_unorm16_intensity   hankel4_from_unorm16
+//   4 x half          8     theta4 - .5 moments4_half_encode      moments4_half_intensity      hankel4_from_half
+//   4 x float        16     none        moments4_float_encode     moments4_float_intensity     hankel4_from_float
+//
+// Filters are linear: average channels as they are. X_intensity and hankel4_from_X allow for one rounding: of channels
+// that are stored once and filtered without further rounding, as 16-bit texels by a texture unit that returns floats.
+// Texels of floats round again there and need X_filtered. X_filtered_intensity and hankel4_from_X_filtered allow for a
+// pass along rows and one along columns, of nine taps at most, that store their results in the format again, half
+// floats truncated or rounded. Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at most
+//   X_intensity         gnomon_stored4_arithmetic_weight, the error of float arithmetic
+//   hankel4_from_X      the weight of the constant bias, roundings * delta / r (bias.h), and that of arithmetic
+// Tests search for the largest excess by hill climbing (tests/moments/honest_four.cpp). Certificates (certified4.h)
+// leak less than a constant bias in every format. Float arithmetic moves the nodes of a certificate, which costs or
+// gains a little leaking. Difference of an intensity in float from the intensity in double:
+//     error, float, moments4_float_intensity: p99 3e-5, p99.9 1e-4, max 5e-4
+//     error, float, moments4_float_filtered_intensity: p99 1e-5, p99.9 5e-5, max 2e-4
+//     error, float, moments4_half_intensity: p99 5e-5, p99.9 4e-4, max 2e-2
+//     error, float, moments4_half_filtered_intensity: p99 3e-5, p99.9 2e-4, max 2e-3
+//     error, float, moments4_unorm16_intensity: p99 6e-4, p99.9 7e-3, max 3e-1
+//     error, float, moments4_unorm16_filtered_intensity: p99 3e-4, p99.9 3e-3, max 3e-2
+#ifndef GNOMON_STORAGE_MOMENTS4_H
+#define GNOMON_STORAGE_MOMENTS4_H
+
+/// The four channels of a 4 x 16 UNORM texel of a depth z, each in [0, 1].
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Eq. 3
+channels4 moments4_unorm16_encode(float z) { return theta4(moments4_from_depth(clamp_or_high(z, -1.0, 1.0))); }
+
+/// The channels c, each with shift added.
+channels4 gnomon_channels4_shifted(channels4 c, float shift)
+{
+    c.c1 = c.c1 + shift;
+    c.c2 = c.c2 + shift;
+    c.c3 = c.c3 + shift;
+    c.c4 = c.c4 + shift;
+    return c;
+}
+
+/// The multiple of 2^-12 that is nearest to x. In [-1/2, 1/2] half floats hold every multiple.
+float gnomon_half_nearest(float x) { return 0.000244140625 * nearest_integer(4096.0 * x); }
+
+/// The four channels of a 4 x half texel of a depth z, each in [-1/2, 1/2]. They are half floats already, since devices
+/// may truncate what they store.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Eq. 3
+channels4 moments4_half_encode(float z)
+{
+    channels4 c = gnomon_channels4_shifted(moments4_unorm16_encode(z), -0.5);
+    c.c1 = gnomon_half_nearest(c.c1);
+    c.c2 = gnomon_half_nearest(c.c2);
+    c.c3 = gnomon_half_nearest(c.c3);
+    c.c4 = gnomon_half_nearest(c.c4);
+    return c;
+}
+
+/// The four channels of a 4 x float texel of a depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+channels4 moments4_float_encode(float z)
+{
+    return channels4_from_moments(moments4_from_depth(clamp_or_high(z, -1.0, 1.0)));
+}
+
+static const float gnomon_stored4_unorm16_weight = 3.6e-5;
+static const float gnomon_stored4_unorm16_filtered_weight = 1.1e-4;
+static const float gnomon_stored4_half_weight = 5.7e-4;
+static const float gnomon_stored4_half_filtered_weight = 2.85e-3;
+static const float gnomon_stored4_float_weight = 3e-7;
+static const float gnomon_stored4_float_filtered_weight = 2e-6;
+static const float gnomon_stored4_arithmetic_weight = 1e-6;
+
+/// The factored matrix of the channels of theta4, with a constant bias of weight alpha.
+hankel4 gnomon_hankel4_from_theta(channels4 c, float alpha)
+{
+    return hankel4_from_moments(theta4_inverse_add_bias(c, bias4_theta_b2, alpha));
+}
+
+/// The factored matrix of the channels of a 4 x float texel, with a constant bias of weight alpha.
+/// Domain: alpha from 3e-7 on.
+hankel4 gnomon_hankel4_stored_as_float(channels4 c, float alpha)
+{
+    return hankel4_constant_bias(moments4_from_channels(c), bias4_raw_b2, bias4_raw_b4, alpha);
+}
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for one rounding.
+hankel4 hankel4_from_unorm16(channels4 c) { return gnomon_hankel4_from_theta(c, gnomon_stored4_unorm16_weight); }
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for a filter of two passes.
+hankel4 hankel4_from_unorm16_filtered(channels4 c)
+{
+    return gnomon_hankel4_from_theta(c, gnomon_stored4_unorm16_filtered_weight);
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for one rounding.
+hankel4 hankel4_from_half(channels4 c)
+{
+    return gnomon_hankel4_from_theta(gnomon_channels4_shifted(c, 0.5), gnomon_stored4_half_weight);
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for a filter of two passes.
+hankel4 hankel4_from_half_filtered(channels4 c)
+{
+    return gnomon_hankel4_from_theta(gnomon_channels4_shifted(c, 0.5), gnomon_stored4_half_filtered_weight);
+}
+
+/// The factored matrix of the channels of a 4 x float texel, biased for one rounding.
+hankel4 hankel4_from_float(channels4 c) { return gnomon_hankel4_stored_as_float(c, gnomon_stored4_float_weight); }
+
+/// The factored matrix of the channels of a 4 x float texel, biased for a filter of two passes.
+hankel4 hankel4_from_float_filtered(channels4 c)
+{
+    return gnomon_hankel4_stored_as_float(c, gnomon_stored4_float_filtered_weight);
+}
+
+// The error of each channel that certificates allow for, and the weight of the bias of their nodes. Every weight is
+// honest. These leak least without specks: noise puts specks into contact shadows where a weight is too small.
+static const float certified4_unorm16_noise = 8e-6; // half a code, and the error of theta4 in float
+static const float certified4_unorm16_filtered_noise = 2.4e-5;
+static const float certified4_unorm16_weight = 3.6e-5;
+static const float certified4_unorm16_filtered_weight = 9e-5;
+static const float certified4_half_noise = 1.225e-4;         // 2^-13, and the error of theta4 in float
+static const float certified4_half_filtered_noise = 6.12e-4; // passes may truncate: 2^-12 each
+static const float certified4_half_weight = 6e-4;
+static const float certified4_half_filtered_weight = 2.3e-3;
+static const float certified4_float_noise = 3.3e-8;                        // 1.1 times 2^-25
+static const float certified4_float_filtered_noise = 2.384185791015625e-7; // 8 times: sums of nine taps round, too
+static const float certified4_float_weight = 3e-7;
+static const float certified4_float_filtered_weight = 1.5e-6;
+
+/// Shadow intensity at z_f from channels c of theta4, each off by at most noise, by nodes with a bias of weight alpha.
+float gnomon_moments4_theta_intensity(channels4 c, float noise, float alpha, float z_f)
+{
+    return certified4_theta_lower(gnomon_hankel4_from_theta(c, alpha), c, noise, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+float moments4_unorm16_intensity(channels4 c, float z_f)
+{
+    return gnomon_moments4_theta_intensity(c, certified4_unorm16_noise, certified4_unorm16_weight, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+float moments4_unorm16_filtered_intensity(channels4 c, float z_f)
+{
+    return gnomon_moments4_theta_intensity(c, certified4_unorm16_filtered_noise, certified4_unorm16_filtered_weight,
+                                           z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+float moments4_half_intensity(channels4 c, float z_f)
+{
+    return gnomon_moments4_theta_intensity(gnomon_channels4_shifted(c, 0.5), certified4_half_noise,
+                                           certified4_half_weight, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+float moments4_half_filtered_intensity(channels4 c, float z_f)
+{
+    return gnomon_moments4_theta_intensity(gnomon_channels4_shifted(c, 0.5), certified4_half_filtered_noise,
+                                           certified4_half_filtered_weight, z_f);
+}
+
+/// Shadow intensity at z_f from the channels of a 4 x float texel, each off by at most its entry in noise, by nodes
+/// with a bias of weight alpha.
+float gnomon_moments4_float_intensity_with_noise(channels4 c, moments4 noise, float alpha, float z_f)
+{
+    return certified4_constant_bias_lower(gnomon_hankel4_stored_as_float(c, alpha), noise, bias4_raw_b2, bias4_raw_b4,
+                                          alpha, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+float moments4_float_intensity(channels4 c, float z_f)
+{
+    return gnomon_moments4_float_intensity_with_noise(
+        c, moments4_rounding(moments4_from_channels(c), certified4_float_noise),
+        certified4_float_weight, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+float moments4_float_filtered_intensity(channels4 c, float z_f)
+{
+    return gnomon_moments4_float_intensity_with_noise(
+        c, moments4_rounding_filtered(moments4_from_channels(c), certified4_float_filtered_noise),
+        certified4_float_filtered_weight, z_f);
+}
+
+#endif
+
+// storage/absorbance4.h -----------------------------------------------------------------------------------------------
+// Absorbance moments in a storage format: from a fragment to the channels of a texel, which additive blending sums in
+// any order, and from filtered channels to a transmittance.
+//
+//   format      bytes   channels               write                      read
+//   5 x half     10     theta4 - .5, times b0  absorbance4_half_encode    absorbance4_half_transmittance
+//   5 x float    20     b1 to b4               absorbance4_float_encode   absorbance4_float_transmittance
+//
+// The fifth channel is b0; a texture of four channels and one of a single channel hold a texel. Maps are cleared to 0.
+//
+// additions is the number of fragments that were added to a texel, and of filter passes that store their results in the
+// format. Each rounds b0 and the channels in relation to a sum that never falls, so that errors in relation to b0 add
+// up to additions times those of one: 4 roundings of floats (bias.h), or 8 of half floats, which may be truncated. A
+// fragment's own channels, and the division by b0, take 12 roundings of floats. Beside the bounds b0 itself is off by
+// 2^-24 of its value for each addition, or 2^-10 for half floats, to the lit side where they are truncated.
+#ifndef GNOMON_STORAGE_ABSORBANCE4_H
+#define GNOMON_STORAGE_ABSORBANCE4_H
+
+/// The five channels of a 5 x float texel of a fragment at depth z of opacity alpha.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+channels5 absorbance4_float_encode(float z, float alpha)
+{
+    absorbance4 b = absorbance4_of_fragment(z, alpha);
+    channels5 c;
+    c.c1 = b.b1;
+    c.c2 = b.b2;
+    c.c3 = b.b3;
+    c.c4 = b.b4;
+    c.c5 = b.b0;
+    return c;
+}
+
+/// The five channels of a 5 x half texel of a fragment at depth z of opacity alpha.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+channels5 absorbance4_half_encode(float z, float alpha)
+{
+    float a = absorbance_of_opacity(alpha);
+    channels4 s = gnomon_channels4_shifted(moments4_unorm16_encode(z), -0.5);
+    channels5 c;
+    c.c1 = a * s.c1;
+    c.c2 = a * s.c2;
+    c.c3 = a * s.c3;
+    c.c4 = a * s.c4;
+    c.c5 = a;
+    return c;
+}
+
+static const float absorbance4_half_additions = 8.0;
+static const float absorbance4_half_least = 1.220703125e-4; // 2^-13: below, half floats are denormal
+static const float absorbance4_float_additions = 4.0;
+static const float absorbance4_float_more = 3.0; // 12 / 4
+
+/// The transmittance in [0, 1] at depth z_f from the channels of a 5 x float texel. overestimation is that of
+/// bounds_intensity: 1 for surfaces, 1/2 for receivers among the fragments.
+/// Domain: additions >= 0, clamped; overestimation in [0, 1], clamped; any z_f, limited to [-1, 1].
+/// NaN: 1, lit; an overestimation of NaN counts as 0.
+float absorbance4_float_transmittance(channels5 c, float additions, float overestimation, float z_f)
+{
+    absorbance4 b;
+    b.b0 = c.c5;
+    b.b1 = c.c1;
+    b.b2 = c.c2;
+    b.b3 = c.c3;
+    b.b4 = c.c4;
+    float n = gnomon_blended_roundings(additions + absorbance4_float_more, absorbance4_float_additions);
+    return absorbance4_transmittance(b, bias_weight_of_roundings(gnomon_stored4_float_weight, n), overestimation, z_f);
+}
+
+/// The transmittance in [0, 1] at depth z_f from the channels of a 5 x half texel. overestimation is that of
+/// bounds_intensity: 1 for surfaces, 1/2 for receivers among the fragments.
+/// Domain: additions >= 0, clamped; overestimation in [0, 1], clamped; any z_f, limited to [-1, 1].
+/// NaN: 1, lit; an overestimation of NaN counts as 0.
+float absorbance4_half_transmittance(channels5 c, float additions, float overestimation, float z_f)
+{
+    float scale = 1.0 / gnomon_max(absorbance4_half_least, c.c5);
+    channels4 s;
+    s.c1 = c.c1 * scale;
+    s.c2 = c.c2 * scale;
+    s.c3 = c.c3 * scale;
+    s.c4 = c.c4 * scale;
+    float weight = bias_weight_of_roundings(gnomon_stored4_half_weight,
+                                            gnomon_blended_roundings(additions, absorbance4_half_additions));
+    hankel4 h = gnomon_hankel4_from_theta(gnomon_channels4_shifted(s, 0.5), weight);
+    return absorbance_transmittance(c.c5, gnomon_absorbance4_intensity(h, weight, overestimation, z_f));
 }
 
 #endif

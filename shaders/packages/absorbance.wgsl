@@ -704,7 +704,7 @@ fn gnomon_hamburger4_fractions_at(h: hankel4_, z_f: f32) -> hamburger4_fractions
 ///     error, float, hankel4_from_float_filtered: p99 2e-5, p99.9 5e-5, max 1e-4
 ///     error, float, hankel4_from_half: p99 3e-5, p99.9 1e-4, max 2e-3
 ///     error, float, hankel4_from_half_filtered: p99 1e-5, p99.9 3e-5, max 3e-4
-///     error, float, hankel4_from_unorm16: p99 4e-4, p99.9 2e-3, max 5e-2
+///     error, float, hankel4_from_unorm16_: p99 4e-4, p99.9 2e-3, max 5e-2
 ///     error, float, hankel4_from_unorm16_filtered: p99 2e-4, p99.9 6e-4, max 4e-3
 /// Source: Peters 2017, Eq. 1; Peters 2017, Alg. 1
 fn hamburger4_lower(h: hankel4_, z_f: f32) -> f32
@@ -888,7 +888,8 @@ fn moments4_over(below: moments4_, z: f32, alpha: f32) -> moments4_
 //
 // Opaque occluders are in a map of their own: their absorbance is infinite, and filtered with that of others it would
 // shadow all of the filter region. For the same reason a filter over absorbances is darker than the mean transmittance,
-// exp(-mean a) <= mean exp(-a), and near it only where absorbance varies little in the filter region.
+// exp(-mean a) <= mean exp(-a), and near it only where absorbance varies little in the filter region. Fragments behind
+// an opaque occluder are added, too: then both maps are independent, and their transmittances multiply.
 
 /// Sums of absorbance times powers of depth, b0 to b4.
 struct absorbance4_ { b0_: f32, b1_: f32, b2_: f32, b3_: f32, b4_: f32 }
@@ -962,11 +963,10 @@ fn absorbance_transmittance(b0: f32, intensity: f32) -> f32
     return gnomon_select(t < 1.0, t, 1.0);
 }
 
-/// The share of the absorbance in front of z_f by the bounds on it, less what the bias has put there.
-fn gnomon_absorbance4_intensity(b: absorbance4_, alpha: f32, overestimation: f32, z_f: f32) -> f32
+/// The share of the absorbance in front of z_f by the bounds on it, less what the bias of weight alpha has put there.
+fn gnomon_absorbance4_intensity(h: hankel4_, alpha: f32, overestimation: f32, z_f: f32) -> f32
 {
-    let bounds = hamburger4_bounds(absorbance4_factor(b, alpha), z_f);
-    return (bounds_intensity(bounds, overestimation) - alpha) / (1.0 - alpha);
+    return (bounds_intensity(hamburger4_bounds(h, z_f), overestimation) - alpha) / (1.0 - alpha);
 }
 
 /// The transmittance in [0, 1] at depth z_f of all fragments in front of it. alpha is the weight of the constant
@@ -977,7 +977,9 @@ fn gnomon_absorbance4_intensity(b: absorbance4_, alpha: f32, overestimation: f32
 /// NaN: 1, lit; an overestimation of NaN counts as 0.
 fn absorbance4_transmittance(b: absorbance4_, alpha: f32, overestimation: f32, z_f: f32) -> f32
 {
-    return absorbance_transmittance(b.b0_, gnomon_absorbance4_intensity(b, alpha, overestimation, z_f));
+    return absorbance_transmittance(b.b0_,
+                                    gnomon_absorbance4_intensity(absorbance4_factor(b, alpha), alpha, overestimation,
+                                                                 z_f));
 }
 
 /// Shadow intensity in [0, 1] behind opaque occluders, which give the intensity `opaque`, and translucent ones of the
@@ -1047,10 +1049,575 @@ fn coloured_absorbance4_transmittance(b: gnomon_coloured_absorbance4_, alpha: f3
     shared_depths.b2_ = b.b2_;
     shared_depths.b3_ = b.b3_;
     shared_depths.b4_ = b.b4_;
-    let intensity = gnomon_absorbance4_intensity(shared_depths, alpha, overestimation, z_f);
+    let intensity = gnomon_absorbance4_intensity(absorbance4_factor(shared_depths, alpha), alpha, overestimation, z_f);
     var t: gnomon_coloured_transmittance;
     t.red = absorbance_transmittance(b.red, intensity);
     t.green = absorbance_transmittance(b.green, intensity);
     t.blue = absorbance_transmittance(b.blue, intensity);
     return t;
+}
+
+// moments/channels.h --------------------------------------------------------------------------------------------------
+// The channels of a shadow map's texel, as a texture unit returns them: filtered or not, still behind the transform of
+// the storage format. Types of their own, so that channels never pass for moments, nor moments for channels.
+
+struct channels1_ { c1_: f32 }
+
+struct channels2_ { c1_: f32, c2_: f32 }
+
+struct channels5_ { c1_: f32, c2_: f32, c3_: f32, c4_: f32, c5_: f32 }
+
+// moments/channels.h, four moments ------------------------------------------------------------------------------------
+
+struct channels4_ { c1_: f32, c2_: f32, c3_: f32, c4_: f32 }
+
+// moments/quantization.h, four moments --------------------------------------------------------------------------------
+// The sparse quantization transforms (Peters et al. 2017, Sec. 2.4 and 5.4.3): affine maps of the moments to channels
+// in [0, 1], for storage as UNORM. Odd and even moments are transformed separately. The transforms spread the codes of
+// the format as evenly as possible over the moments of depth distributions.
+//
+// Each channel is a polynomial in z that touches 0 and 1 on [-1, 1], and the determinant of the transform is the
+// largest possible. The gain in entropy over storing the moments themselves is 4.21 bits for four moments and 12.51
+// bits for six. tests/derivations computes the entries to full precision. The paper's entries for six moments are
+// slightly off the optimum: up to 5e-3 away, and the channels exceed [0, 1] by 6e-9.
+
+/// The moments that a format without transform holds as they are.
+fn moments4_from_channels(c: channels4_) -> moments4_
+{
+    var b: moments4_;
+    b.b1_ = c.c1_;
+    b.b2_ = c.c2_;
+    b.b3_ = c.c3_;
+    b.b4_ = c.c4_;
+    return b;
+}
+
+/// The moments b as the channels of a format without transform.
+fn channels4_from_moments(b: moments4_) -> channels4_
+{
+    var c: channels4_;
+    c.c1_ = b.b1_;
+    c.c2_ = b.b2_;
+    c.c3_ = b.b3_;
+    c.c4_ = b.b4_;
+    return c;
+}
+
+const gnomon_theta4_31_: f32 = 0x1.bb67aep-1; // 0.8660254037844386, sqrt(3) / 2
+const gnomon_theta4_33_: f32 = -0x1.8a2346p-2; // -0.38490017945975052, -2 sqrt(3) / 9
+const gnomon_theta4_inverse11_: f32 = -0x1.555556p-2; // -0.33333333333333331
+const gnomon_theta4_inverse13_: f32 = 0x1.bb67aep+0; // 1.7320508075688772
+const gnomon_theta4_inverse33_: f32 = 0x1.4c8dc2p+0; // 1.299038105676658
+
+/// Theta_4*: the four channels, in [0, 1], of four moments of signed depth.
+/// Source: Peters 2017, Eq. 3
+fn theta4_(b: moments4_) -> channels4_
+{
+    var c: channels4_;
+    c.c1_ = 1.5 * b.b1_ - 2.0 * b.b3_ + 0.5;
+    c.c2_ = 4.0 * (b.b2_ - b.b4_);
+    c.c3_ = gnomon_theta4_31_ * b.b1_ + gnomon_theta4_33_ * b.b3_ + 0.5;
+    c.c4_ = 0.5 * (b.b2_ + b.b4_);
+    return c;
+}
+
+/// The four moments of channels c: the inverse of theta4_.
+/// Source: Peters 2017, Eq. 3
+fn theta4_inverse(c: channels4_) -> moments4_
+{
+    let c1 = c.c1_ - 0.5;
+    let c3 = c.c3_ - 0.5;
+    var b: moments4_;
+    b.b1_ = gnomon_theta4_inverse11_ * c1 + gnomon_theta4_inverse13_ * c3;
+    b.b2_ = 0.125 * c.c2_ + c.c4_;
+    b.b3_ = gnomon_theta4_inverse33_ * c3 - 0.75 * c1;
+    b.b4_ = c.c4_ - 0.125 * c.c2_;
+    return b;
+}
+
+/// The biased moments (1 - alpha) b + alpha (0, bias, 0, bias), where b are the moments of channels c: theta4_inverse
+/// and moments4_add_bias in one, with four products less.
+/// Domain: alpha in [0, 1], as of moments4_add_bias.
+/// NaN: NaN, lit.
+/// Source: Peters 2017, Eq. 3; Peters 2017, Sec. 2.5
+fn theta4_inverse_add_bias(c: channels4_, bias: f32, alpha: f32) -> moments4_
+{
+    let keep = 1.0 - alpha;
+    let c1 = c.c1_ - 0.5;
+    let c3 = c.c3_ - 0.5;
+    let c2 = (0.125 * keep) * c.c2_;
+    let c4 = keep * c.c4_ + alpha * bias;
+    var b: moments4_;
+    b.b1_ = (keep * gnomon_theta4_inverse11_) * c1 + (keep * gnomon_theta4_inverse13_) * c3;
+    b.b2_ = c4 + c2;
+    b.b3_ = (keep * gnomon_theta4_inverse33_) * c3 - (0.75 * keep) * c1;
+    b.b4_ = c4 - c2;
+    return b;
+}
+
+// moments/certified4.h ------------------------------------------------------------------------------------------------
+// Shadow intensity from four stored moments, certified: never above Z(z < z_f), for any errors of storage within
+// the stated noise.
+//
+// A quartic p with p <= 1 before z_f and p <= 0 from z_f on has E[p] <= Z(z < z_f) for every distribution Z. Storage
+// moves channel k by at most noise_k, so E[p] is at least its value from the stored channels minus
+// sum_k noise_k |p_k|, where p_k is the coefficient at channel k. That bound holds for every such p. A p with its nodes
+// at those of the biased moments (hamburger4.h) is nearly the best (docs/decisions/2-bias.md).
+//
+// In y = z - z_f, and in the notation of hamburger4.h, the two nodes beside z_f are the roots of a y^2 + b y + w with
+//     a = Q V,    b = u N + Q (2 V u - G),    w = V N + u^2 N + Q^2,    r^2 = b^2 - 4 a w.
+// Of the nodes before z_f the nearer one is at y = -1 / c with c = (b + r) / (2 w). The certificate is
+//     Q < 0, one node on either side:    p = -(1 + d + k y)^2 (2 (c - k) y + c (c - 2 k) y^2)
+//     Q >= 0 and b > 0, both before:     p = 1 - (1 + c y)^2 (1 + g y)^2
+//     otherwise, none before:            no p, and the bound is 0
+// with d = b / (2 r) - 1/2, k = c d and g = (b - r) / (2 w). Both p are 1 at the nodes before z_f, and 0 at z_f and at
+// the nodes behind. Any other c >= 0, d in [-1, 0] and g >= 0 give a valid p as well, so rounding in the nodes costs
+// only some leaking.
+
+/// The polynomial p(z) = top - (s0 + s1 z + s2 z^2 + s3 z^3 + s4 z^4). top is 0 or 1, or -2^100 if
+/// nothing is certified.
+struct gnomon_certificate4_ { top: f32, s0_: f32, s1_: f32, s2_: f32, s3_: f32, s4_: f32 }
+
+const gnomon_certificate4_nothing: f32 = -1267650600228229401496703205376.0; // -2^100
+
+/// The certificate p = n0 - (t0 + t1 y)^2 (n0 + 2 n1 y + n2 y^2), y = z - z_f, as a polynomial in z.
+fn gnomon_certificate4_about(z_f: f32, n0: f32, t0: f32, t1: f32, n1: f32, n2: f32) -> gnomon_certificate4_
+{
+    let nz = n2 * z_f;
+    let ns = (n1 + n1) - nz;
+    let k0 = n0 - ns * z_f;
+    let k1 = ns - nz;
+    let m = t0 - t1 * z_f;
+    let m0 = m * m;
+    let m1 = m * (t1 + t1);
+    let m2 = t1 * t1;
+    var p: gnomon_certificate4_;
+    p.top = n0;
+    p.s0_ = m0 * k0;
+    p.s1_ = m0 * k1 + m1 * k0;
+    p.s2_ = m0 * n2 + (m1 * k1 + m2 * k0);
+    p.s3_ = m1 * n2 + m2 * k1;
+    p.s4_ = m2 * n2;
+    return p;
+}
+
+/// The certificate for a receiver at z_f, from the matrix of biased moments of 16-bit storage. Neither quotient waits
+/// for the square root. b + r and b - r may cancel, which is harmless since the bias keeps the nodes far apart.
+/// Domain: z_f in [-1, 1]; h positive definite.
+fn gnomon_certificate4_make(h: hankel4_, z_f: f32) -> gnomon_certificate4_
+{
+    let u = z_f - h.mean;
+    let vu = h.variance * u;
+    let slope = vu - h.third;
+    let q = slope * u - h.variance * h.variance;
+    let un = u * h.determinant;
+    let w = h.variance * h.determinant + (u * un + q * q);
+    let w2 = w + w;
+    let a = q * h.variance;
+    let b = un + q * (vu + slope);
+    let square = b * b - (a + a) * w2;
+    let inverse = 1.0 / w2;
+    let ratio = b / (square + square);
+    let r = gnomon_sqrt(gnomon_max(0.0, square));
+    let c = (b + r) * inverse;
+    let g = (b - r) * inverse;
+    let d = ratio * r - 0.5;
+    let k = c * d;
+    let between = q < 0.0;
+    let n0 = gnomon_select(between, 0.0, 1.0);
+    let n1 = gnomon_select(between, c - k, g);
+    let n2 = gnomon_select(between, c, g) * gnomon_select(between, (c - k) - k, g);
+    let t0 = gnomon_select(between, 1.0 + d, 1.0);
+    let t1 = gnomon_select(between, k, c);
+    var p = gnomon_certificate4_about(z_f, n0, t0, t1, n1, n2);
+    p.top = gnomon_select(between || (0.0 < b), n0, gnomon_certificate4_nothing);
+    return p;
+}
+
+/// The least possible value of E[p], given channels c of theta4_ that are each off by at most noise. The coefficients
+/// of p at the channels are the transpose of theta4_inverse times those at the moments.
+fn gnomon_certificate4_theta_mean(p: gnomon_certificate4_, c: channels4_, noise: f32) -> f32
+{
+    let third = 0.75 * p.s3_;
+    let p1 = gnomon_theta4_inverse11_ * p.s1_ - third;
+    let p2 = 0.125 * (p.s2_ - p.s4_);
+    let p3 = gnomon_theta4_inverse13_ * (p.s1_ + third);
+    let p4 = p.s2_ + p.s4_;
+    let mean = (p.s0_ + (p2 * c.c2_ + p4 * c.c4_)) + (p1 * (c.c1_ - 0.5) + p3 * (c.c3_ - 0.5));
+    let doubt = noise * ((gnomon_abs(p1) + gnomon_abs(p2)) + (gnomon_abs(p3) + gnomon_abs(p4)));
+    return p.top - (mean + doubt);
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels c of theta4_ that are each off by at
+/// most noise. h is the matrix of their moments with a bias.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+fn certified4_theta_lower(h: hankel4_, c: channels4_, noise: f32, z_f: f32) -> f32
+{
+    let p = gnomon_certificate4_make(h, clamp_or_nan(z_f, -1.0, 1.0));
+    return saturate_or_zero(gnomon_certificate4_theta_mean(p, c, noise));
+}
+
+const certified4_scale: f32 = 137438953472.0; // 2^37
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
+/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. Float
+/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
+/// the node before z_f, or 1 minus the weight of z_f. The contribution of the bias is then subtracted. 0 if rounding
+/// left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+fn certified4_constant_bias_lower(h: hankel4_, noise: moments4_, bias2: f32, bias4: f32, alpha: f32, z_f: f32) -> f32
+{
+    let z = clamp_or_nan(z_f, -1.0, 1.0);
+    let u = z - h.mean;
+    let vu = h.variance * u;
+    let slope = vu - h.third;
+    let q = slope * u - h.variance * h.variance;
+    // The power of two is a factor of a, b and w, which otherwise underflow for a single depth.
+    let s = certified4_scale * q;
+    let n = certified4_scale * h.determinant;
+    let un = u * n;
+    let e = u * un + q * s;
+    let w = h.variance * n + e;
+    let w2 = w + w;
+    let a = s * h.variance;
+    let a2 = a + a;
+    let b = un + s * (vu + slope);
+    let r = gnomon_sqrt(gnomon_max(0.0, b * b - a2 * w2));
+    let between = q < 0.0;
+    let positive = 0.0 < b;
+    // Each quotient in the form that does not cancel.
+    let outer = r + gnomon_abs(b);
+    let c = gnomon_select(positive, outer, -2.0 * a) / gnomon_select(positive, w2, outer);
+    let inverse = 1.0 / gnomon_select(between, r + r, outer);
+    let g = a2 * inverse; // k if one node is on either side
+    let n0 = gnomon_select(between, 0.0, 1.0);
+    let n1 = gnomon_select(between, c - g, g);
+    let n2 = gnomon_select(between, c, g) * gnomon_select(between, (c - g) - g, g);
+    let t0 = gnomon_select(between, 0.5 + b * inverse, 1.0);
+    let t1 = gnomon_select(between, g, c);
+    let p = gnomon_certificate4_about(z, n0, t0, t1, n1, n2);
+    let share = gnomon_select(between, 0.5 * (e * (r + b)) - w * (a * u), e);
+    let mean = share / (w * gnomon_select(between, r, 1.0));
+    let added = alpha * ((p.top - p.s0_) - (bias2 * p.s2_ + bias4 * p.s4_));
+    let doubt = (noise.b1_ * gnomon_abs(p.s1_) + noise.b2_ * gnomon_abs(p.s2_)) +
+                (noise.b3_ * gnomon_abs(p.s3_) + noise.b4_ * gnomon_abs(p.s4_));
+    let known = (between || positive) && (gnomon_pivot_floor * h.variance < h.determinant);
+    return gnomon_select(known, saturate_or_zero(mean - (added + doubt)), 0.0);
+}
+
+/// The largest error of each moment of b after one rounding to float: 2 delta |b_j|, but at most delta.
+fn moments4_rounding(b: moments4_, delta: f32) -> moments4_
+{
+    var e: moments4_;
+    e.b1_ = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b1_));
+    e.b2_ = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b2_));
+    e.b3_ = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b3_));
+    e.b4_ = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b4_));
+    return e;
+}
+
+/// The largest error of each filtered moment of b after roundings before the filter, which the moments of |z| bound.
+/// For the third, E |z|^3 <= (b2 + b4) / 2.
+fn moments4_rounding_filtered(b: moments4_, delta: f32) -> moments4_
+{
+    var e: moments4_;
+    e.b1_ = delta;
+    e.b2_ = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b2_));
+    e.b3_ = gnomon_min(delta, delta * gnomon_abs(b.b2_ + b.b4_));
+    e.b4_ = gnomon_min(delta, (delta + delta) * gnomon_abs(b.b4_));
+    return e;
+}
+
+// storage/moments4.h --------------------------------------------------------------------------------------------------
+// Four moments in a storage format: from a depth to the channels of a texel, and from filtered channels to a shadow.
+// Each format undoes its own transform and allows for what its storage rounds, so that nobody pairs the wrong ones.
+//
+//   format          bytes   transform   write                     read                         matrix for both bounds
+//   4 x 16 UNORM      8     theta4_      moments4_unorm16_encode   moments4_unorm16_intensity   hankel4_from_unorm16_
+//   4 x half          8     theta4_ - .5 moments4_half_encode      moments4_half_intensity      hankel4_from_half
+//   4 x float        16     none        moments4_float_encode     moments4_float_intensity     hankel4_from_float
+//
+// Filters are linear: average channels as they are. X_intensity and hankel4_from_X allow for one rounding: of channels
+// that are stored once and filtered without further rounding, as 16-bit texels by a texture unit that returns floats.
+// Texels of floats round again there and need X_filtered. X_filtered_intensity and hankel4_from_X_filtered allow for a
+// pass along rows and one along columns, of nine taps at most, that store their results in the format again, half
+// floats truncated or rounded. Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at most
+//   X_intensity         gnomon_stored4_arithmetic_weight, the error of float arithmetic
+//   hankel4_from_X      the weight of the constant bias, roundings * delta / r (bias.h), and that of arithmetic
+// Tests search for the largest excess by hill climbing (tests/moments/honest_four.cpp). Certificates (certified4.h)
+// leak less than a constant bias in every format. Float arithmetic moves the nodes of a certificate, which costs or
+// gains a little leaking. Difference of an intensity in float from the intensity in double:
+//     error, float, moments4_float_intensity: p99 3e-5, p99.9 1e-4, max 5e-4
+//     error, float, moments4_float_filtered_intensity: p99 1e-5, p99.9 5e-5, max 2e-4
+//     error, float, moments4_half_intensity: p99 5e-5, p99.9 4e-4, max 2e-2
+//     error, float, moments4_half_filtered_intensity: p99 3e-5, p99.9 2e-4, max 2e-3
+//     error, float, moments4_unorm16_intensity: p99 6e-4, p99.9 7e-3, max 3e-1
+//     error, float, moments4_unorm16_filtered_intensity: p99 3e-4, p99.9 3e-3, max 3e-2
+
+/// The four channels of a 4 x 16 UNORM texel of a depth z, each in [0, 1].
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Eq. 3
+fn moments4_unorm16_encode(z: f32) -> channels4_ { return theta4_(moments4_from_depth(clamp_or_high(z, -1.0, 1.0))); }
+
+/// The channels c, each with shift added.
+fn gnomon_channels4_shifted(given_c: channels4_, shift: f32) -> channels4_
+{
+    var c = given_c;
+    c.c1_ = c.c1_ + shift;
+    c.c2_ = c.c2_ + shift;
+    c.c3_ = c.c3_ + shift;
+    c.c4_ = c.c4_ + shift;
+    return c;
+}
+
+/// The multiple of 2^-12 that is nearest to x. In [-1/2, 1/2] half floats hold every multiple.
+fn gnomon_half_nearest(x: f32) -> f32 { return 0.000244140625 * nearest_integer(4096.0 * x); }
+
+/// The four channels of a 4 x half texel of a depth z, each in [-1/2, 1/2]. They are half floats already, since devices
+/// may truncate what they store.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Eq. 3
+fn moments4_half_encode(z: f32) -> channels4_
+{
+    var c = gnomon_channels4_shifted(moments4_unorm16_encode(z), -0.5);
+    c.c1_ = gnomon_half_nearest(c.c1_);
+    c.c2_ = gnomon_half_nearest(c.c2_);
+    c.c3_ = gnomon_half_nearest(c.c3_);
+    c.c4_ = gnomon_half_nearest(c.c4_);
+    return c;
+}
+
+/// The four channels of a 4 x float texel of a depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+fn moments4_float_encode(z: f32) -> channels4_
+{
+    return channels4_from_moments(moments4_from_depth(clamp_or_high(z, -1.0, 1.0)));
+}
+
+const gnomon_stored4_unorm16_weight: f32 = 0x1.2dfd6ap-15; // 3.6e-5
+const gnomon_stored4_unorm16_filtered_weight: f32 = 0x1.cd5f9ap-14; // 1.1e-4
+const gnomon_stored4_half_weight: f32 = 0x1.2ad81ap-11; // 5.7e-4
+const gnomon_stored4_half_filtered_weight: f32 = 0x1.758e22p-9; // 2.85e-3
+const gnomon_stored4_float_weight: f32 = 0x1.421f6p-22; // 3e-7
+const gnomon_stored4_float_filtered_weight: f32 = 0x1.0c6f7ap-19; // 2e-6
+const gnomon_stored4_arithmetic_weight: f32 = 0x1.0c6f7ap-20; // 1e-6
+
+/// The factored matrix of the channels of theta4_, with a constant bias of weight alpha.
+fn gnomon_hankel4_from_theta(c: channels4_, alpha: f32) -> hankel4_
+{
+    return hankel4_from_moments(theta4_inverse_add_bias(c, bias4_theta_b2_, alpha));
+}
+
+/// The factored matrix of the channels of a 4 x float texel, with a constant bias of weight alpha.
+/// Domain: alpha from 3e-7 on.
+fn gnomon_hankel4_stored_as_float(c: channels4_, alpha: f32) -> hankel4_
+{
+    return hankel4_constant_bias(moments4_from_channels(c), bias4_raw_b2_, bias4_raw_b4_, alpha);
+}
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for one rounding.
+fn hankel4_from_unorm16_(c: channels4_) -> hankel4_ { return gnomon_hankel4_from_theta(c,
+                                                                                       gnomon_stored4_unorm16_weight); }
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for a filter of two passes.
+fn hankel4_from_unorm16_filtered(c: channels4_) -> hankel4_
+{
+    return gnomon_hankel4_from_theta(c, gnomon_stored4_unorm16_filtered_weight);
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for one rounding.
+fn hankel4_from_half(c: channels4_) -> hankel4_
+{
+    return gnomon_hankel4_from_theta(gnomon_channels4_shifted(c, 0.5), gnomon_stored4_half_weight);
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for a filter of two passes.
+fn hankel4_from_half_filtered(c: channels4_) -> hankel4_
+{
+    return gnomon_hankel4_from_theta(gnomon_channels4_shifted(c, 0.5), gnomon_stored4_half_filtered_weight);
+}
+
+/// The factored matrix of the channels of a 4 x float texel, biased for one rounding.
+fn hankel4_from_float(c: channels4_) -> hankel4_ { return gnomon_hankel4_stored_as_float(c,
+                                                                                         gnomon_stored4_float_weight); }
+
+/// The factored matrix of the channels of a 4 x float texel, biased for a filter of two passes.
+fn hankel4_from_float_filtered(c: channels4_) -> hankel4_
+{
+    return gnomon_hankel4_stored_as_float(c, gnomon_stored4_float_filtered_weight);
+}
+
+// The error of each channel that certificates allow for, and the weight of the bias of their nodes. Every weight is
+// honest. These leak least without specks: noise puts specks into contact shadows where a weight is too small.
+const certified4_unorm16_noise: f32 = 0x1.0c6f7ap-17; // 8e-6, half a code, and the error of theta4_ in float
+const certified4_unorm16_filtered_noise: f32 = 0x1.92a738p-16; // 2.4e-5
+const certified4_unorm16_weight: f32 = 0x1.2dfd6ap-15; // 3.6e-5
+const certified4_unorm16_filtered_weight: f32 = 0x1.797cc4p-14; // 9e-5
+const certified4_half_noise: f32 = 0x1.00e6bp-13; // 1.225e-4, 2^-13, and the error of theta4_ in float
+const certified4_half_filtered_noise: f32 = 0x1.40dd4p-11; // 6.12e-4, passes may truncate: 2^-12 each
+const certified4_half_weight: f32 = 0x1.3a92a4p-11; // 6e-4
+const certified4_half_filtered_weight: f32 = 0x1.2d7732p-9; // 2.3e-3
+const certified4_float_noise: f32 = 0x1.1b77c4p-25; // 3.3e-8, 1.1 times 2^-25
+const certified4_float_filtered_noise: f32 = 2.384185791015625e-7; // 8 times: sums of nine taps round, too
+const certified4_float_weight: f32 = 0x1.421f6p-22; // 3e-7
+const certified4_float_filtered_weight: f32 = 0x1.92a738p-20; // 1.5e-6
+
+/// Shadow intensity at z_f from channels c of theta4_, each off by at most noise, by nodes with a bias of weight alpha.
+fn gnomon_moments4_theta_intensity(c: channels4_, noise: f32, alpha: f32, z_f: f32) -> f32
+{
+    return certified4_theta_lower(gnomon_hankel4_from_theta(c, alpha), c, noise, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments4_unorm16_intensity(c: channels4_, z_f: f32) -> f32
+{
+    return gnomon_moments4_theta_intensity(c, certified4_unorm16_noise, certified4_unorm16_weight, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments4_unorm16_filtered_intensity(c: channels4_, z_f: f32) -> f32
+{
+    return gnomon_moments4_theta_intensity(c, certified4_unorm16_filtered_noise, certified4_unorm16_filtered_weight,
+                                           z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments4_half_intensity(c: channels4_, z_f: f32) -> f32
+{
+    return gnomon_moments4_theta_intensity(gnomon_channels4_shifted(c, 0.5), certified4_half_noise,
+                                           certified4_half_weight, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments4_half_filtered_intensity(c: channels4_, z_f: f32) -> f32
+{
+    return gnomon_moments4_theta_intensity(gnomon_channels4_shifted(c, 0.5), certified4_half_filtered_noise,
+                                           certified4_half_filtered_weight, z_f);
+}
+
+/// Shadow intensity at z_f from the channels of a 4 x float texel, each off by at most its entry in noise, by nodes
+/// with a bias of weight alpha.
+fn gnomon_moments4_float_intensity_with_noise(c: channels4_, noise: moments4_, alpha: f32, z_f: f32) -> f32
+{
+    return certified4_constant_bias_lower(gnomon_hankel4_stored_as_float(c, alpha), noise, bias4_raw_b2_, bias4_raw_b4_,
+                                          alpha, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments4_float_intensity(c: channels4_, z_f: f32) -> f32
+{
+    return gnomon_moments4_float_intensity_with_noise(
+        c, moments4_rounding(moments4_from_channels(c), certified4_float_noise),
+        certified4_float_weight, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments4_float_filtered_intensity(c: channels4_, z_f: f32) -> f32
+{
+    return gnomon_moments4_float_intensity_with_noise(
+        c, moments4_rounding_filtered(moments4_from_channels(c), certified4_float_filtered_noise),
+        certified4_float_filtered_weight, z_f);
+}
+
+// storage/absorbance4.h -----------------------------------------------------------------------------------------------
+// Absorbance moments in a storage format: from a fragment to the channels of a texel, which additive blending sums in
+// any order, and from filtered channels to a transmittance.
+//
+//   format      bytes   channels               write                      read
+//   5 x half     10     theta4_ - .5, times b0  absorbance4_half_encode    absorbance4_half_transmittance
+//   5 x float    20     b1 to b4               absorbance4_float_encode   absorbance4_float_transmittance
+//
+// The fifth channel is b0; a texture of four channels and one of a single channel hold a texel. Maps are cleared to 0.
+//
+// additions is the number of fragments that were added to a texel, and of filter passes that store their results in the
+// format. Each rounds b0 and the channels in relation to a sum that never falls, so that errors in relation to b0 add
+// up to additions times those of one: 4 roundings of floats (bias.h), or 8 of half floats, which may be truncated. A
+// fragment's own channels, and the division by b0, take 12 roundings of floats. Beside the bounds b0 itself is off by
+// 2^-24 of its value for each addition, or 2^-10 for half floats, to the lit side where they are truncated.
+
+/// The five channels of a 5 x float texel of a fragment at depth z of opacity alpha.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+fn absorbance4_float_encode(z: f32, alpha: f32) -> channels5_
+{
+    let b = absorbance4_of_fragment(z, alpha);
+    var c: channels5_;
+    c.c1_ = b.b1_;
+    c.c2_ = b.b2_;
+    c.c3_ = b.b3_;
+    c.c4_ = b.b4_;
+    c.c5_ = b.b0_;
+    return c;
+}
+
+/// The five channels of a 5 x half texel of a fragment at depth z of opacity alpha.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+fn absorbance4_half_encode(z: f32, alpha: f32) -> channels5_
+{
+    let a = absorbance_of_opacity(alpha);
+    let s = gnomon_channels4_shifted(moments4_unorm16_encode(z), -0.5);
+    var c: channels5_;
+    c.c1_ = a * s.c1_;
+    c.c2_ = a * s.c2_;
+    c.c3_ = a * s.c3_;
+    c.c4_ = a * s.c4_;
+    c.c5_ = a;
+    return c;
+}
+
+const absorbance4_half_additions: f32 = 8.0;
+const absorbance4_half_least: f32 = 1.220703125e-4; // 2^-13: below, half floats are denormal
+const absorbance4_float_additions: f32 = 4.0;
+const absorbance4_float_more: f32 = 3.0; // 12 / 4
+
+/// The transmittance in [0, 1] at depth z_f from the channels of a 5 x float texel. overestimation is that of
+/// bounds_intensity: 1 for surfaces, 1/2 for receivers among the fragments.
+/// Domain: additions >= 0, clamped; overestimation in [0, 1], clamped; any z_f, limited to [-1, 1].
+/// NaN: 1, lit; an overestimation of NaN counts as 0.
+fn absorbance4_float_transmittance(c: channels5_, additions: f32, overestimation: f32, z_f: f32) -> f32
+{
+    var b: absorbance4_;
+    b.b0_ = c.c5_;
+    b.b1_ = c.c1_;
+    b.b2_ = c.c2_;
+    b.b3_ = c.c3_;
+    b.b4_ = c.c4_;
+    let n = gnomon_blended_roundings(additions + absorbance4_float_more, absorbance4_float_additions);
+    return absorbance4_transmittance(b, bias_weight_of_roundings(gnomon_stored4_float_weight, n), overestimation, z_f);
+}
+
+/// The transmittance in [0, 1] at depth z_f from the channels of a 5 x half texel. overestimation is that of
+/// bounds_intensity: 1 for surfaces, 1/2 for receivers among the fragments.
+/// Domain: additions >= 0, clamped; overestimation in [0, 1], clamped; any z_f, limited to [-1, 1].
+/// NaN: 1, lit; an overestimation of NaN counts as 0.
+fn absorbance4_half_transmittance(c: channels5_, additions: f32, overestimation: f32, z_f: f32) -> f32
+{
+    let scale = 1.0 / gnomon_max(absorbance4_half_least, c.c5_);
+    var s: channels4_;
+    s.c1_ = c.c1_ * scale;
+    s.c2_ = c.c2_ * scale;
+    s.c3_ = c.c3_ * scale;
+    s.c4_ = c.c4_ * scale;
+    let weight = bias_weight_of_roundings(gnomon_stored4_half_weight,
+                                          gnomon_blended_roundings(additions, absorbance4_half_additions));
+    let h = gnomon_hankel4_from_theta(gnomon_channels4_shifted(s, 0.5), weight);
+    return absorbance_transmittance(c.c5_, gnomon_absorbance4_intensity(h, weight, overestimation, z_f));
 }

@@ -777,6 +777,8 @@ template <class Real, class = require_real<Real>> struct channels1 { Real c1; };
 
 template <class Real, class = require_real<Real>> struct channels2 { Real c1, c2; };
 
+template <class Real, class = require_real<Real>> struct channels5 { Real c1, c2, c3, c4, c5; };
+
 GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif

@@ -4063,7 +4063,8 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 //
 // Opaque occluders are in a map of their own: their absorbance is infinite, and filtered with that of others it would
 // shadow all of the filter region. For the same reason a filter over absorbances is darker than the mean transmittance,
-// exp(-mean a) <= mean exp(-a), and near it only where absorbance varies little in the filter region.
+// exp(-mean a) <= mean exp(-a), and near it only where absorbance varies little in the filter region. Fragments behind
+// an opaque occluder are added, too: then both maps are independent, and their transmittances multiply.
 #ifndef GNOMON_MOMENTS_ABSORBANCE_H
 #define GNOMON_MOMENTS_ABSORBANCE_H
 
@@ -4144,13 +4145,12 @@ GNOMON_INLINE constexpr Real absorbance_transmittance(Real b0, Real intensity)
     return gnomon_select(t < Real(1), t, Real(1));
 }
 
-/// The share of the absorbance in front of z_f by the bounds on it, less what the bias has put there.
+/// The share of the absorbance in front of z_f by the bounds on it, less what the bias of weight alpha has put there.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real absorbance4_intensity(absorbance4<Real> b, std::type_identity_t<Real> alpha,
+GNOMON_INLINE constexpr Real absorbance4_intensity(hankel4<Real> h, std::type_identity_t<Real> alpha,
                                                    std::type_identity_t<Real> overestimation, Real z_f)
 {
-    hamburger_bounds bounds = hamburger4_bounds(absorbance4_factor(b, alpha), z_f);
-    return (bounds_intensity(bounds, overestimation) - alpha) / (Real(1) - alpha);
+    return (bounds_intensity(hamburger4_bounds(h, z_f), overestimation) - alpha) / (Real(1) - alpha);
 }
 
 /// The transmittance in [0, 1] at depth z_f of all fragments in front of it. alpha is the weight of the constant
@@ -4163,7 +4163,8 @@ template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real absorbance4_transmittance(absorbance4<Real> b, std::type_identity_t<Real> alpha,
                                                        std::type_identity_t<Real> overestimation, Real z_f)
 {
-    return absorbance_transmittance(b.b0, absorbance4_intensity(b, alpha, overestimation, z_f));
+    return absorbance_transmittance(b.b0,
+                                    absorbance4_intensity(absorbance4_factor(b, alpha), alpha, overestimation, z_f));
 }
 
 /// Shadow intensity in [0, 1] behind opaque occluders, which give the intensity `opaque`, and translucent ones of the
@@ -4239,7 +4240,7 @@ GNOMON_INLINE constexpr coloured_transmittance<Real>
     shared_depths.b2 = b.b2;
     shared_depths.b3 = b.b3;
     shared_depths.b4 = b.b4;
-    Real intensity = absorbance4_intensity(shared_depths, alpha, overestimation, z_f);
+    Real intensity = absorbance4_intensity(absorbance4_factor(shared_depths, alpha), alpha, overestimation, z_f);
     coloured_transmittance<Real> t;
     t.red = absorbance_transmittance(b.red, intensity);
     t.green = absorbance_transmittance(b.green, intensity);
@@ -4386,6 +4387,8 @@ GNOMON_WARNINGS_OFF namespace gnomon {
 template <class Real, class = require_real<Real>> struct channels1 { Real c1; };
 
 template <class Real, class = require_real<Real>> struct channels2 { Real c1, c2; };
+
+template <class Real, class = require_real<Real>> struct channels5 { Real c1, c2, c3, c4, c5; };
 
 GNOMON_WARNINGS_ON } // namespace gnomon
 
@@ -8026,6 +8029,351 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif
 
+// storage/moments4.h --------------------------------------------------------------------------------------------------
+// Four moments in a storage format: from a depth to the channels of a texel, and from filtered channels to a shadow.
+// Each format undoes its own transform and allows for what its storage rounds, so that nobody pairs the wrong ones.
+//
+//   format          bytes   transform   write                     read                         matrix for both bounds
+//   4 x 16 UNORM      8     theta4      moments4_unorm16_encode   moments4_unorm16_intensity   hankel4_from_unorm16
+//   4 x half          8     theta4 - .5 moments4_half_encode      moments4_half_intensity      hankel4_from_half
+//   4 x float        16     none        moments4_float_encode     moments4_float_intensity     hankel4_from_float
+//
+// Filters are linear: average channels as they are. X_intensity and hankel4_from_X allow for one rounding: of channels
+// that are stored once and filtered without further rounding, as 16-bit texels by a texture unit that returns floats.
+// Texels of floats round again there and need X_filtered. X_filtered_intensity and hankel4_from_X_filtered allow for a
+// pass along rows and one along columns, of nine taps at most, that store their results in the format again, half
+// floats truncated or rounded. Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at most
+//   X_intensity         stored4_arithmetic_weight, the error of float arithmetic
+//   hankel4_from_X      the weight of the constant bias, roundings * delta / r (bias.h), and that of arithmetic
+// Tests search for the largest excess by hill climbing (tests/moments/honest_four.cpp). Certificates (certified4.h)
+// leak less than a constant bias in every format. Float arithmetic moves the nodes of a certificate, which costs or
+// gains a little leaking. Difference of an intensity in float from the intensity in double:
+//     error, float, moments4_float_intensity: p99 3e-5, p99.9 1e-4, max 5e-4
+//     error, float, moments4_float_filtered_intensity: p99 1e-5, p99.9 5e-5, max 2e-4
+//     error, float, moments4_half_intensity: p99 5e-5, p99.9 4e-4, max 2e-2
+//     error, float, moments4_half_filtered_intensity: p99 3e-5, p99.9 2e-4, max 2e-3
+//     error, float, moments4_unorm16_intensity: p99 6e-4, p99.9 7e-3, max 3e-1
+//     error, float, moments4_unorm16_filtered_intensity: p99 3e-4, p99.9 3e-3, max 3e-2
+#ifndef GNOMON_STORAGE_MOMENTS4_H
+#define GNOMON_STORAGE_MOMENTS4_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The four channels of a 4 x 16 UNORM texel of a depth z, each in [0, 1].
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Eq. 3
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr channels4<Real> moments4_unorm16_encode(Real z)
+{
+    return theta4(moments4_from_depth(clamp_or_high(z, Real(-1), Real(1))));
+}
+
+/// The channels c, each with shift added.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr channels4<Real> channels4_shifted(channels4<Real> c, std::type_identity_t<Real> shift)
+{
+    c.c1 = c.c1 + shift;
+    c.c2 = c.c2 + shift;
+    c.c3 = c.c3 + shift;
+    c.c4 = c.c4 + shift;
+    return c;
+}
+
+/// The multiple of 2^-12 that is nearest to x. In [-1/2, 1/2] half floats hold every multiple.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real half_nearest(Real x) { return Real(0.000244140625) * nearest_integer(Real(4096) * x); }
+
+/// The four channels of a 4 x half texel of a depth z, each in [-1/2, 1/2]. They are half floats already, since devices
+/// may truncate what they store.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Eq. 3
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr channels4<Real> moments4_half_encode(Real z)
+{
+    channels4 c = channels4_shifted(moments4_unorm16_encode(z), Real(-0.5));
+    c.c1 = half_nearest(c.c1);
+    c.c2 = half_nearest(c.c2);
+    c.c3 = half_nearest(c.c3);
+    c.c4 = half_nearest(c.c4);
+    return c;
+}
+
+/// The four channels of a 4 x float texel of a depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr channels4<Real> moments4_float_encode(Real z)
+{
+    return channels4_from_moments(moments4_from_depth(clamp_or_high(z, Real(-1), Real(1))));
+}
+
+inline constexpr double stored4_unorm16_weight = 3.6e-5;
+inline constexpr double stored4_unorm16_filtered_weight = 1.1e-4;
+inline constexpr double stored4_half_weight = 5.7e-4;
+inline constexpr double stored4_half_filtered_weight = 2.85e-3;
+inline constexpr double stored4_float_weight = 3e-7;
+inline constexpr double stored4_float_filtered_weight = 2e-6;
+inline constexpr double stored4_arithmetic_weight = 1e-6;
+
+/// The factored matrix of the channels of theta4, with a constant bias of weight alpha.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_theta(channels4<Real> c, std::type_identity_t<Real> alpha)
+{
+    return hankel4_from_moments(theta4_inverse_add_bias(c, literal<Real>(bias4_theta_b2), alpha));
+}
+
+/// The factored matrix of the channels of a 4 x float texel, with a constant bias of weight alpha.
+/// Domain: alpha from 3e-7 on.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_stored_as_float(channels4<Real> c, std::type_identity_t<Real> alpha)
+{
+    return hankel4_constant_bias(moments4_from_channels(c), literal<Real>(bias4_raw_b2), literal<Real>(bias4_raw_b4),
+                                 alpha);
+}
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for one rounding.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_unorm16(channels4<Real> c)
+{
+    return hankel4_from_theta(c, literal<Real>(stored4_unorm16_weight));
+}
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for a filter of two passes.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_unorm16_filtered(channels4<Real> c)
+{
+    return hankel4_from_theta(c, literal<Real>(stored4_unorm16_filtered_weight));
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for one rounding.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_half(channels4<Real> c)
+{
+    return hankel4_from_theta(channels4_shifted(c, Real(0.5)), literal<Real>(stored4_half_weight));
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for a filter of two passes.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_half_filtered(channels4<Real> c)
+{
+    return hankel4_from_theta(channels4_shifted(c, Real(0.5)), literal<Real>(stored4_half_filtered_weight));
+}
+
+/// The factored matrix of the channels of a 4 x float texel, biased for one rounding.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_float(channels4<Real> c)
+{
+    return hankel4_stored_as_float(c, literal<Real>(stored4_float_weight));
+}
+
+/// The factored matrix of the channels of a 4 x float texel, biased for a filter of two passes.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_float_filtered(channels4<Real> c)
+{
+    return hankel4_stored_as_float(c, literal<Real>(stored4_float_filtered_weight));
+}
+
+// The error of each channel that certificates allow for, and the weight of the bias of their nodes. Every weight is
+// honest. These leak least without specks: noise puts specks into contact shadows where a weight is too small.
+inline constexpr double certified4_unorm16_noise = 8e-6; // half a code, and the error of theta4 in float
+inline constexpr double certified4_unorm16_filtered_noise = 2.4e-5;
+inline constexpr double certified4_unorm16_weight = 3.6e-5;
+inline constexpr double certified4_unorm16_filtered_weight = 9e-5;
+inline constexpr double certified4_half_noise = 1.225e-4;         // 2^-13, and the error of theta4 in float
+inline constexpr double certified4_half_filtered_noise = 6.12e-4; // passes may truncate: 2^-12 each
+inline constexpr double certified4_half_weight = 6e-4;
+inline constexpr double certified4_half_filtered_weight = 2.3e-3;
+inline constexpr double certified4_float_noise = 3.3e-8;                        // 1.1 times 2^-25
+inline constexpr double certified4_float_filtered_noise = 2.384185791015625e-7; // 8 times: sums of nine taps round, too
+inline constexpr double certified4_float_weight = 3e-7;
+inline constexpr double certified4_float_filtered_weight = 1.5e-6;
+
+/// Shadow intensity at z_f from channels c of theta4, each off by at most noise, by nodes with a bias of weight alpha.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments4_theta_intensity(channels4<Real> c, std::type_identity_t<Real> noise,
+                                                      std::type_identity_t<Real> alpha, Real z_f)
+{
+    return certified4_theta_lower(hankel4_from_theta(c, alpha), c, noise, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments4_unorm16_intensity(channels4<Real> c, Real z_f)
+{
+    return moments4_theta_intensity(c, literal<Real>(certified4_unorm16_noise),
+                                    literal<Real>(certified4_unorm16_weight), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments4_unorm16_filtered_intensity(channels4<Real> c, Real z_f)
+{
+    return moments4_theta_intensity(c, literal<Real>(certified4_unorm16_filtered_noise),
+                                    literal<Real>(certified4_unorm16_filtered_weight), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments4_half_intensity(channels4<Real> c, Real z_f)
+{
+    return moments4_theta_intensity(channels4_shifted(c, Real(0.5)), literal<Real>(certified4_half_noise),
+                                    literal<Real>(certified4_half_weight), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments4_half_filtered_intensity(channels4<Real> c, Real z_f)
+{
+    return moments4_theta_intensity(channels4_shifted(c, Real(0.5)), literal<Real>(certified4_half_filtered_noise),
+                                    literal<Real>(certified4_half_filtered_weight), z_f);
+}
+
+/// Shadow intensity at z_f from the channels of a 4 x float texel, each off by at most its entry in noise, by nodes
+/// with a bias of weight alpha.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments4_float_intensity_with_noise(channels4<Real> c, moments4<Real> noise,
+                                                                 std::type_identity_t<Real> alpha, Real z_f)
+{
+    return certified4_constant_bias_lower(hankel4_stored_as_float(c, alpha), noise, literal<Real>(bias4_raw_b2),
+                                          literal<Real>(bias4_raw_b4), alpha, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments4_float_intensity(channels4<Real> c, Real z_f)
+{
+    return moments4_float_intensity_with_noise(
+        c, moments4_rounding(moments4_from_channels(c), literal<Real>(certified4_float_noise)),
+        literal<Real>(certified4_float_weight), z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments4_float_filtered_intensity(channels4<Real> c, Real z_f)
+{
+    return moments4_float_intensity_with_noise(
+        c, moments4_rounding_filtered(moments4_from_channels(c), literal<Real>(certified4_float_filtered_noise)),
+        literal<Real>(certified4_float_filtered_weight), z_f);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// storage/absorbance4.h -----------------------------------------------------------------------------------------------
+// Absorbance moments in a storage format: from a fragment to the channels of a texel, which additive blending sums in
+// any order, and from filtered channels to a transmittance.
+//
+//   format      bytes   channels               write                      read
+//   5 x half     10     theta4 - .5, times b0  absorbance4_half_encode    absorbance4_half_transmittance
+//   5 x float    20     b1 to b4               absorbance4_float_encode   absorbance4_float_transmittance
+//
+// The fifth channel is b0; a texture of four channels and one of a single channel hold a texel. Maps are cleared to 0.
+//
+// additions is the number of fragments that were added to a texel, and of filter passes that store their results in the
+// format. Each rounds b0 and the channels in relation to a sum that never falls, so that errors in relation to b0 add
+// up to additions times those of one: 4 roundings of floats (bias.h), or 8 of half floats, which may be truncated. A
+// fragment's own channels, and the division by b0, take 12 roundings of floats. Beside the bounds b0 itself is off by
+// 2^-24 of its value for each addition, or 2^-10 for half floats, to the lit side where they are truncated.
+#ifndef GNOMON_STORAGE_ABSORBANCE4_H
+#define GNOMON_STORAGE_ABSORBANCE4_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The five channels of a 5 x float texel of a fragment at depth z of opacity alpha.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr channels5<Real> absorbance4_float_encode(Real z, Real alpha)
+{
+    absorbance4 b = absorbance4_of_fragment(z, alpha);
+    channels5<Real> c;
+    c.c1 = b.b1;
+    c.c2 = b.b2;
+    c.c3 = b.b3;
+    c.c4 = b.b4;
+    c.c5 = b.b0;
+    return c;
+}
+
+/// The five channels of a 5 x half texel of a fragment at depth z of opacity alpha.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr channels5<Real> absorbance4_half_encode(Real z, Real alpha)
+{
+    Real a = absorbance_of_opacity(alpha);
+    channels4 s = channels4_shifted(moments4_unorm16_encode(z), Real(-0.5));
+    channels5<Real> c;
+    c.c1 = a * s.c1;
+    c.c2 = a * s.c2;
+    c.c3 = a * s.c3;
+    c.c4 = a * s.c4;
+    c.c5 = a;
+    return c;
+}
+
+inline constexpr double absorbance4_half_additions = 8.0;
+inline constexpr double absorbance4_half_least = 1.220703125e-4; // 2^-13: below, half floats are denormal
+inline constexpr double absorbance4_float_additions = 4.0;
+inline constexpr double absorbance4_float_more = 3.0; // 12 / 4
+
+/// The transmittance in [0, 1] at depth z_f from the channels of a 5 x float texel. overestimation is that of
+/// bounds_intensity: 1 for surfaces, 1/2 for receivers among the fragments.
+/// Domain: additions >= 0, clamped; overestimation in [0, 1], clamped; any z_f, limited to [-1, 1].
+/// NaN: 1, lit; an overestimation of NaN counts as 0.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real absorbance4_float_transmittance(channels5<Real> c, std::type_identity_t<Real> additions,
+                                                             std::type_identity_t<Real> overestimation, Real z_f)
+{
+    absorbance4<Real> b;
+    b.b0 = c.c5;
+    b.b1 = c.c1;
+    b.b2 = c.c2;
+    b.b3 = c.c3;
+    b.b4 = c.c4;
+    Real n = blended_roundings(additions + literal<Real>(absorbance4_float_more),
+                               literal<Real>(absorbance4_float_additions));
+    return absorbance4_transmittance(b, bias_weight_of_roundings(literal<Real>(stored4_float_weight), n),
+                                     overestimation, z_f);
+}
+
+/// The transmittance in [0, 1] at depth z_f from the channels of a 5 x half texel. overestimation is that of
+/// bounds_intensity: 1 for surfaces, 1/2 for receivers among the fragments.
+/// Domain: additions >= 0, clamped; overestimation in [0, 1], clamped; any z_f, limited to [-1, 1].
+/// NaN: 1, lit; an overestimation of NaN counts as 0.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real absorbance4_half_transmittance(channels5<Real> c, std::type_identity_t<Real> additions,
+                                                            std::type_identity_t<Real> overestimation, Real z_f)
+{
+    Real scale = Real(1) / gnomon_max(literal<Real>(absorbance4_half_least), c.c5);
+    channels4<Real> s;
+    s.c1 = c.c1 * scale;
+    s.c2 = c.c2 * scale;
+    s.c3 = c.c3 * scale;
+    s.c4 = c.c4 * scale;
+    Real weight = bias_weight_of_roundings(literal<Real>(stored4_half_weight),
+                                           blended_roundings(additions, literal<Real>(absorbance4_half_additions)));
+    hankel4 h = hankel4_from_theta(channels4_shifted(s, Real(0.5)), weight);
+    return absorbance_transmittance(c.c5, absorbance4_intensity(h, weight, overestimation, z_f));
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
 // storage/convolution.h -----------------------------------------------------------------------------------------------
 // Convolution shadow maps in a storage format: from a depth to the channels of a texel, and from filtered channels to a
 // shadow, with the settings of the format.
@@ -8415,249 +8763,6 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif
 
-// storage/moments4.h --------------------------------------------------------------------------------------------------
-// Four moments in a storage format: from a depth to the channels of a texel, and from filtered channels to a shadow.
-// Each format undoes its own transform and allows for what its storage rounds, so that nobody pairs the wrong ones.
-//
-//   format          bytes   transform   write                     read                         matrix for both bounds
-//   4 x 16 UNORM      8     theta4      moments4_unorm16_encode   moments4_unorm16_intensity   hankel4_from_unorm16
-//   4 x half          8     theta4 - .5 moments4_half_encode      moments4_half_intensity      hankel4_from_half
-//   4 x float        16     none        moments4_float_encode     moments4_float_intensity     hankel4_from_float
-//
-// Filters are linear: average channels as they are. X_intensity and hankel4_from_X allow for one rounding: of channels
-// that are stored once and filtered without further rounding, as 16-bit texels by a texture unit that returns floats.
-// Texels of floats round again there and need X_filtered. X_filtered_intensity and hankel4_from_X_filtered allow for a
-// pass along rows and one along columns, of nine taps at most, that store their results in the format again, half
-// floats truncated or rounded. Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at most
-//   X_intensity         stored4_arithmetic_weight, the error of float arithmetic
-//   hankel4_from_X      the weight of the constant bias, roundings * delta / r (bias.h), and that of arithmetic
-// Tests search for the largest excess by hill climbing (tests/moments/honest_four.cpp). Certificates (certified4.h)
-// leak less than a constant bias in every format. Float arithmetic moves the nodes of a certificate, which costs or
-// gains a little leaking. Difference of an intensity in float from the intensity in double:
-//     error, float, moments4_float_intensity: p99 3e-5, p99.9 1e-4, max 5e-4
-//     error, float, moments4_float_filtered_intensity: p99 1e-5, p99.9 5e-5, max 2e-4
-//     error, float, moments4_half_intensity: p99 5e-5, p99.9 4e-4, max 2e-2
-//     error, float, moments4_half_filtered_intensity: p99 3e-5, p99.9 2e-4, max 2e-3
-//     error, float, moments4_unorm16_intensity: p99 6e-4, p99.9 7e-3, max 3e-1
-//     error, float, moments4_unorm16_filtered_intensity: p99 3e-4, p99.9 3e-3, max 3e-2
-#ifndef GNOMON_STORAGE_MOMENTS4_H
-#define GNOMON_STORAGE_MOMENTS4_H
-
-GNOMON_WARNINGS_OFF namespace gnomon {
-
-/// The four channels of a 4 x 16 UNORM texel of a depth z, each in [0, 1].
-/// Domain: any z, limited to [-1, 1].
-/// NaN: the far plane, which shadows nothing.
-/// Source: Peters 2017, Eq. 3
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr channels4<Real> moments4_unorm16_encode(Real z)
-{
-    return theta4(moments4_from_depth(clamp_or_high(z, Real(-1), Real(1))));
-}
-
-/// The channels c, each with shift added.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr channels4<Real> channels4_shifted(channels4<Real> c, std::type_identity_t<Real> shift)
-{
-    c.c1 = c.c1 + shift;
-    c.c2 = c.c2 + shift;
-    c.c3 = c.c3 + shift;
-    c.c4 = c.c4 + shift;
-    return c;
-}
-
-/// The multiple of 2^-12 that is nearest to x. In [-1/2, 1/2] half floats hold every multiple.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real half_nearest(Real x) { return Real(0.000244140625) * nearest_integer(Real(4096) * x); }
-
-/// The four channels of a 4 x half texel of a depth z, each in [-1/2, 1/2]. They are half floats already, since devices
-/// may truncate what they store.
-/// Domain: any z, limited to [-1, 1].
-/// NaN: the far plane, which shadows nothing.
-/// Source: Peters 2017, Eq. 3
-template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr channels4<Real> moments4_half_encode(Real z)
-{
-    channels4 c = channels4_shifted(moments4_unorm16_encode(z), Real(-0.5));
-    c.c1 = half_nearest(c.c1);
-    c.c2 = half_nearest(c.c2);
-    c.c3 = half_nearest(c.c3);
-    c.c4 = half_nearest(c.c4);
-    return c;
-}
-
-/// The four channels of a 4 x float texel of a depth z.
-/// Domain: any z, limited to [-1, 1].
-/// NaN: the far plane, which shadows nothing.
-template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr channels4<Real> moments4_float_encode(Real z)
-{
-    return channels4_from_moments(moments4_from_depth(clamp_or_high(z, Real(-1), Real(1))));
-}
-
-inline constexpr double stored4_unorm16_weight = 3.6e-5;
-inline constexpr double stored4_unorm16_filtered_weight = 1.1e-4;
-inline constexpr double stored4_half_weight = 5.7e-4;
-inline constexpr double stored4_half_filtered_weight = 2.85e-3;
-inline constexpr double stored4_float_weight = 3e-7;
-inline constexpr double stored4_float_filtered_weight = 2e-6;
-inline constexpr double stored4_arithmetic_weight = 1e-6;
-
-/// The factored matrix of the channels of theta4, with a constant bias of weight alpha.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel4<Real> hankel4_from_theta(channels4<Real> c, std::type_identity_t<Real> alpha)
-{
-    return hankel4_from_moments(theta4_inverse_add_bias(c, literal<Real>(bias4_theta_b2), alpha));
-}
-
-/// The factored matrix of the channels of a 4 x float texel, with a constant bias of weight alpha.
-/// Domain: alpha from 3e-7 on.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel4<Real> hankel4_stored_as_float(channels4<Real> c, std::type_identity_t<Real> alpha)
-{
-    return hankel4_constant_bias(moments4_from_channels(c), literal<Real>(bias4_raw_b2), literal<Real>(bias4_raw_b4),
-                                 alpha);
-}
-
-/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for one rounding.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel4<Real> hankel4_from_unorm16(channels4<Real> c)
-{
-    return hankel4_from_theta(c, literal<Real>(stored4_unorm16_weight));
-}
-
-/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for a filter of two passes.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel4<Real> hankel4_from_unorm16_filtered(channels4<Real> c)
-{
-    return hankel4_from_theta(c, literal<Real>(stored4_unorm16_filtered_weight));
-}
-
-/// The factored matrix of the channels of a 4 x half texel, biased for one rounding.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel4<Real> hankel4_from_half(channels4<Real> c)
-{
-    return hankel4_from_theta(channels4_shifted(c, Real(0.5)), literal<Real>(stored4_half_weight));
-}
-
-/// The factored matrix of the channels of a 4 x half texel, biased for a filter of two passes.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel4<Real> hankel4_from_half_filtered(channels4<Real> c)
-{
-    return hankel4_from_theta(channels4_shifted(c, Real(0.5)), literal<Real>(stored4_half_filtered_weight));
-}
-
-/// The factored matrix of the channels of a 4 x float texel, biased for one rounding.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel4<Real> hankel4_from_float(channels4<Real> c)
-{
-    return hankel4_stored_as_float(c, literal<Real>(stored4_float_weight));
-}
-
-/// The factored matrix of the channels of a 4 x float texel, biased for a filter of two passes.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel4<Real> hankel4_from_float_filtered(channels4<Real> c)
-{
-    return hankel4_stored_as_float(c, literal<Real>(stored4_float_filtered_weight));
-}
-
-// The error of each channel that certificates allow for, and the weight of the bias of their nodes. Every weight is
-// honest. These leak least without specks: noise puts specks into contact shadows where a weight is too small.
-inline constexpr double certified4_unorm16_noise = 8e-6; // half a code, and the error of theta4 in float
-inline constexpr double certified4_unorm16_filtered_noise = 2.4e-5;
-inline constexpr double certified4_unorm16_weight = 3.6e-5;
-inline constexpr double certified4_unorm16_filtered_weight = 9e-5;
-inline constexpr double certified4_half_noise = 1.225e-4;         // 2^-13, and the error of theta4 in float
-inline constexpr double certified4_half_filtered_noise = 6.12e-4; // passes may truncate: 2^-12 each
-inline constexpr double certified4_half_weight = 6e-4;
-inline constexpr double certified4_half_filtered_weight = 2.3e-3;
-inline constexpr double certified4_float_noise = 3.3e-8;                        // 1.1 times 2^-25
-inline constexpr double certified4_float_filtered_noise = 2.384185791015625e-7; // 8 times: sums of nine taps round, too
-inline constexpr double certified4_float_weight = 3e-7;
-inline constexpr double certified4_float_filtered_weight = 1.5e-6;
-
-/// Shadow intensity at z_f from channels c of theta4, each off by at most noise, by nodes with a bias of weight alpha.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments4_theta_intensity(channels4<Real> c, std::type_identity_t<Real> noise,
-                                                      std::type_identity_t<Real> alpha, Real z_f)
-{
-    return certified4_theta_lower(hankel4_from_theta(c, alpha), c, noise, z_f);
-}
-
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments4_unorm16_intensity(channels4<Real> c, Real z_f)
-{
-    return moments4_theta_intensity(c, literal<Real>(certified4_unorm16_noise),
-                                    literal<Real>(certified4_unorm16_weight), z_f);
-}
-
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel, after a filter of two passes.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments4_unorm16_filtered_intensity(channels4<Real> c, Real z_f)
-{
-    return moments4_theta_intensity(c, literal<Real>(certified4_unorm16_filtered_noise),
-                                    literal<Real>(certified4_unorm16_filtered_weight), z_f);
-}
-
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments4_half_intensity(channels4<Real> c, Real z_f)
-{
-    return moments4_theta_intensity(channels4_shifted(c, Real(0.5)), literal<Real>(certified4_half_noise),
-                                    literal<Real>(certified4_half_weight), z_f);
-}
-
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel, after a filter of two passes.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments4_half_filtered_intensity(channels4<Real> c, Real z_f)
-{
-    return moments4_theta_intensity(channels4_shifted(c, Real(0.5)), literal<Real>(certified4_half_filtered_noise),
-                                    literal<Real>(certified4_half_filtered_weight), z_f);
-}
-
-/// Shadow intensity at z_f from the channels of a 4 x float texel, each off by at most its entry in noise, by nodes
-/// with a bias of weight alpha.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments4_float_intensity_with_noise(channels4<Real> c, moments4<Real> noise,
-                                                                 std::type_identity_t<Real> alpha, Real z_f)
-{
-    return certified4_constant_bias_lower(hankel4_stored_as_float(c, alpha), noise, literal<Real>(bias4_raw_b2),
-                                          literal<Real>(bias4_raw_b4), alpha, z_f);
-}
-
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments4_float_intensity(channels4<Real> c, Real z_f)
-{
-    return moments4_float_intensity_with_noise(
-        c, moments4_rounding(moments4_from_channels(c), literal<Real>(certified4_float_noise)),
-        literal<Real>(certified4_float_weight), z_f);
-}
-
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel, after a filter of two passes.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments4_float_filtered_intensity(channels4<Real> c, Real z_f)
-{
-    return moments4_float_intensity_with_noise(
-        c, moments4_rounding_filtered(moments4_from_channels(c), literal<Real>(certified4_float_filtered_noise)),
-        literal<Real>(certified4_float_filtered_weight), z_f);
-}
-
-GNOMON_WARNINGS_ON } // namespace gnomon
-
-#endif
-
 // storage/moments4_blended.h ------------------------------------------------------------------------------------------
 // Four moments from texels into which translucent fragments were blended (moments/translucency.h): what is allowed for
 // grows with the number of roundings that are left.
@@ -8685,7 +8790,8 @@ GNOMON_WARNINGS_OFF namespace gnomon {
 /// Domain: roundings >= 0, clamped.
 /// NaN: stays NaN.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel4<Real> hankel4_from_unorm16_blended(channels4<Real> c, Real roundings)
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_unorm16_blended(channels4<Real> c,
+                                                                   std::type_identity_t<Real> roundings)
 {
     return hankel4_from_theta(
         c, bias_weight_of_roundings(literal<Real>(stored4_unorm16_weight), blended_roundings(roundings, Real(1))));
@@ -8695,7 +8801,7 @@ GNOMON_INLINE constexpr hankel4<Real> hankel4_from_unorm16_blended(channels4<Rea
 /// Domain: roundings >= 0, clamped.
 /// NaN: stays NaN.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel4<Real> hankel4_from_half_blended(channels4<Real> c, Real roundings)
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_half_blended(channels4<Real> c, std::type_identity_t<Real> roundings)
 {
     Real n = blended_roundings(roundings, literal<Real>(blended_half_roundings));
     return hankel4_from_theta(channels4_shifted(c, Real(0.5)),
@@ -8706,7 +8812,8 @@ GNOMON_INLINE constexpr hankel4<Real> hankel4_from_half_blended(channels4<Real> 
 /// Domain: roundings >= 0, clamped.
 /// NaN: stays NaN.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel4<Real> hankel4_from_float_blended(channels4<Real> c, Real roundings)
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_float_blended(channels4<Real> c,
+                                                                 std::type_identity_t<Real> roundings)
 {
     Real n = blended_roundings(roundings, literal<Real>(blended_float_roundings));
     return hankel4_stored_as_float(c, bias_weight_of_roundings(literal<Real>(stored4_float_weight), n));
@@ -8716,7 +8823,8 @@ GNOMON_INLINE constexpr hankel4<Real> hankel4_from_float_blended(channels4<Real>
 /// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments4_unorm16_blended_intensity(channels4<Real> c, Real roundings, Real z_f)
+GNOMON_INLINE constexpr Real moments4_unorm16_blended_intensity(channels4<Real> c, std::type_identity_t<Real> roundings,
+                                                                Real z_f)
 {
     Real n = blended_roundings(roundings, Real(1));
     return moments4_theta_intensity(c, n * literal<Real>(certified4_unorm16_noise),
@@ -8727,7 +8835,8 @@ GNOMON_INLINE constexpr Real moments4_unorm16_blended_intensity(channels4<Real> 
 /// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments4_half_blended_intensity(channels4<Real> c, Real roundings, Real z_f)
+GNOMON_INLINE constexpr Real moments4_half_blended_intensity(channels4<Real> c, std::type_identity_t<Real> roundings,
+                                                             Real z_f)
 {
     Real n = blended_roundings(roundings, literal<Real>(blended_half_roundings));
     return moments4_theta_intensity(channels4_shifted(c, Real(0.5)), n * literal<Real>(certified4_half_noise),
@@ -8738,7 +8847,8 @@ GNOMON_INLINE constexpr Real moments4_half_blended_intensity(channels4<Real> c, 
 /// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments4_float_blended_intensity(channels4<Real> c, Real roundings, Real z_f)
+GNOMON_INLINE constexpr Real moments4_float_blended_intensity(channels4<Real> c, std::type_identity_t<Real> roundings,
+                                                              Real z_f)
 {
     Real n = blended_roundings(roundings, literal<Real>(blended_float_roundings));
     // Roundings of earlier states of the texel, in which a moment was larger, are no fraction of that moment.
@@ -9236,7 +9346,8 @@ GNOMON_WARNINGS_OFF namespace gnomon {
 /// Domain: roundings >= 0, clamped.
 /// NaN: stays NaN.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel6<Real> hankel6_from_unorm10_blended(channels6<Real> c, Real roundings)
+GNOMON_INLINE constexpr hankel6<Real> hankel6_from_unorm10_blended(channels6<Real> c,
+                                                                   std::type_identity_t<Real> roundings)
 {
     Real weight = bias_weight_of_roundings(literal<Real>(stored6_unorm10_weight),
                                            blended_roundings(roundings, Real(1)));
@@ -9249,7 +9360,8 @@ GNOMON_INLINE constexpr hankel6<Real> hankel6_from_unorm10_blended(channels6<Rea
 /// Domain: roundings >= 0, clamped.
 /// NaN: stays NaN.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel6<Real> hankel6_from_unorm16_blended(channels6<Real> c, Real roundings)
+GNOMON_INLINE constexpr hankel6<Real> hankel6_from_unorm16_blended(channels6<Real> c,
+                                                                   std::type_identity_t<Real> roundings)
 {
     Real weight = bias_weight_of_roundings(literal<Real>(stored6_unorm16_weight),
                                            blended_roundings(roundings, Real(1)));
@@ -9264,7 +9376,8 @@ inline constexpr double blended6_float_weights = 1.5;
 /// Domain: roundings >= 0, clamped.
 /// NaN: stays NaN.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel6<Real> hankel6_from_float_blended(channels6<Real> c, Real roundings)
+GNOMON_INLINE constexpr hankel6<Real> hankel6_from_float_blended(channels6<Real> c,
+                                                                 std::type_identity_t<Real> roundings)
 {
     Real n = blended_roundings(roundings, literal<Real>(blended6_float_weights));
     return hankel6_constant_bias(moments6_from_channels(c), literal<Real>(bias6_raw_b2), literal<Real>(bias6_raw_b4),
@@ -9276,7 +9389,8 @@ GNOMON_INLINE constexpr hankel6<Real> hankel6_from_float_blended(channels6<Real>
 /// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments6_unorm10_blended_intensity(channels6<Real> c, Real roundings, Real z_f)
+GNOMON_INLINE constexpr Real moments6_unorm10_blended_intensity(channels6<Real> c, std::type_identity_t<Real> roundings,
+                                                                Real z_f)
 {
     return hamburger6_lower(hankel6_from_unorm10_blended(c, roundings), z_f);
 }
@@ -9285,7 +9399,8 @@ GNOMON_INLINE constexpr Real moments6_unorm10_blended_intensity(channels6<Real> 
 /// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments6_unorm16_blended_intensity(channels6<Real> c, Real roundings, Real z_f)
+GNOMON_INLINE constexpr Real moments6_unorm16_blended_intensity(channels6<Real> c, std::type_identity_t<Real> roundings,
+                                                                Real z_f)
 {
     return hamburger6_lower(hankel6_from_unorm16_blended(c, roundings), z_f);
 }
@@ -9294,7 +9409,8 @@ GNOMON_INLINE constexpr Real moments6_unorm16_blended_intensity(channels6<Real> 
 /// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments6_float_blended_intensity(channels6<Real> c, Real roundings, Real z_f)
+GNOMON_INLINE constexpr Real moments6_float_blended_intensity(channels6<Real> c, std::type_identity_t<Real> roundings,
+                                                              Real z_f)
 {
     return hamburger6_lower(hankel6_from_float_blended(c, roundings), z_f);
 }

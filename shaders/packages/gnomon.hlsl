@@ -3216,7 +3216,8 @@ moments6 moments6_over(moments6 below, float z, float alpha)
 //
 // Opaque occluders are in a map of their own: their absorbance is infinite, and filtered with that of others it would
 // shadow all of the filter region. For the same reason a filter over absorbances is darker than the mean transmittance,
-// exp(-mean a) <= mean exp(-a), and near it only where absorbance varies little in the filter region.
+// exp(-mean a) <= mean exp(-a), and near it only where absorbance varies little in the filter region. Fragments behind
+// an opaque occluder are added, too: then both maps are independent, and their transmittances multiply.
 #ifndef GNOMON_MOMENTS_ABSORBANCE_H
 #define GNOMON_MOMENTS_ABSORBANCE_H
 
@@ -3291,11 +3292,10 @@ float absorbance_transmittance(float b0, float intensity)
     return gnomon_select(t < 1.0, t, 1.0);
 }
 
-/// The share of the absorbance in front of z_f by the bounds on it, less what the bias has put there.
-float gnomon_absorbance4_intensity(absorbance4 b, float alpha, float overestimation, float z_f)
+/// The share of the absorbance in front of z_f by the bounds on it, less what the bias of weight alpha has put there.
+float gnomon_absorbance4_intensity(hankel4 h, float alpha, float overestimation, float z_f)
 {
-    hamburger_bounds bounds = hamburger4_bounds(absorbance4_factor(b, alpha), z_f);
-    return (bounds_intensity(bounds, overestimation) - alpha) / (1.0 - alpha);
+    return (bounds_intensity(hamburger4_bounds(h, z_f), overestimation) - alpha) / (1.0 - alpha);
 }
 
 /// The transmittance in [0, 1] at depth z_f of all fragments in front of it. alpha is the weight of the constant
@@ -3306,7 +3306,9 @@ float gnomon_absorbance4_intensity(absorbance4 b, float alpha, float overestimat
 /// NaN: 1, lit; an overestimation of NaN counts as 0.
 float absorbance4_transmittance(absorbance4 b, float alpha, float overestimation, float z_f)
 {
-    return absorbance_transmittance(b.b0, gnomon_absorbance4_intensity(b, alpha, overestimation, z_f));
+    return absorbance_transmittance(b.b0,
+                                    gnomon_absorbance4_intensity(absorbance4_factor(b, alpha), alpha, overestimation,
+                                                                 z_f));
 }
 
 /// Shadow intensity in [0, 1] behind opaque occluders, which give the intensity `opaque`, and translucent ones of the
@@ -3374,7 +3376,8 @@ gnomon_coloured_transmittance coloured_absorbance4_transmittance(gnomon_coloured
     shared_depths.b2 = b.b2;
     shared_depths.b3 = b.b3;
     shared_depths.b4 = b.b4;
-    float intensity = gnomon_absorbance4_intensity(shared_depths, alpha, overestimation, z_f);
+    float intensity = gnomon_absorbance4_intensity(absorbance4_factor(shared_depths, alpha), alpha, overestimation,
+                                                   z_f);
     gnomon_coloured_transmittance t;
     t.red = absorbance_transmittance(b.red, intensity);
     t.green = absorbance_transmittance(b.green, intensity);
@@ -3497,6 +3500,8 @@ moments6 moments6_affine(moments6 b, depth_change change)
 struct channels1 { float c1; };
 
 struct channels2 { float c1, c2; };
+
+struct channels5 { float c1, c2, c3, c4, c5; };
 
 #endif
 
@@ -6769,6 +6774,303 @@ float summed_area_mean(float sum, float area, float scale) { return saturate_or_
 
 #endif
 
+// storage/moments4.h --------------------------------------------------------------------------------------------------
+// Four moments in a storage format: from a depth to the channels of a texel, and from filtered channels to a shadow.
+// Each format undoes its own transform and allows for what its storage rounds, so that nobody pairs the wrong ones.
+//
+//   format          bytes   transform   write                     read                         matrix for both bounds
+//   4 x 16 UNORM      8     theta4      moments4_unorm16_encode   moments4_unorm16_intensity   hankel4_from_unorm16
+//   4 x half          8     theta4 - .5 moments4_half_encode      moments4_half_intensity      hankel4_from_half
+//   4 x float        16     none        moments4_float_encode     moments4_float_intensity     hankel4_from_float
+//
+// Filters are linear: average channels as they are. X_intensity and hankel4_from_X allow for one rounding: of channels
+// that are stored once and filtered without further rounding, as 16-bit texels by a texture unit that returns floats.
+// Texels of floats round again there and need X_filtered. X_filtered_intensity and hankel4_from_X_filtered allow for a
+// pass along rows and one along columns, of nine taps at most, that store their results in the format again, half
+// floats truncated or rounded. Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at most
+//   X_intensity         gnomon_stored4_arithmetic_weight, the error of float arithmetic
+//   hankel4_from_X      the weight of the constant bias, roundings * delta / r (bias.h), and that of arithmetic
+// Tests search for the largest excess by hill climbing (tests/moments/honest_four.cpp). Certificates (certified4.h)
+// leak less than a constant bias in every format. Float arithmetic moves the nodes of a certificate, which costs or
+// gains a little leaking. Difference of an intensity in float from the intensity in double:
+//     error, float, moments4_float_intensity: p99 3e-5, p99.9 1e-4, max 5e-4
+//     error, float, moments4_float_filtered_intensity: p99 1e-5, p99.9 5e-5, max 2e-4
+//     error, float, moments4_half_intensity: p99 5e-5, p99.9 4e-4, max 2e-2
+//     error, float, moments4_half_filtered_intensity: p99 3e-5, p99.9 2e-4, max 2e-3
+//     error, float, moments4_unorm16_intensity: p99 6e-4, p99.9 7e-3, max 3e-1
+//     error, float, moments4_unorm16_filtered_intensity: p99 3e-4, p99.9 3e-3, max 3e-2
+#ifndef GNOMON_STORAGE_MOMENTS4_H
+#define GNOMON_STORAGE_MOMENTS4_H
+
+/// The four channels of a 4 x 16 UNORM texel of a depth z, each in [0, 1].
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Eq. 3
+channels4 moments4_unorm16_encode(float z) { return theta4(moments4_from_depth(clamp_or_high(z, -1.0, 1.0))); }
+
+/// The channels c, each with shift added.
+channels4 gnomon_channels4_shifted(channels4 c, float shift)
+{
+    c.c1 = c.c1 + shift;
+    c.c2 = c.c2 + shift;
+    c.c3 = c.c3 + shift;
+    c.c4 = c.c4 + shift;
+    return c;
+}
+
+/// The multiple of 2^-12 that is nearest to x. In [-1/2, 1/2] half floats hold every multiple.
+float gnomon_half_nearest(float x) { return 0.000244140625 * nearest_integer(4096.0 * x); }
+
+/// The four channels of a 4 x half texel of a depth z, each in [-1/2, 1/2]. They are half floats already, since devices
+/// may truncate what they store.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Eq. 3
+channels4 moments4_half_encode(float z)
+{
+    channels4 c = gnomon_channels4_shifted(moments4_unorm16_encode(z), -0.5);
+    c.c1 = gnomon_half_nearest(c.c1);
+    c.c2 = gnomon_half_nearest(c.c2);
+    c.c3 = gnomon_half_nearest(c.c3);
+    c.c4 = gnomon_half_nearest(c.c4);
+    return c;
+}
+
+/// The four channels of a 4 x float texel of a depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+channels4 moments4_float_encode(float z)
+{
+    return channels4_from_moments(moments4_from_depth(clamp_or_high(z, -1.0, 1.0)));
+}
+
+static const float gnomon_stored4_unorm16_weight = 3.6e-5;
+static const float gnomon_stored4_unorm16_filtered_weight = 1.1e-4;
+static const float gnomon_stored4_half_weight = 5.7e-4;
+static const float gnomon_stored4_half_filtered_weight = 2.85e-3;
+static const float gnomon_stored4_float_weight = 3e-7;
+static const float gnomon_stored4_float_filtered_weight = 2e-6;
+static const float gnomon_stored4_arithmetic_weight = 1e-6;
+
+/// The factored matrix of the channels of theta4, with a constant bias of weight alpha.
+hankel4 gnomon_hankel4_from_theta(channels4 c, float alpha)
+{
+    return hankel4_from_moments(theta4_inverse_add_bias(c, bias4_theta_b2, alpha));
+}
+
+/// The factored matrix of the channels of a 4 x float texel, with a constant bias of weight alpha.
+/// Domain: alpha from 3e-7 on.
+hankel4 gnomon_hankel4_stored_as_float(channels4 c, float alpha)
+{
+    return hankel4_constant_bias(moments4_from_channels(c), bias4_raw_b2, bias4_raw_b4, alpha);
+}
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for one rounding.
+hankel4 hankel4_from_unorm16(channels4 c) { return gnomon_hankel4_from_theta(c, gnomon_stored4_unorm16_weight); }
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for a filter of two passes.
+hankel4 hankel4_from_unorm16_filtered(channels4 c)
+{
+    return gnomon_hankel4_from_theta(c, gnomon_stored4_unorm16_filtered_weight);
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for one rounding.
+hankel4 hankel4_from_half(channels4 c)
+{
+    return gnomon_hankel4_from_theta(gnomon_channels4_shifted(c, 0.5), gnomon_stored4_half_weight);
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for a filter of two passes.
+hankel4 hankel4_from_half_filtered(channels4 c)
+{
+    return gnomon_hankel4_from_theta(gnomon_channels4_shifted(c, 0.5), gnomon_stored4_half_filtered_weight);
+}
+
+/// The factored matrix of the channels of a 4 x float texel, biased for one rounding.
+hankel4 hankel4_from_float(channels4 c) { return gnomon_hankel4_stored_as_float(c, gnomon_stored4_float_weight); }
+
+/// The factored matrix of the channels of a 4 x float texel, biased for a filter of two passes.
+hankel4 hankel4_from_float_filtered(channels4 c)
+{
+    return gnomon_hankel4_stored_as_float(c, gnomon_stored4_float_filtered_weight);
+}
+
+// The error of each channel that certificates allow for, and the weight of the bias of their nodes. Every weight is
+// honest. These leak least without specks: noise puts specks into contact shadows where a weight is too small.
+static const float certified4_unorm16_noise = 8e-6; // half a code, and the error of theta4 in float
+static const float certified4_unorm16_filtered_noise = 2.4e-5;
+static const float certified4_unorm16_weight = 3.6e-5;
+static const float certified4_unorm16_filtered_weight = 9e-5;
+static const float certified4_half_noise = 1.225e-4;         // 2^-13, and the error of theta4 in float
+static const float certified4_half_filtered_noise = 6.12e-4; // passes may truncate: 2^-12 each
+static const float certified4_half_weight = 6e-4;
+static const float certified4_half_filtered_weight = 2.3e-3;
+static const float certified4_float_noise = 3.3e-8;                        // 1.1 times 2^-25
+static const float certified4_float_filtered_noise = 2.384185791015625e-7; // 8 times: sums of nine taps round, too
+static const float certified4_float_weight = 3e-7;
+static const float certified4_float_filtered_weight = 1.5e-6;
+
+/// Shadow intensity at z_f from channels c of theta4, each off by at most noise, by nodes with a bias of weight alpha.
+float gnomon_moments4_theta_intensity(channels4 c, float noise, float alpha, float z_f)
+{
+    return certified4_theta_lower(gnomon_hankel4_from_theta(c, alpha), c, noise, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+float moments4_unorm16_intensity(channels4 c, float z_f)
+{
+    return gnomon_moments4_theta_intensity(c, certified4_unorm16_noise, certified4_unorm16_weight, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+float moments4_unorm16_filtered_intensity(channels4 c, float z_f)
+{
+    return gnomon_moments4_theta_intensity(c, certified4_unorm16_filtered_noise, certified4_unorm16_filtered_weight,
+                                           z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+float moments4_half_intensity(channels4 c, float z_f)
+{
+    return gnomon_moments4_theta_intensity(gnomon_channels4_shifted(c, 0.5), certified4_half_noise,
+                                           certified4_half_weight, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+float moments4_half_filtered_intensity(channels4 c, float z_f)
+{
+    return gnomon_moments4_theta_intensity(gnomon_channels4_shifted(c, 0.5), certified4_half_filtered_noise,
+                                           certified4_half_filtered_weight, z_f);
+}
+
+/// Shadow intensity at z_f from the channels of a 4 x float texel, each off by at most its entry in noise, by nodes
+/// with a bias of weight alpha.
+float gnomon_moments4_float_intensity_with_noise(channels4 c, moments4 noise, float alpha, float z_f)
+{
+    return certified4_constant_bias_lower(gnomon_hankel4_stored_as_float(c, alpha), noise, bias4_raw_b2, bias4_raw_b4,
+                                          alpha, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+float moments4_float_intensity(channels4 c, float z_f)
+{
+    return gnomon_moments4_float_intensity_with_noise(
+        c, moments4_rounding(moments4_from_channels(c), certified4_float_noise),
+        certified4_float_weight, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+float moments4_float_filtered_intensity(channels4 c, float z_f)
+{
+    return gnomon_moments4_float_intensity_with_noise(
+        c, moments4_rounding_filtered(moments4_from_channels(c), certified4_float_filtered_noise),
+        certified4_float_filtered_weight, z_f);
+}
+
+#endif
+
+// storage/absorbance4.h -----------------------------------------------------------------------------------------------
+// Absorbance moments in a storage format: from a fragment to the channels of a texel, which additive blending sums in
+// any order, and from filtered channels to a transmittance.
+//
+//   format      bytes   channels               write                      read
+//   5 x half     10     theta4 - .5, times b0  absorbance4_half_encode    absorbance4_half_transmittance
+//   5 x float    20     b1 to b4               absorbance4_float_encode   absorbance4_float_transmittance
+//
+// The fifth channel is b0; a texture of four channels and one of a single channel hold a texel. Maps are cleared to 0.
+//
+// additions is the number of fragments that were added to a texel, and of filter passes that store their results in the
+// format. Each rounds b0 and the channels in relation to a sum that never falls, so that errors in relation to b0 add
+// up to additions times those of one: 4 roundings of floats (bias.h), or 8 of half floats, which may be truncated. A
+// fragment's own channels, and the division by b0, take 12 roundings of floats. Beside the bounds b0 itself is off by
+// 2^-24 of its value for each addition, or 2^-10 for half floats, to the lit side where they are truncated.
+#ifndef GNOMON_STORAGE_ABSORBANCE4_H
+#define GNOMON_STORAGE_ABSORBANCE4_H
+
+/// The five channels of a 5 x float texel of a fragment at depth z of opacity alpha.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+channels5 absorbance4_float_encode(float z, float alpha)
+{
+    absorbance4 b = absorbance4_of_fragment(z, alpha);
+    channels5 c;
+    c.c1 = b.b1;
+    c.c2 = b.b2;
+    c.c3 = b.b3;
+    c.c4 = b.b4;
+    c.c5 = b.b0;
+    return c;
+}
+
+/// The five channels of a 5 x half texel of a fragment at depth z of opacity alpha.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+channels5 absorbance4_half_encode(float z, float alpha)
+{
+    float a = absorbance_of_opacity(alpha);
+    channels4 s = gnomon_channels4_shifted(moments4_unorm16_encode(z), -0.5);
+    channels5 c;
+    c.c1 = a * s.c1;
+    c.c2 = a * s.c2;
+    c.c3 = a * s.c3;
+    c.c4 = a * s.c4;
+    c.c5 = a;
+    return c;
+}
+
+static const float absorbance4_half_additions = 8.0;
+static const float absorbance4_half_least = 1.220703125e-4; // 2^-13: below, half floats are denormal
+static const float absorbance4_float_additions = 4.0;
+static const float absorbance4_float_more = 3.0; // 12 / 4
+
+/// The transmittance in [0, 1] at depth z_f from the channels of a 5 x float texel. overestimation is that of
+/// bounds_intensity: 1 for surfaces, 1/2 for receivers among the fragments.
+/// Domain: additions >= 0, clamped; overestimation in [0, 1], clamped; any z_f, limited to [-1, 1].
+/// NaN: 1, lit; an overestimation of NaN counts as 0.
+float absorbance4_float_transmittance(channels5 c, float additions, float overestimation, float z_f)
+{
+    absorbance4 b;
+    b.b0 = c.c5;
+    b.b1 = c.c1;
+    b.b2 = c.c2;
+    b.b3 = c.c3;
+    b.b4 = c.c4;
+    float n = gnomon_blended_roundings(additions + absorbance4_float_more, absorbance4_float_additions);
+    return absorbance4_transmittance(b, bias_weight_of_roundings(gnomon_stored4_float_weight, n), overestimation, z_f);
+}
+
+/// The transmittance in [0, 1] at depth z_f from the channels of a 5 x half texel. overestimation is that of
+/// bounds_intensity: 1 for surfaces, 1/2 for receivers among the fragments.
+/// Domain: additions >= 0, clamped; overestimation in [0, 1], clamped; any z_f, limited to [-1, 1].
+/// NaN: 1, lit; an overestimation of NaN counts as 0.
+float absorbance4_half_transmittance(channels5 c, float additions, float overestimation, float z_f)
+{
+    float scale = 1.0 / gnomon_max(absorbance4_half_least, c.c5);
+    channels4 s;
+    s.c1 = c.c1 * scale;
+    s.c2 = c.c2 * scale;
+    s.c3 = c.c3 * scale;
+    s.c4 = c.c4 * scale;
+    float weight = bias_weight_of_roundings(gnomon_stored4_half_weight,
+                                            gnomon_blended_roundings(additions, absorbance4_half_additions));
+    hankel4 h = gnomon_hankel4_from_theta(gnomon_channels4_shifted(s, 0.5), weight);
+    return absorbance_transmittance(c.c5, gnomon_absorbance4_intensity(h, weight, overestimation, z_f));
+}
+
+#endif
+
 // storage/convolution.h -----------------------------------------------------------------------------------------------
 // Convolution shadow maps in a storage format: from a depth to the channels of a texel, and from filtered channels to a
 // shadow, with the settings of the format.
@@ -7105,213 +7407,6 @@ float layered_variance_unorm16_intensity(channels8 c, float z_f)
     state = gnomon_layered_variance_unorm16_add(state, c.t2.c1, c.t2.c2, 0.25);
     state = gnomon_layered_variance_unorm16_add(state, c.t2.c3, c.t2.c4, 0.75);
     return layered_variance_end(state);
-}
-
-#endif
-
-// storage/moments4.h --------------------------------------------------------------------------------------------------
-// Four moments in a storage format: from a depth to the channels of a texel, and from filtered channels to a shadow.
-// Each format undoes its own transform and allows for what its storage rounds, so that nobody pairs the wrong ones.
-//
-//   format          bytes   transform   write                     read                         matrix for both bounds
-//   4 x 16 UNORM      8     theta4      moments4_unorm16_encode   moments4_unorm16_intensity   hankel4_from_unorm16
-//   4 x half          8     theta4 - .5 moments4_half_encode      moments4_half_intensity      hankel4_from_half
-//   4 x float        16     none        moments4_float_encode     moments4_float_intensity     hankel4_from_float
-//
-// Filters are linear: average channels as they are. X_intensity and hankel4_from_X allow for one rounding: of channels
-// that are stored once and filtered without further rounding, as 16-bit texels by a texture unit that returns floats.
-// Texels of floats round again there and need X_filtered. X_filtered_intensity and hankel4_from_X_filtered allow for a
-// pass along rows and one along columns, of nine taps at most, that store their results in the format again, half
-// floats truncated or rounded. Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at most
-//   X_intensity         gnomon_stored4_arithmetic_weight, the error of float arithmetic
-//   hankel4_from_X      the weight of the constant bias, roundings * delta / r (bias.h), and that of arithmetic
-// Tests search for the largest excess by hill climbing (tests/moments/honest_four.cpp). Certificates (certified4.h)
-// leak less than a constant bias in every format. Float arithmetic moves the nodes of a certificate, which costs or
-// gains a little leaking. Difference of an intensity in float from the intensity in double:
-//     error, float, moments4_float_intensity: p99 3e-5, p99.9 1e-4, max 5e-4
-//     error, float, moments4_float_filtered_intensity: p99 1e-5, p99.9 5e-5, max 2e-4
-//     error, float, moments4_half_intensity: p99 5e-5, p99.9 4e-4, max 2e-2
-//     error, float, moments4_half_filtered_intensity: p99 3e-5, p99.9 2e-4, max 2e-3
-//     error, float, moments4_unorm16_intensity: p99 6e-4, p99.9 7e-3, max 3e-1
-//     error, float, moments4_unorm16_filtered_intensity: p99 3e-4, p99.9 3e-3, max 3e-2
-#ifndef GNOMON_STORAGE_MOMENTS4_H
-#define GNOMON_STORAGE_MOMENTS4_H
-
-/// The four channels of a 4 x 16 UNORM texel of a depth z, each in [0, 1].
-/// Domain: any z, limited to [-1, 1].
-/// NaN: the far plane, which shadows nothing.
-/// Source: Peters 2017, Eq. 3
-channels4 moments4_unorm16_encode(float z) { return theta4(moments4_from_depth(clamp_or_high(z, -1.0, 1.0))); }
-
-/// The channels c, each with shift added.
-channels4 gnomon_channels4_shifted(channels4 c, float shift)
-{
-    c.c1 = c.c1 + shift;
-    c.c2 = c.c2 + shift;
-    c.c3 = c.c3 + shift;
-    c.c4 = c.c4 + shift;
-    return c;
-}
-
-/// The multiple of 2^-12 that is nearest to x. In [-1/2, 1/2] half floats hold every multiple.
-float gnomon_half_nearest(float x) { return 0.000244140625 * nearest_integer(4096.0 * x); }
-
-/// The four channels of a 4 x half texel of a depth z, each in [-1/2, 1/2]. They are half floats already, since devices
-/// may truncate what they store.
-/// Domain: any z, limited to [-1, 1].
-/// NaN: the far plane, which shadows nothing.
-/// Source: Peters 2017, Eq. 3
-channels4 moments4_half_encode(float z)
-{
-    channels4 c = gnomon_channels4_shifted(moments4_unorm16_encode(z), -0.5);
-    c.c1 = gnomon_half_nearest(c.c1);
-    c.c2 = gnomon_half_nearest(c.c2);
-    c.c3 = gnomon_half_nearest(c.c3);
-    c.c4 = gnomon_half_nearest(c.c4);
-    return c;
-}
-
-/// The four channels of a 4 x float texel of a depth z.
-/// Domain: any z, limited to [-1, 1].
-/// NaN: the far plane, which shadows nothing.
-channels4 moments4_float_encode(float z)
-{
-    return channels4_from_moments(moments4_from_depth(clamp_or_high(z, -1.0, 1.0)));
-}
-
-static const float gnomon_stored4_unorm16_weight = 3.6e-5;
-static const float gnomon_stored4_unorm16_filtered_weight = 1.1e-4;
-static const float gnomon_stored4_half_weight = 5.7e-4;
-static const float gnomon_stored4_half_filtered_weight = 2.85e-3;
-static const float gnomon_stored4_float_weight = 3e-7;
-static const float gnomon_stored4_float_filtered_weight = 2e-6;
-static const float gnomon_stored4_arithmetic_weight = 1e-6;
-
-/// The factored matrix of the channels of theta4, with a constant bias of weight alpha.
-hankel4 gnomon_hankel4_from_theta(channels4 c, float alpha)
-{
-    return hankel4_from_moments(theta4_inverse_add_bias(c, bias4_theta_b2, alpha));
-}
-
-/// The factored matrix of the channels of a 4 x float texel, with a constant bias of weight alpha.
-/// Domain: alpha from 3e-7 on.
-hankel4 gnomon_hankel4_stored_as_float(channels4 c, float alpha)
-{
-    return hankel4_constant_bias(moments4_from_channels(c), bias4_raw_b2, bias4_raw_b4, alpha);
-}
-
-/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for one rounding.
-hankel4 hankel4_from_unorm16(channels4 c) { return gnomon_hankel4_from_theta(c, gnomon_stored4_unorm16_weight); }
-
-/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for a filter of two passes.
-hankel4 hankel4_from_unorm16_filtered(channels4 c)
-{
-    return gnomon_hankel4_from_theta(c, gnomon_stored4_unorm16_filtered_weight);
-}
-
-/// The factored matrix of the channels of a 4 x half texel, biased for one rounding.
-hankel4 hankel4_from_half(channels4 c)
-{
-    return gnomon_hankel4_from_theta(gnomon_channels4_shifted(c, 0.5), gnomon_stored4_half_weight);
-}
-
-/// The factored matrix of the channels of a 4 x half texel, biased for a filter of two passes.
-hankel4 hankel4_from_half_filtered(channels4 c)
-{
-    return gnomon_hankel4_from_theta(gnomon_channels4_shifted(c, 0.5), gnomon_stored4_half_filtered_weight);
-}
-
-/// The factored matrix of the channels of a 4 x float texel, biased for one rounding.
-hankel4 hankel4_from_float(channels4 c) { return gnomon_hankel4_stored_as_float(c, gnomon_stored4_float_weight); }
-
-/// The factored matrix of the channels of a 4 x float texel, biased for a filter of two passes.
-hankel4 hankel4_from_float_filtered(channels4 c)
-{
-    return gnomon_hankel4_stored_as_float(c, gnomon_stored4_float_filtered_weight);
-}
-
-// The error of each channel that certificates allow for, and the weight of the bias of their nodes. Every weight is
-// honest. These leak least without specks: noise puts specks into contact shadows where a weight is too small.
-static const float certified4_unorm16_noise = 8e-6; // half a code, and the error of theta4 in float
-static const float certified4_unorm16_filtered_noise = 2.4e-5;
-static const float certified4_unorm16_weight = 3.6e-5;
-static const float certified4_unorm16_filtered_weight = 9e-5;
-static const float certified4_half_noise = 1.225e-4;         // 2^-13, and the error of theta4 in float
-static const float certified4_half_filtered_noise = 6.12e-4; // passes may truncate: 2^-12 each
-static const float certified4_half_weight = 6e-4;
-static const float certified4_half_filtered_weight = 2.3e-3;
-static const float certified4_float_noise = 3.3e-8;                        // 1.1 times 2^-25
-static const float certified4_float_filtered_noise = 2.384185791015625e-7; // 8 times: sums of nine taps round, too
-static const float certified4_float_weight = 3e-7;
-static const float certified4_float_filtered_weight = 1.5e-6;
-
-/// Shadow intensity at z_f from channels c of theta4, each off by at most noise, by nodes with a bias of weight alpha.
-float gnomon_moments4_theta_intensity(channels4 c, float noise, float alpha, float z_f)
-{
-    return certified4_theta_lower(gnomon_hankel4_from_theta(c, alpha), c, noise, z_f);
-}
-
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-float moments4_unorm16_intensity(channels4 c, float z_f)
-{
-    return gnomon_moments4_theta_intensity(c, certified4_unorm16_noise, certified4_unorm16_weight, z_f);
-}
-
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel, after a filter of two passes.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-float moments4_unorm16_filtered_intensity(channels4 c, float z_f)
-{
-    return gnomon_moments4_theta_intensity(c, certified4_unorm16_filtered_noise, certified4_unorm16_filtered_weight,
-                                           z_f);
-}
-
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-float moments4_half_intensity(channels4 c, float z_f)
-{
-    return gnomon_moments4_theta_intensity(gnomon_channels4_shifted(c, 0.5), certified4_half_noise,
-                                           certified4_half_weight, z_f);
-}
-
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel, after a filter of two passes.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-float moments4_half_filtered_intensity(channels4 c, float z_f)
-{
-    return gnomon_moments4_theta_intensity(gnomon_channels4_shifted(c, 0.5), certified4_half_filtered_noise,
-                                           certified4_half_filtered_weight, z_f);
-}
-
-/// Shadow intensity at z_f from the channels of a 4 x float texel, each off by at most its entry in noise, by nodes
-/// with a bias of weight alpha.
-float gnomon_moments4_float_intensity_with_noise(channels4 c, moments4 noise, float alpha, float z_f)
-{
-    return certified4_constant_bias_lower(gnomon_hankel4_stored_as_float(c, alpha), noise, bias4_raw_b2, bias4_raw_b4,
-                                          alpha, z_f);
-}
-
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-float moments4_float_intensity(channels4 c, float z_f)
-{
-    return gnomon_moments4_float_intensity_with_noise(
-        c, moments4_rounding(moments4_from_channels(c), certified4_float_noise),
-        certified4_float_weight, z_f);
-}
-
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel, after a filter of two passes.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-float moments4_float_filtered_intensity(channels4 c, float z_f)
-{
-    return gnomon_moments4_float_intensity_with_noise(
-        c, moments4_rounding_filtered(moments4_from_channels(c), certified4_float_filtered_noise),
-        certified4_float_filtered_weight, z_f);
 }
 
 #endif

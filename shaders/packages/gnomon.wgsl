@@ -3088,7 +3088,8 @@ fn moments6_over(below: moments6_, z: f32, alpha: f32) -> moments6_
 //
 // Opaque occluders are in a map of their own: their absorbance is infinite, and filtered with that of others it would
 // shadow all of the filter region. For the same reason a filter over absorbances is darker than the mean transmittance,
-// exp(-mean a) <= mean exp(-a), and near it only where absorbance varies little in the filter region.
+// exp(-mean a) <= mean exp(-a), and near it only where absorbance varies little in the filter region. Fragments behind
+// an opaque occluder are added, too: then both maps are independent, and their transmittances multiply.
 
 /// Sums of absorbance times powers of depth, b0 to b4.
 struct absorbance4_ { b0_: f32, b1_: f32, b2_: f32, b3_: f32, b4_: f32 }
@@ -3162,11 +3163,10 @@ fn absorbance_transmittance(b0: f32, intensity: f32) -> f32
     return gnomon_select(t < 1.0, t, 1.0);
 }
 
-/// The share of the absorbance in front of z_f by the bounds on it, less what the bias has put there.
-fn gnomon_absorbance4_intensity(b: absorbance4_, alpha: f32, overestimation: f32, z_f: f32) -> f32
+/// The share of the absorbance in front of z_f by the bounds on it, less what the bias of weight alpha has put there.
+fn gnomon_absorbance4_intensity(h: hankel4_, alpha: f32, overestimation: f32, z_f: f32) -> f32
 {
-    let bounds = hamburger4_bounds(absorbance4_factor(b, alpha), z_f);
-    return (bounds_intensity(bounds, overestimation) - alpha) / (1.0 - alpha);
+    return (bounds_intensity(hamburger4_bounds(h, z_f), overestimation) - alpha) / (1.0 - alpha);
 }
 
 /// The transmittance in [0, 1] at depth z_f of all fragments in front of it. alpha is the weight of the constant
@@ -3177,7 +3177,9 @@ fn gnomon_absorbance4_intensity(b: absorbance4_, alpha: f32, overestimation: f32
 /// NaN: 1, lit; an overestimation of NaN counts as 0.
 fn absorbance4_transmittance(b: absorbance4_, alpha: f32, overestimation: f32, z_f: f32) -> f32
 {
-    return absorbance_transmittance(b.b0_, gnomon_absorbance4_intensity(b, alpha, overestimation, z_f));
+    return absorbance_transmittance(b.b0_,
+                                    gnomon_absorbance4_intensity(absorbance4_factor(b, alpha), alpha, overestimation,
+                                                                 z_f));
 }
 
 /// Shadow intensity in [0, 1] behind opaque occluders, which give the intensity `opaque`, and translucent ones of the
@@ -3247,7 +3249,7 @@ fn coloured_absorbance4_transmittance(b: gnomon_coloured_absorbance4_, alpha: f3
     shared_depths.b2_ = b.b2_;
     shared_depths.b3_ = b.b3_;
     shared_depths.b4_ = b.b4_;
-    let intensity = gnomon_absorbance4_intensity(shared_depths, alpha, overestimation, z_f);
+    let intensity = gnomon_absorbance4_intensity(absorbance4_factor(shared_depths, alpha), alpha, overestimation, z_f);
     var t: gnomon_coloured_transmittance;
     t.red = absorbance_transmittance(b.red, intensity);
     t.green = absorbance_transmittance(b.green, intensity);
@@ -3354,6 +3356,8 @@ fn moments6_affine(b: moments6_, change: depth_change) -> moments6_
 struct channels1_ { c1_: f32 }
 
 struct channels2_ { c1_: f32, c2_: f32 }
+
+struct channels5_ { c1_: f32, c2_: f32, c3_: f32, c4_: f32, c5_: f32 }
 
 // moments/channels.h, four moments ------------------------------------------------------------------------------------
 
@@ -6548,6 +6552,298 @@ fn summed_area_width(parts: summed_area_parts) -> f32
 /// Error: relative, 2 2^-p.
 fn summed_area_mean(sum: f32, area: f32, scale: f32) -> f32 { return saturate_or_zero(sum / (area * scale)); }
 
+// storage/moments4.h --------------------------------------------------------------------------------------------------
+// Four moments in a storage format: from a depth to the channels of a texel, and from filtered channels to a shadow.
+// Each format undoes its own transform and allows for what its storage rounds, so that nobody pairs the wrong ones.
+//
+//   format          bytes   transform   write                     read                         matrix for both bounds
+//   4 x 16 UNORM      8     theta4_      moments4_unorm16_encode   moments4_unorm16_intensity   hankel4_from_unorm16_
+//   4 x half          8     theta4_ - .5 moments4_half_encode      moments4_half_intensity      hankel4_from_half
+//   4 x float        16     none        moments4_float_encode     moments4_float_intensity     hankel4_from_float
+//
+// Filters are linear: average channels as they are. X_intensity and hankel4_from_X allow for one rounding: of channels
+// that are stored once and filtered without further rounding, as 16-bit texels by a texture unit that returns floats.
+// Texels of floats round again there and need X_filtered. X_filtered_intensity and hankel4_from_X_filtered allow for a
+// pass along rows and one along columns, of nine taps at most, that store their results in the format again, half
+// floats truncated or rounded. Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at most
+//   X_intensity         gnomon_stored4_arithmetic_weight, the error of float arithmetic
+//   hankel4_from_X      the weight of the constant bias, roundings * delta / r (bias.h), and that of arithmetic
+// Tests search for the largest excess by hill climbing (tests/moments/honest_four.cpp). Certificates (certified4.h)
+// leak less than a constant bias in every format. Float arithmetic moves the nodes of a certificate, which costs or
+// gains a little leaking. Difference of an intensity in float from the intensity in double:
+//     error, float, moments4_float_intensity: p99 3e-5, p99.9 1e-4, max 5e-4
+//     error, float, moments4_float_filtered_intensity: p99 1e-5, p99.9 5e-5, max 2e-4
+//     error, float, moments4_half_intensity: p99 5e-5, p99.9 4e-4, max 2e-2
+//     error, float, moments4_half_filtered_intensity: p99 3e-5, p99.9 2e-4, max 2e-3
+//     error, float, moments4_unorm16_intensity: p99 6e-4, p99.9 7e-3, max 3e-1
+//     error, float, moments4_unorm16_filtered_intensity: p99 3e-4, p99.9 3e-3, max 3e-2
+
+/// The four channels of a 4 x 16 UNORM texel of a depth z, each in [0, 1].
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Eq. 3
+fn moments4_unorm16_encode(z: f32) -> channels4_ { return theta4_(moments4_from_depth(clamp_or_high(z, -1.0, 1.0))); }
+
+/// The channels c, each with shift added.
+fn gnomon_channels4_shifted(given_c: channels4_, shift: f32) -> channels4_
+{
+    var c = given_c;
+    c.c1_ = c.c1_ + shift;
+    c.c2_ = c.c2_ + shift;
+    c.c3_ = c.c3_ + shift;
+    c.c4_ = c.c4_ + shift;
+    return c;
+}
+
+/// The multiple of 2^-12 that is nearest to x. In [-1/2, 1/2] half floats hold every multiple.
+fn gnomon_half_nearest(x: f32) -> f32 { return 0.000244140625 * nearest_integer(4096.0 * x); }
+
+/// The four channels of a 4 x half texel of a depth z, each in [-1/2, 1/2]. They are half floats already, since devices
+/// may truncate what they store.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Eq. 3
+fn moments4_half_encode(z: f32) -> channels4_
+{
+    var c = gnomon_channels4_shifted(moments4_unorm16_encode(z), -0.5);
+    c.c1_ = gnomon_half_nearest(c.c1_);
+    c.c2_ = gnomon_half_nearest(c.c2_);
+    c.c3_ = gnomon_half_nearest(c.c3_);
+    c.c4_ = gnomon_half_nearest(c.c4_);
+    return c;
+}
+
+/// The four channels of a 4 x float texel of a depth z.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+fn moments4_float_encode(z: f32) -> channels4_
+{
+    return channels4_from_moments(moments4_from_depth(clamp_or_high(z, -1.0, 1.0)));
+}
+
+const gnomon_stored4_unorm16_weight: f32 = 0x1.2dfd6ap-15; // 3.6e-5
+const gnomon_stored4_unorm16_filtered_weight: f32 = 0x1.cd5f9ap-14; // 1.1e-4
+const gnomon_stored4_half_weight: f32 = 0x1.2ad81ap-11; // 5.7e-4
+const gnomon_stored4_half_filtered_weight: f32 = 0x1.758e22p-9; // 2.85e-3
+const gnomon_stored4_float_weight: f32 = 0x1.421f6p-22; // 3e-7
+const gnomon_stored4_float_filtered_weight: f32 = 0x1.0c6f7ap-19; // 2e-6
+const gnomon_stored4_arithmetic_weight: f32 = 0x1.0c6f7ap-20; // 1e-6
+
+/// The factored matrix of the channels of theta4_, with a constant bias of weight alpha.
+fn gnomon_hankel4_from_theta(c: channels4_, alpha: f32) -> hankel4_
+{
+    return hankel4_from_moments(theta4_inverse_add_bias(c, bias4_theta_b2_, alpha));
+}
+
+/// The factored matrix of the channels of a 4 x float texel, with a constant bias of weight alpha.
+/// Domain: alpha from 3e-7 on.
+fn gnomon_hankel4_stored_as_float(c: channels4_, alpha: f32) -> hankel4_
+{
+    return hankel4_constant_bias(moments4_from_channels(c), bias4_raw_b2_, bias4_raw_b4_, alpha);
+}
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for one rounding.
+fn hankel4_from_unorm16_(c: channels4_) -> hankel4_ { return gnomon_hankel4_from_theta(c,
+                                                                                       gnomon_stored4_unorm16_weight); }
+
+/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for a filter of two passes.
+fn hankel4_from_unorm16_filtered(c: channels4_) -> hankel4_
+{
+    return gnomon_hankel4_from_theta(c, gnomon_stored4_unorm16_filtered_weight);
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for one rounding.
+fn hankel4_from_half(c: channels4_) -> hankel4_
+{
+    return gnomon_hankel4_from_theta(gnomon_channels4_shifted(c, 0.5), gnomon_stored4_half_weight);
+}
+
+/// The factored matrix of the channels of a 4 x half texel, biased for a filter of two passes.
+fn hankel4_from_half_filtered(c: channels4_) -> hankel4_
+{
+    return gnomon_hankel4_from_theta(gnomon_channels4_shifted(c, 0.5), gnomon_stored4_half_filtered_weight);
+}
+
+/// The factored matrix of the channels of a 4 x float texel, biased for one rounding.
+fn hankel4_from_float(c: channels4_) -> hankel4_ { return gnomon_hankel4_stored_as_float(c,
+                                                                                         gnomon_stored4_float_weight); }
+
+/// The factored matrix of the channels of a 4 x float texel, biased for a filter of two passes.
+fn hankel4_from_float_filtered(c: channels4_) -> hankel4_
+{
+    return gnomon_hankel4_stored_as_float(c, gnomon_stored4_float_filtered_weight);
+}
+
+// The error of each channel that certificates allow for, and the weight of the bias of their nodes. Every weight is
+// honest. These leak least without specks: noise puts specks into contact shadows where a weight is too small.
+const certified4_unorm16_noise: f32 = 0x1.0c6f7ap-17; // 8e-6, half a code, and the error of theta4_ in float
+const certified4_unorm16_filtered_noise: f32 = 0x1.92a738p-16; // 2.4e-5
+const certified4_unorm16_weight: f32 = 0x1.2dfd6ap-15; // 3.6e-5
+const certified4_unorm16_filtered_weight: f32 = 0x1.797cc4p-14; // 9e-5
+const certified4_half_noise: f32 = 0x1.00e6bp-13; // 1.225e-4, 2^-13, and the error of theta4_ in float
+const certified4_half_filtered_noise: f32 = 0x1.40dd4p-11; // 6.12e-4, passes may truncate: 2^-12 each
+const certified4_half_weight: f32 = 0x1.3a92a4p-11; // 6e-4
+const certified4_half_filtered_weight: f32 = 0x1.2d7732p-9; // 2.3e-3
+const certified4_float_noise: f32 = 0x1.1b77c4p-25; // 3.3e-8, 1.1 times 2^-25
+const certified4_float_filtered_noise: f32 = 2.384185791015625e-7; // 8 times: sums of nine taps round, too
+const certified4_float_weight: f32 = 0x1.421f6p-22; // 3e-7
+const certified4_float_filtered_weight: f32 = 0x1.92a738p-20; // 1.5e-6
+
+/// Shadow intensity at z_f from channels c of theta4_, each off by at most noise, by nodes with a bias of weight alpha.
+fn gnomon_moments4_theta_intensity(c: channels4_, noise: f32, alpha: f32, z_f: f32) -> f32
+{
+    return certified4_theta_lower(gnomon_hankel4_from_theta(c, alpha), c, noise, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments4_unorm16_intensity(c: channels4_, z_f: f32) -> f32
+{
+    return gnomon_moments4_theta_intensity(c, certified4_unorm16_noise, certified4_unorm16_weight, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments4_unorm16_filtered_intensity(c: channels4_, z_f: f32) -> f32
+{
+    return gnomon_moments4_theta_intensity(c, certified4_unorm16_filtered_noise, certified4_unorm16_filtered_weight,
+                                           z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments4_half_intensity(c: channels4_, z_f: f32) -> f32
+{
+    return gnomon_moments4_theta_intensity(gnomon_channels4_shifted(c, 0.5), certified4_half_noise,
+                                           certified4_half_weight, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments4_half_filtered_intensity(c: channels4_, z_f: f32) -> f32
+{
+    return gnomon_moments4_theta_intensity(gnomon_channels4_shifted(c, 0.5), certified4_half_filtered_noise,
+                                           certified4_half_filtered_weight, z_f);
+}
+
+/// Shadow intensity at z_f from the channels of a 4 x float texel, each off by at most its entry in noise, by nodes
+/// with a bias of weight alpha.
+fn gnomon_moments4_float_intensity_with_noise(c: channels4_, noise: moments4_, alpha: f32, z_f: f32) -> f32
+{
+    return certified4_constant_bias_lower(gnomon_hankel4_stored_as_float(c, alpha), noise, bias4_raw_b2_, bias4_raw_b4_,
+                                          alpha, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments4_float_intensity(c: channels4_, z_f: f32) -> f32
+{
+    return gnomon_moments4_float_intensity_with_noise(
+        c, moments4_rounding(moments4_from_channels(c), certified4_float_noise),
+        certified4_float_weight, z_f);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel, after a filter of two passes.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+fn moments4_float_filtered_intensity(c: channels4_, z_f: f32) -> f32
+{
+    return gnomon_moments4_float_intensity_with_noise(
+        c, moments4_rounding_filtered(moments4_from_channels(c), certified4_float_filtered_noise),
+        certified4_float_filtered_weight, z_f);
+}
+
+// storage/absorbance4.h -----------------------------------------------------------------------------------------------
+// Absorbance moments in a storage format: from a fragment to the channels of a texel, which additive blending sums in
+// any order, and from filtered channels to a transmittance.
+//
+//   format      bytes   channels               write                      read
+//   5 x half     10     theta4_ - .5, times b0  absorbance4_half_encode    absorbance4_half_transmittance
+//   5 x float    20     b1 to b4               absorbance4_float_encode   absorbance4_float_transmittance
+//
+// The fifth channel is b0; a texture of four channels and one of a single channel hold a texel. Maps are cleared to 0.
+//
+// additions is the number of fragments that were added to a texel, and of filter passes that store their results in the
+// format. Each rounds b0 and the channels in relation to a sum that never falls, so that errors in relation to b0 add
+// up to additions times those of one: 4 roundings of floats (bias.h), or 8 of half floats, which may be truncated. A
+// fragment's own channels, and the division by b0, take 12 roundings of floats. Beside the bounds b0 itself is off by
+// 2^-24 of its value for each addition, or 2^-10 for half floats, to the lit side where they are truncated.
+
+/// The five channels of a 5 x float texel of a fragment at depth z of opacity alpha.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+fn absorbance4_float_encode(z: f32, alpha: f32) -> channels5_
+{
+    let b = absorbance4_of_fragment(z, alpha);
+    var c: channels5_;
+    c.c1_ = b.b1_;
+    c.c2_ = b.b2_;
+    c.c3_ = b.b3_;
+    c.c4_ = b.b4_;
+    c.c5_ = b.b0_;
+    return c;
+}
+
+/// The five channels of a 5 x half texel of a fragment at depth z of opacity alpha.
+/// Domain: any z, limited to [-1, 1]; any alpha, clamped to [0, 1].
+/// NaN: for z the far plane, which shadows nothing; an alpha of NaN counts as 0, no fragment.
+fn absorbance4_half_encode(z: f32, alpha: f32) -> channels5_
+{
+    let a = absorbance_of_opacity(alpha);
+    let s = gnomon_channels4_shifted(moments4_unorm16_encode(z), -0.5);
+    var c: channels5_;
+    c.c1_ = a * s.c1_;
+    c.c2_ = a * s.c2_;
+    c.c3_ = a * s.c3_;
+    c.c4_ = a * s.c4_;
+    c.c5_ = a;
+    return c;
+}
+
+const absorbance4_half_additions: f32 = 8.0;
+const absorbance4_half_least: f32 = 1.220703125e-4; // 2^-13: below, half floats are denormal
+const absorbance4_float_additions: f32 = 4.0;
+const absorbance4_float_more: f32 = 3.0; // 12 / 4
+
+/// The transmittance in [0, 1] at depth z_f from the channels of a 5 x float texel. overestimation is that of
+/// bounds_intensity: 1 for surfaces, 1/2 for receivers among the fragments.
+/// Domain: additions >= 0, clamped; overestimation in [0, 1], clamped; any z_f, limited to [-1, 1].
+/// NaN: 1, lit; an overestimation of NaN counts as 0.
+fn absorbance4_float_transmittance(c: channels5_, additions: f32, overestimation: f32, z_f: f32) -> f32
+{
+    var b: absorbance4_;
+    b.b0_ = c.c5_;
+    b.b1_ = c.c1_;
+    b.b2_ = c.c2_;
+    b.b3_ = c.c3_;
+    b.b4_ = c.c4_;
+    let n = gnomon_blended_roundings(additions + absorbance4_float_more, absorbance4_float_additions);
+    return absorbance4_transmittance(b, bias_weight_of_roundings(gnomon_stored4_float_weight, n), overestimation, z_f);
+}
+
+/// The transmittance in [0, 1] at depth z_f from the channels of a 5 x half texel. overestimation is that of
+/// bounds_intensity: 1 for surfaces, 1/2 for receivers among the fragments.
+/// Domain: additions >= 0, clamped; overestimation in [0, 1], clamped; any z_f, limited to [-1, 1].
+/// NaN: 1, lit; an overestimation of NaN counts as 0.
+fn absorbance4_half_transmittance(c: channels5_, additions: f32, overestimation: f32, z_f: f32) -> f32
+{
+    let scale = 1.0 / gnomon_max(absorbance4_half_least, c.c5_);
+    var s: channels4_;
+    s.c1_ = c.c1_ * scale;
+    s.c2_ = c.c2_ * scale;
+    s.c3_ = c.c3_ * scale;
+    s.c4_ = c.c4_ * scale;
+    let weight = bias_weight_of_roundings(gnomon_stored4_half_weight,
+                                          gnomon_blended_roundings(additions, absorbance4_half_additions));
+    let h = gnomon_hankel4_from_theta(gnomon_channels4_shifted(s, 0.5), weight);
+    return absorbance_transmittance(c.c5_, gnomon_absorbance4_intensity(h, weight, overestimation, z_f));
+}
+
 // storage/convolution.h -----------------------------------------------------------------------------------------------
 // Convolution shadow maps in a storage format: from a depth to the channels of a texel, and from filtered channels to a
 // shadow, with the settings of the format.
@@ -6874,212 +7170,6 @@ fn layered_variance_unorm16_intensity(c: channels8_, z_f: f32) -> f32
     state = gnomon_layered_variance_unorm16_add(state, c.t2_.c1_, c.t2_.c2_, 0.25);
     state = gnomon_layered_variance_unorm16_add(state, c.t2_.c3_, c.t2_.c4_, 0.75);
     return layered_variance_end(state);
-}
-
-// storage/moments4.h --------------------------------------------------------------------------------------------------
-// Four moments in a storage format: from a depth to the channels of a texel, and from filtered channels to a shadow.
-// Each format undoes its own transform and allows for what its storage rounds, so that nobody pairs the wrong ones.
-//
-//   format          bytes   transform   write                     read                         matrix for both bounds
-//   4 x 16 UNORM      8     theta4_      moments4_unorm16_encode   moments4_unorm16_intensity   hankel4_from_unorm16_
-//   4 x half          8     theta4_ - .5 moments4_half_encode      moments4_half_intensity      hankel4_from_half
-//   4 x float        16     none        moments4_float_encode     moments4_float_intensity     hankel4_from_float
-//
-// Filters are linear: average channels as they are. X_intensity and hankel4_from_X allow for one rounding: of channels
-// that are stored once and filtered without further rounding, as 16-bit texels by a texture unit that returns floats.
-// Texels of floats round again there and need X_filtered. X_filtered_intensity and hankel4_from_X_filtered allow for a
-// pass along rows and one along columns, of nine taps at most, that store their results in the format again, half
-// floats truncated or rounded. Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at most
-//   X_intensity         gnomon_stored4_arithmetic_weight, the error of float arithmetic
-//   hankel4_from_X      the weight of the constant bias, roundings * delta / r (bias.h), and that of arithmetic
-// Tests search for the largest excess by hill climbing (tests/moments/honest_four.cpp). Certificates (certified4.h)
-// leak less than a constant bias in every format. Float arithmetic moves the nodes of a certificate, which costs or
-// gains a little leaking. Difference of an intensity in float from the intensity in double:
-//     error, float, moments4_float_intensity: p99 3e-5, p99.9 1e-4, max 5e-4
-//     error, float, moments4_float_filtered_intensity: p99 1e-5, p99.9 5e-5, max 2e-4
-//     error, float, moments4_half_intensity: p99 5e-5, p99.9 4e-4, max 2e-2
-//     error, float, moments4_half_filtered_intensity: p99 3e-5, p99.9 2e-4, max 2e-3
-//     error, float, moments4_unorm16_intensity: p99 6e-4, p99.9 7e-3, max 3e-1
-//     error, float, moments4_unorm16_filtered_intensity: p99 3e-4, p99.9 3e-3, max 3e-2
-
-/// The four channels of a 4 x 16 UNORM texel of a depth z, each in [0, 1].
-/// Domain: any z, limited to [-1, 1].
-/// NaN: the far plane, which shadows nothing.
-/// Source: Peters 2017, Eq. 3
-fn moments4_unorm16_encode(z: f32) -> channels4_ { return theta4_(moments4_from_depth(clamp_or_high(z, -1.0, 1.0))); }
-
-/// The channels c, each with shift added.
-fn gnomon_channels4_shifted(given_c: channels4_, shift: f32) -> channels4_
-{
-    var c = given_c;
-    c.c1_ = c.c1_ + shift;
-    c.c2_ = c.c2_ + shift;
-    c.c3_ = c.c3_ + shift;
-    c.c4_ = c.c4_ + shift;
-    return c;
-}
-
-/// The multiple of 2^-12 that is nearest to x. In [-1/2, 1/2] half floats hold every multiple.
-fn gnomon_half_nearest(x: f32) -> f32 { return 0.000244140625 * nearest_integer(4096.0 * x); }
-
-/// The four channels of a 4 x half texel of a depth z, each in [-1/2, 1/2]. They are half floats already, since devices
-/// may truncate what they store.
-/// Domain: any z, limited to [-1, 1].
-/// NaN: the far plane, which shadows nothing.
-/// Source: Peters 2017, Eq. 3
-fn moments4_half_encode(z: f32) -> channels4_
-{
-    var c = gnomon_channels4_shifted(moments4_unorm16_encode(z), -0.5);
-    c.c1_ = gnomon_half_nearest(c.c1_);
-    c.c2_ = gnomon_half_nearest(c.c2_);
-    c.c3_ = gnomon_half_nearest(c.c3_);
-    c.c4_ = gnomon_half_nearest(c.c4_);
-    return c;
-}
-
-/// The four channels of a 4 x float texel of a depth z.
-/// Domain: any z, limited to [-1, 1].
-/// NaN: the far plane, which shadows nothing.
-fn moments4_float_encode(z: f32) -> channels4_
-{
-    return channels4_from_moments(moments4_from_depth(clamp_or_high(z, -1.0, 1.0)));
-}
-
-const gnomon_stored4_unorm16_weight: f32 = 0x1.2dfd6ap-15; // 3.6e-5
-const gnomon_stored4_unorm16_filtered_weight: f32 = 0x1.cd5f9ap-14; // 1.1e-4
-const gnomon_stored4_half_weight: f32 = 0x1.2ad81ap-11; // 5.7e-4
-const gnomon_stored4_half_filtered_weight: f32 = 0x1.758e22p-9; // 2.85e-3
-const gnomon_stored4_float_weight: f32 = 0x1.421f6p-22; // 3e-7
-const gnomon_stored4_float_filtered_weight: f32 = 0x1.0c6f7ap-19; // 2e-6
-const gnomon_stored4_arithmetic_weight: f32 = 0x1.0c6f7ap-20; // 1e-6
-
-/// The factored matrix of the channels of theta4_, with a constant bias of weight alpha.
-fn gnomon_hankel4_from_theta(c: channels4_, alpha: f32) -> hankel4_
-{
-    return hankel4_from_moments(theta4_inverse_add_bias(c, bias4_theta_b2_, alpha));
-}
-
-/// The factored matrix of the channels of a 4 x float texel, with a constant bias of weight alpha.
-/// Domain: alpha from 3e-7 on.
-fn gnomon_hankel4_stored_as_float(c: channels4_, alpha: f32) -> hankel4_
-{
-    return hankel4_constant_bias(moments4_from_channels(c), bias4_raw_b2_, bias4_raw_b4_, alpha);
-}
-
-/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for one rounding.
-fn hankel4_from_unorm16_(c: channels4_) -> hankel4_ { return gnomon_hankel4_from_theta(c,
-                                                                                       gnomon_stored4_unorm16_weight); }
-
-/// The factored matrix of the channels of a 4 x 16 UNORM texel, biased for a filter of two passes.
-fn hankel4_from_unorm16_filtered(c: channels4_) -> hankel4_
-{
-    return gnomon_hankel4_from_theta(c, gnomon_stored4_unorm16_filtered_weight);
-}
-
-/// The factored matrix of the channels of a 4 x half texel, biased for one rounding.
-fn hankel4_from_half(c: channels4_) -> hankel4_
-{
-    return gnomon_hankel4_from_theta(gnomon_channels4_shifted(c, 0.5), gnomon_stored4_half_weight);
-}
-
-/// The factored matrix of the channels of a 4 x half texel, biased for a filter of two passes.
-fn hankel4_from_half_filtered(c: channels4_) -> hankel4_
-{
-    return gnomon_hankel4_from_theta(gnomon_channels4_shifted(c, 0.5), gnomon_stored4_half_filtered_weight);
-}
-
-/// The factored matrix of the channels of a 4 x float texel, biased for one rounding.
-fn hankel4_from_float(c: channels4_) -> hankel4_ { return gnomon_hankel4_stored_as_float(c,
-                                                                                         gnomon_stored4_float_weight); }
-
-/// The factored matrix of the channels of a 4 x float texel, biased for a filter of two passes.
-fn hankel4_from_float_filtered(c: channels4_) -> hankel4_
-{
-    return gnomon_hankel4_stored_as_float(c, gnomon_stored4_float_filtered_weight);
-}
-
-// The error of each channel that certificates allow for, and the weight of the bias of their nodes. Every weight is
-// honest. These leak least without specks: noise puts specks into contact shadows where a weight is too small.
-const certified4_unorm16_noise: f32 = 0x1.0c6f7ap-17; // 8e-6, half a code, and the error of theta4_ in float
-const certified4_unorm16_filtered_noise: f32 = 0x1.92a738p-16; // 2.4e-5
-const certified4_unorm16_weight: f32 = 0x1.2dfd6ap-15; // 3.6e-5
-const certified4_unorm16_filtered_weight: f32 = 0x1.797cc4p-14; // 9e-5
-const certified4_half_noise: f32 = 0x1.00e6bp-13; // 1.225e-4, 2^-13, and the error of theta4_ in float
-const certified4_half_filtered_noise: f32 = 0x1.40dd4p-11; // 6.12e-4, passes may truncate: 2^-12 each
-const certified4_half_weight: f32 = 0x1.3a92a4p-11; // 6e-4
-const certified4_half_filtered_weight: f32 = 0x1.2d7732p-9; // 2.3e-3
-const certified4_float_noise: f32 = 0x1.1b77c4p-25; // 3.3e-8, 1.1 times 2^-25
-const certified4_float_filtered_noise: f32 = 2.384185791015625e-7; // 8 times: sums of nine taps round, too
-const certified4_float_weight: f32 = 0x1.421f6p-22; // 3e-7
-const certified4_float_filtered_weight: f32 = 0x1.92a738p-20; // 1.5e-6
-
-/// Shadow intensity at z_f from channels c of theta4_, each off by at most noise, by nodes with a bias of weight alpha.
-fn gnomon_moments4_theta_intensity(c: channels4_, noise: f32, alpha: f32, z_f: f32) -> f32
-{
-    return certified4_theta_lower(gnomon_hankel4_from_theta(c, alpha), c, noise, z_f);
-}
-
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-fn moments4_unorm16_intensity(c: channels4_, z_f: f32) -> f32
-{
-    return gnomon_moments4_theta_intensity(c, certified4_unorm16_noise, certified4_unorm16_weight, z_f);
-}
-
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x 16 UNORM texel, after a filter of two passes.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-fn moments4_unorm16_filtered_intensity(c: channels4_, z_f: f32) -> f32
-{
-    return gnomon_moments4_theta_intensity(c, certified4_unorm16_filtered_noise, certified4_unorm16_filtered_weight,
-                                           z_f);
-}
-
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-fn moments4_half_intensity(c: channels4_, z_f: f32) -> f32
-{
-    return gnomon_moments4_theta_intensity(gnomon_channels4_shifted(c, 0.5), certified4_half_noise,
-                                           certified4_half_weight, z_f);
-}
-
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x half texel, after a filter of two passes.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-fn moments4_half_filtered_intensity(c: channels4_, z_f: f32) -> f32
-{
-    return gnomon_moments4_theta_intensity(gnomon_channels4_shifted(c, 0.5), certified4_half_filtered_noise,
-                                           certified4_half_filtered_weight, z_f);
-}
-
-/// Shadow intensity at z_f from the channels of a 4 x float texel, each off by at most its entry in noise, by nodes
-/// with a bias of weight alpha.
-fn gnomon_moments4_float_intensity_with_noise(c: channels4_, noise: moments4_, alpha: f32, z_f: f32) -> f32
-{
-    return certified4_constant_bias_lower(gnomon_hankel4_stored_as_float(c, alpha), noise, bias4_raw_b2_, bias4_raw_b4_,
-                                          alpha, z_f);
-}
-
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-fn moments4_float_intensity(c: channels4_, z_f: f32) -> f32
-{
-    return gnomon_moments4_float_intensity_with_noise(
-        c, moments4_rounding(moments4_from_channels(c), certified4_float_noise),
-        certified4_float_weight, z_f);
-}
-
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 4 x float texel, after a filter of two passes.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-fn moments4_float_filtered_intensity(c: channels4_, z_f: f32) -> f32
-{
-    return gnomon_moments4_float_intensity_with_noise(
-        c, moments4_rounding_filtered(moments4_from_channels(c), certified4_float_filtered_noise),
-        certified4_float_filtered_weight, z_f);
 }
 
 // storage/moments4_blended.h ------------------------------------------------------------------------------------------

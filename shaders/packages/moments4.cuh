@@ -425,6 +425,8 @@ template <class Real, class = require_real<Real>> struct channels1 { Real c1; };
 
 template <class Real, class = require_real<Real>> struct channels2 { Real c1, c2; };
 
+template <class Real, class = require_real<Real>> struct channels5 { Real c1, c2, c3, c4, c5; };
+
 GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif
@@ -1926,7 +1928,8 @@ GNOMON_WARNINGS_OFF namespace gnomon {
 /// Domain: roundings >= 0, clamped.
 /// NaN: stays NaN.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel4<Real> hankel4_from_unorm16_blended(channels4<Real> c, Real roundings)
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_unorm16_blended(channels4<Real> c,
+                                                                   std::type_identity_t<Real> roundings)
 {
     return hankel4_from_theta(
         c, bias_weight_of_roundings(literal<Real>(stored4_unorm16_weight), blended_roundings(roundings, Real(1))));
@@ -1936,7 +1939,7 @@ GNOMON_INLINE constexpr hankel4<Real> hankel4_from_unorm16_blended(channels4<Rea
 /// Domain: roundings >= 0, clamped.
 /// NaN: stays NaN.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel4<Real> hankel4_from_half_blended(channels4<Real> c, Real roundings)
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_half_blended(channels4<Real> c, std::type_identity_t<Real> roundings)
 {
     Real n = blended_roundings(roundings, literal<Real>(blended_half_roundings));
     return hankel4_from_theta(channels4_shifted(c, Real(0.5)),
@@ -1947,7 +1950,8 @@ GNOMON_INLINE constexpr hankel4<Real> hankel4_from_half_blended(channels4<Real> 
 /// Domain: roundings >= 0, clamped.
 /// NaN: stays NaN.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel4<Real> hankel4_from_float_blended(channels4<Real> c, Real roundings)
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_float_blended(channels4<Real> c,
+                                                                 std::type_identity_t<Real> roundings)
 {
     Real n = blended_roundings(roundings, literal<Real>(blended_float_roundings));
     return hankel4_stored_as_float(c, bias_weight_of_roundings(literal<Real>(stored4_float_weight), n));
@@ -1957,7 +1961,8 @@ GNOMON_INLINE constexpr hankel4<Real> hankel4_from_float_blended(channels4<Real>
 /// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments4_unorm16_blended_intensity(channels4<Real> c, Real roundings, Real z_f)
+GNOMON_INLINE constexpr Real moments4_unorm16_blended_intensity(channels4<Real> c, std::type_identity_t<Real> roundings,
+                                                                Real z_f)
 {
     Real n = blended_roundings(roundings, Real(1));
     return moments4_theta_intensity(c, n * literal<Real>(certified4_unorm16_noise),
@@ -1968,7 +1973,8 @@ GNOMON_INLINE constexpr Real moments4_unorm16_blended_intensity(channels4<Real> 
 /// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments4_half_blended_intensity(channels4<Real> c, Real roundings, Real z_f)
+GNOMON_INLINE constexpr Real moments4_half_blended_intensity(channels4<Real> c, std::type_identity_t<Real> roundings,
+                                                             Real z_f)
 {
     Real n = blended_roundings(roundings, literal<Real>(blended_half_roundings));
     return moments4_theta_intensity(channels4_shifted(c, Real(0.5)), n * literal<Real>(certified4_half_noise),
@@ -1979,7 +1985,8 @@ GNOMON_INLINE constexpr Real moments4_half_blended_intensity(channels4<Real> c, 
 /// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments4_float_blended_intensity(channels4<Real> c, Real roundings, Real z_f)
+GNOMON_INLINE constexpr Real moments4_float_blended_intensity(channels4<Real> c, std::type_identity_t<Real> roundings,
+                                                              Real z_f)
 {
     Real n = blended_roundings(roundings, literal<Real>(blended_float_roundings));
     // Roundings of earlier states of the texel, in which a moment was larger, are no fraction of that moment.

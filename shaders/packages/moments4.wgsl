@@ -41,6 +41,8 @@ struct channels1_ { c1_: f32 }
 
 struct channels2_ { c1_: f32, c2_: f32 }
 
+struct channels5_ { c1_: f32, c2_: f32, c3_: f32, c4_: f32, c5_: f32 }
+
 // moments/channels.h, four moments ------------------------------------------------------------------------------------
 
 struct channels4_ { c1_: f32, c2_: f32, c3_: f32, c4_: f32 }

@@ -1061,6 +1061,9 @@ struct channels1 { float c1; };
 typedef struct channels2 channels2;
 struct channels2 { float c1, c2; };
 
+typedef struct channels5 channels5;
+struct channels5 { float c1, c2, c3, c4, c5; };
+
 #endif
 
 // moments/channels.h, four moments ------------------------------------------------------------------------------------

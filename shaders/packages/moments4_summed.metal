@@ -1107,6 +1107,8 @@ struct channels1 { float c1; };
 
 struct channels2 { float c1, c2; };
 
+struct channels5 { float c1, c2, c3, c4, c5; };
+
 } // namespace gnomon
 
 #endif

@@ -425,6 +425,8 @@ template <class Real, class = require_real<Real>> struct channels1 { Real c1; };
 
 template <class Real, class = require_real<Real>> struct channels2 { Real c1, c2; };
 
+template <class Real, class = require_real<Real>> struct channels5 { Real c1, c2, c3, c4, c5; };
+
 GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif
@@ -1944,7 +1946,8 @@ GNOMON_WARNINGS_OFF namespace gnomon {
 /// Domain: roundings >= 0, clamped.
 /// NaN: stays NaN.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel6<Real> hankel6_from_unorm10_blended(channels6<Real> c, Real roundings)
+GNOMON_INLINE constexpr hankel6<Real> hankel6_from_unorm10_blended(channels6<Real> c,
+                                                                   std::type_identity_t<Real> roundings)
 {
     Real weight = bias_weight_of_roundings(literal<Real>(stored6_unorm10_weight),
                                            blended_roundings(roundings, Real(1)));
@@ -1957,7 +1960,8 @@ GNOMON_INLINE constexpr hankel6<Real> hankel6_from_unorm10_blended(channels6<Rea
 /// Domain: roundings >= 0, clamped.
 /// NaN: stays NaN.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel6<Real> hankel6_from_unorm16_blended(channels6<Real> c, Real roundings)
+GNOMON_INLINE constexpr hankel6<Real> hankel6_from_unorm16_blended(channels6<Real> c,
+                                                                   std::type_identity_t<Real> roundings)
 {
     Real weight = bias_weight_of_roundings(literal<Real>(stored6_unorm16_weight),
                                            blended_roundings(roundings, Real(1)));
@@ -1972,7 +1976,8 @@ inline constexpr double blended6_float_weights = 1.5;
 /// Domain: roundings >= 0, clamped.
 /// NaN: stays NaN.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr hankel6<Real> hankel6_from_float_blended(channels6<Real> c, Real roundings)
+GNOMON_INLINE constexpr hankel6<Real> hankel6_from_float_blended(channels6<Real> c,
+                                                                 std::type_identity_t<Real> roundings)
 {
     Real n = blended_roundings(roundings, literal<Real>(blended6_float_weights));
     return hankel6_constant_bias(moments6_from_channels(c), literal<Real>(bias6_raw_b2), literal<Real>(bias6_raw_b4),
@@ -1984,7 +1989,8 @@ GNOMON_INLINE constexpr hankel6<Real> hankel6_from_float_blended(channels6<Real>
 /// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments6_unorm10_blended_intensity(channels6<Real> c, Real roundings, Real z_f)
+GNOMON_INLINE constexpr Real moments6_unorm10_blended_intensity(channels6<Real> c, std::type_identity_t<Real> roundings,
+                                                                Real z_f)
 {
     return hamburger6_lower(hankel6_from_unorm10_blended(c, roundings), z_f);
 }
@@ -1993,7 +1999,8 @@ GNOMON_INLINE constexpr Real moments6_unorm10_blended_intensity(channels6<Real> 
 /// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments6_unorm16_blended_intensity(channels6<Real> c, Real roundings, Real z_f)
+GNOMON_INLINE constexpr Real moments6_unorm16_blended_intensity(channels6<Real> c, std::type_identity_t<Real> roundings,
+                                                                Real z_f)
 {
     return hamburger6_lower(hankel6_from_unorm16_blended(c, roundings), z_f);
 }
@@ -2002,7 +2009,8 @@ GNOMON_INLINE constexpr Real moments6_unorm16_blended_intensity(channels6<Real> 
 /// Domain: roundings >= 0, clamped; any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real moments6_float_blended_intensity(channels6<Real> c, Real roundings, Real z_f)
+GNOMON_INLINE constexpr Real moments6_float_blended_intensity(channels6<Real> c, std::type_identity_t<Real> roundings,
+                                                              Real z_f)
 {
     return hamburger6_lower(hankel6_from_float_blended(c, roundings), z_f);
 }

@@ -91,6 +91,7 @@ TEST_CASE_TEMPLATE("no pass allocates", Format, gnomon::exponential_variance_hal
     using texel = typename Format::texel;
     std::array<texel, mip_texels(12, 9)> texels{};
     std::array<texel, 12 * 9> scratch{};
+    std::array<absorbance4_half::texel, 12 * 9> smoke{};
     const mip_view<texel> mips{texels, 12, 9};
     std::array<texel, 3 * 6 * 8 * 8> cube_texels{};
     const auto cube = [&](std::size_t k) {
@@ -104,6 +105,7 @@ TEST_CASE_TEMPLATE("no pass allocates", Format, gnomon::exponential_variance_hal
     const float behind = Format::intensity(cube_bilinear<Format>(cube(12), 1.0f, 2.0f, 3.0f), 0.5f);
     const std::array<translucent_fragment, 2> fragments{{{3, 4, 0.5f, 0.5f}, {3, 4, -0.5f, 0.25f}}};
     blend<Format>(mips.level(0), fragments);
+    accumulate<absorbance4_half>({smoke, 12, 9}, fragments);
     blur<Format>(mips.level(0), {scratch, 12, 9}, mips.level(0), weights);
     build_mips<Format>(mips);
     const float shadow = Format::intensity(trilinear<Format>(mips, 3.0f, 4.0f, 1.5f), 0.5f);

@@ -178,3 +178,42 @@ TEST_CASE("a fragment outside the map is refused, and nothing is written")
     blend<format>(map, {});
     CHECK(texels == before);
 }
+
+TEST_CASE_TEMPLATE("absorbance is added in any order, and refuses what blend refuses", Format, absorbance4_half,
+                   absorbance4_float)
+{
+    bit_source bits(5);
+    const double rounding = std::is_same_v<Format, absorbance4_half> ? 0x1p-11 : 0x1p-24;
+    for (std::int64_t i = 0; i < effort(2'000); ++i) {
+        std::vector<format_texel<Format>> texels(width * height, Format::clear());
+        std::vector<translucent_fragment> fragments;
+        std::array<double, 5> exact{}, size{};
+        for (std::size_t n = bits.below(20); n > 0; --n) {
+            fragments.push_back({2, 1, float(bits.uniform(-1, 1)), float(std::exp2(bits.uniform(-8, 0)))});
+            const auto c = gnomon_bit_cast<channel_array<Format>>(
+                Format::from_fragment(fragments.back().depth, fragments.back().alpha));
+            for (std::size_t k = 0; k < 5; ++k) exact[k] += double(c[k]), size[k] += std::abs(double(c[k]));
+        }
+        for (std::size_t k = fragments.size(); k > 1; --k) std::swap(fragments[k - 1], fragments[bits.below(k)]);
+        accumulate<Format>({texels, width, height}, fragments);
+        for (std::size_t t = 0; t < texels.size(); ++t) {
+            const auto c = load_channels<Format>(texels[t]);
+            for (std::size_t k = 0; k < 5; ++k) {
+                const double allowed = double(fragments.size()) * (rounding * size[k] + 0x1p-25);
+                REQUIRE(std::abs(double(c[k]) - (t == width + 2 ? exact[k] : 0)) <= allowed);
+            }
+        }
+    }
+    std::array<format_texel<Format>, 1> texel{Format::clear()};
+    const map_view<format_texel<Format>> map(texel, 1, 1);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (const float none : {0.0f, -1.0f, nan, 0.005f}) {
+        const translucent_fragment f{0, 0, 0, none};
+        accumulate<Format>(map, std::span(&f, 1), float(alpha_test_one_percent));
+        CHECK(texel[0] == Format::clear());
+    }
+    const translucent_fragment outside{0, 1, 0, 0.5f};
+    CHECK_THROWS_WITH_AS(accumulate<Format>(map, std::span(&outside, 1)),
+                         "gnomon: accumulate: fragment.y is 1, but target.height is 1", std::invalid_argument);
+    CHECK(texel[0] == Format::clear());
+}

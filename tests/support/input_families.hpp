@@ -7,6 +7,7 @@
 
 #include <gnomon/moments/hamburger4.h>
 #include <gnomon/soft/summed_area.h>
+#include <gnomon/storage/absorbance4.h>
 #include <gnomon/storage/convolution.h>
 #include <gnomon/storage/exponential.h>
 #include <gnomon/storage/layered_variance.h>
@@ -79,6 +80,12 @@ inline constexpr input_family<T> input_families[] = {
     {"half4", 4,
      [](auto put, const situation& s, bit_source&) { put(channels4_shifted(theta4(moments4_in<T>(s)), T(-0.5))); }},
     {"absorbance4", 5, [](auto put, const situation& s, bit_source& bits) { put_absorbance<T>(put, s, bits, 1); }},
+    {"channels5", 5,
+     [](auto put, const situation& s, bit_source& bits) {
+         const auto near = absorbance4_half_encode(T(s.texel), T(bits.uniform(0, 1)));
+         const auto far = absorbance4_half_encode(T(s.receiver), T(bits.uniform(0, 1)));
+         put(channels5<T>{near.c1 + far.c1, near.c2 + far.c2, near.c3 + far.c3, near.c4 + far.c4, near.c5 + far.c5});
+     }},
     {"coloured_absorbance4", 7,
      [](auto put, const situation& s, bit_source& bits) { put_absorbance<T>(put, s, bits, 3); }},
     {"channels6", 6, [](auto put, const situation& s, bit_source&) { put(theta6(moments6_in<T>(s))); }},

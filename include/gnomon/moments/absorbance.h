@@ -9,7 +9,8 @@
 //
 // Opaque occluders are in a map of their own: their absorbance is infinite, and filtered with that of others it would
 // shadow all of the filter region. For the same reason a filter over absorbances is darker than the mean transmittance,
-// exp(-mean a) <= mean exp(-a), and near it only where absorbance varies little in the filter region.
+// exp(-mean a) <= mean exp(-a), and near it only where absorbance varies little in the filter region. Fragments behind an
+// opaque occluder are added, too: then both maps are independent, and their transmittances multiply.
 #ifndef GNOMON_MOMENTS_ABSORBANCE_H
 #define GNOMON_MOMENTS_ABSORBANCE_H
 #include "../numerics/exp.h"
@@ -89,12 +90,11 @@ GNOMON_KERNEL Real absorbance_transmittance(Real b0, Real intensity)
     return gnomon_select(t < Real(1), t, Real(1));
 }
 
-/// The share of the absorbance in front of z_f by the bounds on it, less what the bias has put there.
-GNOMON_DETAIL_KERNEL Real absorbance4_intensity(GNOMON_T(absorbance4) b, GNOMON_SETTING alpha,
+/// The share of the absorbance in front of z_f by the bounds on it, less what the bias of weight alpha has put there.
+GNOMON_DETAIL_KERNEL Real absorbance4_intensity(GNOMON_T(hankel4) h, GNOMON_SETTING alpha,
                                                 GNOMON_SETTING overestimation, Real z_f)
 {
-    hamburger_bounds bounds = hamburger4_bounds(absorbance4_factor(b, alpha), z_f);
-    return (bounds_intensity(bounds, overestimation) - alpha) / (Real(1) - alpha);
+    return (bounds_intensity(hamburger4_bounds(h, z_f), overestimation) - alpha) / (Real(1) - alpha);
 }
 
 /// The transmittance in [0, 1] at depth z_f of all fragments in front of it. alpha is the weight of the constant
@@ -105,7 +105,8 @@ GNOMON_DETAIL_KERNEL Real absorbance4_intensity(GNOMON_T(absorbance4) b, GNOMON_
 GNOMON_KERNEL Real absorbance4_transmittance(GNOMON_T(absorbance4) b, GNOMON_SETTING alpha,
                                              GNOMON_SETTING overestimation, Real z_f)
 {
-    return absorbance_transmittance(b.b0, absorbance4_intensity(b, alpha, overestimation, z_f));
+    return absorbance_transmittance(b.b0,
+                                    absorbance4_intensity(absorbance4_factor(b, alpha), alpha, overestimation, z_f));
 }
 
 /// Shadow intensity in [0, 1] behind opaque occluders, which give the intensity `opaque`, and translucent ones of the given
@@ -175,7 +176,7 @@ GNOMON_KERNEL GNOMON_T(coloured_transmittance) coloured_absorbance4_transmittanc
     shared_depths.b2 = b.b2;
     shared_depths.b3 = b.b3;
     shared_depths.b4 = b.b4;
-    Real intensity = absorbance4_intensity(shared_depths, alpha, overestimation, z_f);
+    Real intensity = absorbance4_intensity(absorbance4_factor(shared_depths, alpha), alpha, overestimation, z_f);
     GNOMON_T(coloured_transmittance) t;
     t.red = absorbance_transmittance(b.red, intensity);
     t.green = absorbance_transmittance(b.green, intensity);

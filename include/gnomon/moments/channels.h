@@ -11,6 +11,8 @@ GNOMON_STRUCT(channels2) { Real c1, c2; };
 
 GNOMON_STRUCT(channels4) { Real c1, c2, c3, c4; };
 
+GNOMON_STRUCT(channels5) { Real c1, c2, c3, c4, c5; };
+
 GNOMON_STRUCT(channels6) { Real c1, c2, c3, c4, c5, c6; };
 
 GNOMON_NAMESPACE_END

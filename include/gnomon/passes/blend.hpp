@@ -4,11 +4,14 @@
 // coloured occluders blend into one map for each channel of light. No allocation; threads may blend fragments of
 // different texels.
 //
+// Absorbance (moments/absorbance.h) is added instead, in any order, in formats of its own: accumulate.
+//
 //     gnomon::blend<gnomon::moments4_unorm16>(map, back_to_front, gnomon::alpha_test_one_percent);
 #ifndef GNOMON_PASSES_BLEND_HPP
 #define GNOMON_PASSES_BLEND_HPP
 
 #include "../moments/translucency.h"
+#include "../storage/absorbance4.hpp"
 #include "map_view.hpp"
 
 #include <cstdint>
@@ -46,6 +49,24 @@ void blend(map_view<format_texel<Format>> target, std::span<const translucent_fr
         const auto above = gnomon_bit_cast<channel_array<Format>>(Format::from_depth(f.depth));
         for (std::size_t k = 0; k < below.size(); ++k) below[k] = over(below[k], above[k], f.alpha);
         texel = store_channels<Format>(below);
+    }
+}
+
+/// Add the absorbance of fragments to the map, in any order. Fragments of an opacity below least_alpha are left out (alpha
+/// test), as are those of an opacity of NaN, and of 0 or less.
+template <absorbance_format Format>
+void accumulate(map_view<format_texel<Format>> target, std::span<const translucent_fragment> fragments,
+                float least_alpha = 0)
+{
+    expect_map("accumulate", "target", target);
+    expect_fragments("accumulate", target, fragments);
+    for (const translucent_fragment& f : fragments) {
+        if (!(f.alpha > 0) || f.alpha < least_alpha) continue;
+        format_texel<Format>& texel = target(f.x, f.y);
+        auto sum = load_channels<Format>(texel);
+        const auto added = gnomon_bit_cast<channel_array<Format>>(Format::from_fragment(f.depth, f.alpha));
+        for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += added[k];
+        texel = store_channels<Format>(sum);
     }
 }
 

@@ -46,7 +46,7 @@ template <class T> struct lines {
 
 /// Blur texels [first, last) of each of `count` lines of `length` texels, a few lines at a time, with the decoded
 /// texels under the taps in a ring.
-template <storage_format Format>
+template <texel_format Format>
 void blur_lines(lines<const format_texel<Format>> source, lines<format_texel<Format>> target, std::size_t length,
                 std::size_t first, std::size_t last, std::size_t count, std::span<const float> weights,
                 border_mode mode)
@@ -102,7 +102,7 @@ inline void expect_weights(std::string_view pass, std::span<const float> weights
                                                     std::to_string(sum) + ", but a filter needs 1");
 }
 
-template <storage_format Format>
+template <texel_format Format>
 void expect_blur(map_view<const format_texel<Format>> source, map_view<format_texel<Format>> target,
                  std::span<const float> weights, row_range rows)
 {
@@ -119,7 +119,7 @@ void expect_blur(map_view<const format_texel<Format>> source, map_view<format_te
 
 /// Blur along x into the given rows of target. Target must not overlap source. Weights: an odd number of them, of any
 /// sign, with a sum within 0.01 of 1.
-template <storage_format Format>
+template <texel_format Format>
 void blur_along_x(map_view<const format_texel<Format>> source, map_view<format_texel<Format>> target,
                   std::span<const float> weights, row_range rows, border_mode mode = border_mode::clamp)
 {
@@ -130,7 +130,7 @@ void blur_along_x(map_view<const format_texel<Format>> source, map_view<format_t
 }
 
 /// Blur along y into the given rows of target; reads source rows beyond these. Target must not overlap source.
-template <storage_format Format>
+template <texel_format Format>
 void blur_along_y(map_view<const format_texel<Format>> source, map_view<format_texel<Format>> target,
                   std::span<const float> weights, row_range rows, border_mode mode = border_mode::clamp)
 {
@@ -140,7 +140,7 @@ void blur_along_y(map_view<const format_texel<Format>> source, map_view<format_t
 }
 
 /// Blur the whole map along both axes: source to scratch, scratch to target. Target may be source.
-template <storage_format Format>
+template <texel_format Format>
 void blur(map_view<const format_texel<Format>> source, map_view<format_texel<Format>> scratch,
           map_view<format_texel<Format>> target, std::span<const float> weights, border_mode mode = border_mode::clamp)
 {

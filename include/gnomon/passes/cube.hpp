@@ -68,7 +68,7 @@ const T& cube_texel(const cube_view<const T>& cube, std::size_t face, std::ptrdi
 }
 
 /// Blur a face along its columns' index (along_u) or its rows', with the decoded texels under the taps in a ring.
-template <storage_format Format>
+template <texel_format Format>
 void blur_cube_face(const cube_view<const format_texel<Format>>& source, map_view<format_texel<Format>> target,
                     std::size_t face, std::span<const float> weights, bool along_u)
 {
@@ -97,7 +97,7 @@ void blur_cube_face(const cube_view<const format_texel<Format>>& source, map_vie
     }
 }
 
-template <storage_format Format>
+template <texel_format Format>
 void expect_blur_cube(const cube_view<const format_texel<Format>>& source,
                       const cube_view<format_texel<Format>>& target, std::span<const float> weights)
 {
@@ -117,7 +117,7 @@ void expect_blur_cube(const cube_view<const format_texel<Format>>& source,
 
 /// Blur all faces along both axes: source to scratch, scratch to target. Target may be source. Weights: an odd number of
 /// them, whose half is less than the size of a face, of any sign, with a sum within 0.01 of 1.
-template <storage_format Format>
+template <texel_format Format>
 void blur_cube(const cube_view<const format_texel<Format>>& source, const cube_view<format_texel<Format>>& scratch,
                const cube_view<format_texel<Format>>& target, std::span<const float> weights)
 {
@@ -133,7 +133,7 @@ void blur_cube(const cube_view<const format_texel<Format>>& source, const cube_v
 /// Filtered channels in direction (x, y, z) from the light, of any length, by bilinear interpolation across edges.
 /// Domain: a cube with texels, and any direction.
 /// NaN: the border, lit.
-template <storage_format Format>
+template <texel_format Format>
 format_channels<Format> cube_bilinear(const cube_view<const format_texel<Format>>& cube, float x, float y, float z)
 {
     if ((std::isunordered)(x, y) || (std::isnan)(z)) return stored_border<Format>();

@@ -38,7 +38,7 @@ template <std::size_t n> std::array<float, n> mix(const std::array<float, n>& a,
     return r;
 }
 
-template <storage_format Format, border_mode mode>
+template <texel_format Format, border_mode mode>
 channel_array<Format> bilinear_channels(map_view<const format_texel<Format>> map, float x, float y)
 {
     const neighbours nx = neighbours_of<mode>(x - 0.5f, map.width);
@@ -52,7 +52,7 @@ channel_array<Format> bilinear_channels(map_view<const format_texel<Format>> map
                mix(at(nx.lower, ny.upper), at(nx.upper, ny.upper), nx.fraction), ny.fraction);
 }
 
-template <storage_format Format>
+template <texel_format Format>
 channel_array<Format> bilinear_channels(map_view<const format_texel<Format>> map, float x, float y, border_mode mode)
 {
     return mode == border_mode::lit ? bilinear_channels<Format, border_mode::lit>(map, x, y)
@@ -64,7 +64,7 @@ channel_array<Format> bilinear_channels(map_view<const format_texel<Format>> map
 /// Filtered channels at position (x, y), for the intensity or factor of a format.
 /// Domain: any position. A map without texels gives the border, lit.
 /// NaN: the border, for a coordinate of NaN.
-template <storage_format Format>
+template <texel_format Format>
 format_channels<Format> bilinear(map_view<const format_texel<Format>> map, float x, float y,
                                  border_mode mode = border_mode::clamp)
 {
@@ -76,7 +76,7 @@ format_channels<Format> bilinear(map_view<const format_texel<Format>> map, float
 /// level is clamped to the chain.
 /// Domain: any position and level. A map without texels gives the border, lit.
 /// NaN: the border, for a coordinate or level of NaN.
-template <storage_format Format>
+template <texel_format Format>
 format_channels<Format> trilinear(mip_view<const format_texel<Format>> mips, float x, float y, float level,
                                   border_mode mode = border_mode::clamp)
 {

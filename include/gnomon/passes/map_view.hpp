@@ -42,19 +42,19 @@ struct row_range {
 };
 
 /// The channels of a texel as numbers.
-template <storage_format Format> channel_array<Format> load_channels(const format_texel<Format>& t)
+template <texel_format Format> channel_array<Format> load_channels(const format_texel<Format>& t)
 {
     return gnomon_bit_cast<channel_array<Format>>(Format::decode(t));
 }
 
 /// The texel of channels that are numbers.
-template <storage_format Format> format_texel<Format> store_channels(const channel_array<Format>& c)
+template <texel_format Format> format_texel<Format> store_channels(const channel_array<Format>& c)
 {
     return Format::encode(gnomon_bit_cast<format_channels<Format>>(c));
 }
 
 /// The channels of the border, as a map stores them.
-template <storage_format Format> constexpr format_channels<Format> stored_border()
+template <texel_format Format> constexpr format_channels<Format> stored_border()
 {
     return Format::decode(Format::clear());
 }

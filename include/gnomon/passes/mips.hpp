@@ -72,7 +72,7 @@ constexpr footprint mip_footprint(std::size_t extent, std::size_t i)
 
 /// Fill the given rows of target, the next smaller level of source. Target has half of source's extents, rounded down,
 /// at least 1. Target must not overlap source.
-template <storage_format Format>
+template <texel_format Format>
 void downsample(map_view<const format_texel<Format>> source, map_view<format_texel<Format>> target, row_range rows)
 {
     constexpr std::string_view pass = "downsample";
@@ -102,7 +102,7 @@ void downsample(map_view<const format_texel<Format>> source, map_view<format_tex
 }
 
 /// Fill every level below the first.
-template <storage_format Format> void build_mips(mip_view<format_texel<Format>> mips)
+template <texel_format Format> void build_mips(mip_view<format_texel<Format>> mips)
 {
     constexpr std::string_view pass = "build_mips";
     GNOMON_EXPECTS(mips.width > 0 && mips.height > 0,

@@ -33,37 +33,41 @@ template <class Format> using format_texel = typename Format::texel;
 /// The struct of the channels, as decode returns it: numbers of type Real and nothing else.
 template <class Format, class Real = float> using format_channels = typename Format::template channels<Real>;
 
-/// Types and functions that every storage format has:
+/// Types and functions of any texel that linear filters may mix:
 ///     texel, channels<Real>        what the map holds, and what a texture unit returns
 ///     name, id                     in words, and for programs: [a-z0-9_]
 ///     bytes_per_texel
-///     from_depth(z)                the channels of one depth
 ///     encode(channels)             the texel; the border for channels that have a NaN
 ///     decode(texel)                the channels
-///     intensity(channels, z_f)     the shadow after one rounding to the format, from any linear filter
-///     filtered_intensity           the shadow after a filter of two passes that store their results in the format
-///     darkening                    the most by which a lit surface is darkened by intensity
-///     filtered_darkening           the most by which a lit surface is darkened by filtered_intensity
 ///     border(), clear()            channels and texel that shadow nothing
 // clang-format off
-template <class Format> concept storage_format = requires(float z, double w, const format_texel<Format>& t,
-                                                          const format_channels<Format>& c,
-                                                          const format_channels<Format, double>& d) {
+template <class Format> concept texel_format = requires(const format_texel<Format>& t, const format_channels<Format>& c) {
     requires std::is_trivially_copyable_v<format_texel<Format>>;
     requires std::is_trivially_copyable_v<format_channels<Format>>;
     requires Format::bytes_per_texel == sizeof(format_texel<Format>);
     { Format::name } -> std::convertible_to<std::string_view>;
     { Format::id } -> std::convertible_to<std::string_view>;
-    { Format::from_depth(z) } -> std::same_as<format_channels<Format>>;
-    { Format::from_depth(w) } -> std::same_as<format_channels<Format, double>>;
     { Format::encode(c) } -> std::same_as<format_texel<Format>>;
     { Format::decode(t) } -> std::same_as<format_channels<Format>>;
+    { Format::border() } -> std::same_as<format_channels<Format>>;
+    { Format::clear() } -> std::same_as<format_texel<Format>>;
+};
+
+/// Functions that every storage format of a shadow map has beside those of its texel:
+///     from_depth(z)                the channels of one depth
+///     intensity(channels, z_f)     the shadow after one rounding to the format, from any linear filter
+///     filtered_intensity           the shadow after a filter of two passes that store their results in the format
+///     darkening                    the most by which a lit surface is darkened by intensity
+///     filtered_darkening           the most by which a lit surface is darkened by filtered_intensity
+template <class Format> concept storage_format = texel_format<Format> && requires(float z, double w,
+                                                          const format_channels<Format>& c,
+                                                          const format_channels<Format, double>& d) {
+    { Format::from_depth(z) } -> std::same_as<format_channels<Format>>;
+    { Format::from_depth(w) } -> std::same_as<format_channels<Format, double>>;
     { Format::intensity(c, z) } -> std::same_as<float>;
     { Format::intensity(d, w) } -> std::same_as<double>;
     { Format::filtered_intensity(c, z) } -> std::same_as<float>;
     { Format::filtered_intensity(d, w) } -> std::same_as<double>;
-    { Format::border() } -> std::same_as<format_channels<Format>>;
-    { Format::clear() } -> std::same_as<format_texel<Format>>;
     { Format::darkening } -> std::convertible_to<double>;
     { Format::filtered_darkening } -> std::convertible_to<double>;
 };
