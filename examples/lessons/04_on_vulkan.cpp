@@ -56,8 +56,8 @@ void draw(const vulkan::device& gpu)
     const vulkan::compute_pass blur_y(gpu, {blur_comp}, {vulkan::sampled{scratch}, vulkan::stored{map}, taps}, 8);
     const vulkan::raster_pass from_eye(
         gpu, {{triangles_vert}, vulkan::shader{lighting_frag}},
-        {screen_depth, vk::SampleCountFlagBits::e1, &screen, {day.background.r, day.background.g, day.background.b, 1}},
-        3, {vulkan::uniform{uniforms}, vulkan::sampled{map}, *trilinear}, sizeof eye_rows);
+        {screen_depth, {&screen}, {day.background.r, day.background.g, day.background.b, 1}}, 3,
+        {vulkan::uniform{uniforms}, vulkan::sampled{map}, *trilinear}, sizeof eye_rows);
     gpu.run([&](const vk::raii::CommandBuffer& commands) {
         const vk::Extent3D groups{side / 8, side / 8, 1};
         from_light.record(commands, corners, vulkan::bytes_of(light_rows));

@@ -51,7 +51,7 @@ TEST_CASE("another method's shadows are beyond the tolerance")
         return dynamic_cast<const filterable_method&>(registry_of<method>().at(id));
     };
     const auto wrong = comparison.difference(comparison.render(method_of("msm4_unorm16")).device.visibility,
-                                             comparison.render(method_of("msm4_float")).host);
+                                             comparison.render(method_of("msm4_float")).host, comparison.tolerance());
     CHECK(wrong.p99 > double(comparison.tolerance()));
     CHECK(wrong.errors.mean_abs > 0.1 * double(comparison.tolerance()));
 }

@@ -25,17 +25,17 @@ bool at_edge(const image<float>& visibility, int x, int y)
     return high - low > 0.0625f;
 }
 
-float tolerance_of(const vulkan::device& gpu, std::span<const float> taps)
+} // namespace
+
+float tolerance_of(const vulkan::device& gpu, float largest_weight)
 {
     constexpr float storage = 0.01f;
     const bool coarse = 1 << gpu.physical().getProperties().limits.subPixelPrecisionBits < subpixels;
-    return coarse ? storage + 0.25f * std::ranges::max(taps) : storage;
+    return coarse ? storage + 0.25f * largest_weight : storage;
 }
 
-} // namespace
-
 device_comparison::device_comparison(const vulkan::device& gpu, const stage& scenery, const settings& how)
-    : tolerance_(tolerance_of(gpu, taps_)),
+    : tolerance_(tolerance_of(gpu, std::ranges::max(taps_))),
       depths_(rasterize_depth<4>(scenery.world, scenery.light, how.map_resolution, how.map_resolution)),
       seen_(rasterize_surfaces(scenery.world, scenery.eye, how.width * how.supersampling,
                                how.height * how.supersampling)),
@@ -51,11 +51,12 @@ side_by_side device_comparison::render(const filterable_method& m) const
     std::vector<float> intensities(where_.size());
     map->intensities(where_.biased, intensities);
     for (std::size_t i = 0; i < where_.size(); ++i) result.host.pixels[where_.pixels[i]] = 1 - intensities[i];
-    result.difference = difference(result.device.visibility, result.host);
+    result.difference = difference(result.device.visibility, result.host, tolerance_);
     return result;
 }
 
-difference_statistics device_comparison::difference(const image<float>& device, const image<float>& host) const
+difference_statistics device_comparison::difference(const image<float>& device, const image<float>& host,
+                                                    float tolerance) const
 {
     std::vector<float> estimates, references, values;
     double beyond = 0, beyond_inside = 0;
@@ -63,7 +64,7 @@ difference_statistics device_comparison::difference(const image<float>& device, 
         estimates.push_back(device.pixels[pixel]);
         references.push_back(host.pixels[pixel]);
         values.push_back(std::abs(estimates.back() - references.back()));
-        if (values.back() <= tolerance_) continue;
+        if (values.back() <= tolerance) continue;
         beyond += 1;
         if (!at_edge(host, int(pixel) % host.width, int(pixel) / host.width)) beyond_inside += 1;
     }

@@ -34,6 +34,9 @@ struct side_by_side {
     difference_statistics difference;
 };
 
+// The tolerance for visibilities that a filter averages, of which a texel has largest_weight at most.
+float tolerance_of(const renderer::vulkan::device& gpu, float largest_weight);
+
 class device_comparison {
   public:
     device_comparison(const renderer::vulkan::device& gpu, const renderer::stage& scenery, const settings& how);
@@ -41,9 +44,11 @@ class device_comparison {
     bool possible(const filterable_method& m) const { return renderer_.supports(device_method_of(m)); }
     side_by_side render(const filterable_method& m) const;
 
-    difference_statistics difference(const renderer::image<float>& device, const renderer::image<float>& host) const;
+    difference_statistics difference(const renderer::image<float>& device, const renderer::image<float>& host,
+                                     float tolerance) const;
 
     float tolerance() const { return tolerance_; }
+    const depth_map& depths() const { return depths_; }
     const renderer::image<renderer::surface>& seen() const { return seen_; }
     const map_receivers& where() const { return where_; }
 

@@ -2,6 +2,7 @@
 // device form. CMake writes the definitions (CMakeLists.txt).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -13,8 +14,20 @@ struct method_shaders {
     std::span<const std::uint32_t> resolve, lighting;
 };
 
+// Of maps of four moments that translucent surfaces blend into.
+struct blend_shaders {
+    std::span<const std::uint32_t> resolve, layer, lighting;
+};
+
+// Of soft shadows from a summed-area table.
+struct soft_shaders {
+    std::span<const std::uint32_t> resolve, rows, columns, lighting;
+};
+
 struct shader_texts {
-    std::span<const std::uint32_t> scene, blur;
+    std::span<const std::uint32_t> scene, blur, layer;
+    std::array<blend_shaders, 2> blend; // into one image and into two
+    soft_shaders soft;
     std::map<std::string, method_shaders> methods; // by their ids
 };
 

@@ -75,8 +75,9 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint
     vk::StructureChain<vk::DeviceCreateInfo, vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features> chain;
     chain.get<vk::DeviceCreateInfo>().setQueueCreateInfos(queue);
     const auto has = physical.getFeatures();
-    chain.get<vk::PhysicalDeviceFeatures2>().features.setShaderStorageImageWriteWithoutFormat(
-        has.shaderStorageImageWriteWithoutFormat);
+    chain.get<vk::PhysicalDeviceFeatures2>()
+        .features.setShaderStorageImageWriteWithoutFormat(has.shaderStorageImageWriteWithoutFormat)
+        .setDualSrcBlend(has.dualSrcBlend);
     chain.get<vk::PhysicalDeviceVulkan13Features>().setDynamicRendering(true).setSynchronization2(true);
     return {physical, chain.get<vk::DeviceCreateInfo>()};
 }
@@ -199,6 +200,15 @@ void copy(const vk::raii::CommandBuffer& commands, const image& source, const bu
     commands.copyImageToBuffer(
         source.handle(), vk::ImageLayout::eGeneral, target.handle(),
         vk::BufferImageCopy(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {width, height, 1}));
+}
+
+void copy(const vk::raii::CommandBuffer& commands, const image& source, const image& target)
+{
+    const vk::ImageSubresourceLayers top(vk::ImageAspectFlagBits::eColor, 0, 0, 1);
+    const auto [width, height] = source.extent();
+    commands.copyImage(source.handle(), vk::ImageLayout::eGeneral, target.handle(), vk::ImageLayout::eGeneral,
+                       vk::ImageCopy(top, {}, top, {}, {width, height, 1}));
+    barrier(commands);
 }
 
 void build_mips(const vk::raii::CommandBuffer& commands, const image& target)

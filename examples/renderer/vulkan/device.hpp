@@ -40,6 +40,7 @@ class device {
     const vk::raii::Device& handle() const { return device_; }
     const vk::raii::PhysicalDevice& physical() const { return physical_; }
     std::string name() const { return physical_.getProperties().deviceName; }
+    bool blends_two_sources() const { return physical_.getFeatures().dualSrcBlend; }
 
     // Warnings and errors of the validation layer so far.
     const std::vector<std::string>& complaints() const { return *complaints_; }
@@ -103,6 +104,9 @@ class image {
 
 // Copies the texels of level 0 into the buffer, row by row without gaps.
 void copy(const vk::raii::CommandBuffer& commands, const image& source, const buffer& target);
+
+// Copies the texels of level 0 into those of an image of the same extent and format.
+void copy(const vk::raii::CommandBuffer& commands, const image& source, const image& target);
 
 // Fills the mip levels after the first, each from the one before, with means of 2 x 2 texels.
 void build_mips(const vk::raii::CommandBuffer& commands, const image& target);

@@ -4,6 +4,20 @@ namespace gnomon::renderer::vulkan {
 
 namespace {
 
+vk::PipelineColorBlendAttachmentState blend_of(drawing kind)
+{
+    using mask = vk::ColorComponentFlagBits;
+    using factor = vk::BlendFactor;
+    constexpr auto all = mask::eR | mask::eG | mask::eB | mask::eA;
+    const bool second = kind == drawing::translucent_by_second_source;
+    const factor above = second ? factor::eSrc1Color : factor::eSrcAlpha;
+    const factor below = second ? factor::eOneMinusSrc1Color : factor::eOneMinusSrcAlpha;
+    const factor above_alpha = second ? factor::eSrc1Alpha : factor::eSrcAlpha;
+    const factor below_alpha = second ? factor::eOneMinusSrc1Alpha : factor::eOneMinusSrcAlpha;
+    constexpr auto add = vk::BlendOp::eAdd;
+    return {kind != drawing::opaque, above, below, add, above_alpha, below_alpha, add, all};
+}
+
 vk::raii::Pipeline make_pipeline(const device& owner, const raster_shaders& shaders, const raster_target& target,
                                  std::uint32_t attributes, vk::PipelineLayout layout)
 {
@@ -28,15 +42,11 @@ vk::raii::Pipeline make_pipeline(const device& owner, const raster_shaders& shad
     vk::PipelineRasterizationStateCreateInfo rasterization;
     rasterization.lineWidth = 1;
     const vk::PipelineMultisampleStateCreateInfo samples({}, target.samples);
-    const vk::PipelineDepthStencilStateCreateInfo depth({}, true, true, vk::CompareOp::eLess);
+    const vk::PipelineDepthStencilStateCreateInfo depth({}, true, target.kind == drawing::opaque, vk::CompareOp::eLess);
 
     std::vector<vk::Format> formats;
-    std::vector<vk::PipelineColorBlendAttachmentState> blending;
-    if (target.colour) {
-        using mask = vk::ColorComponentFlagBits;
-        formats.push_back(target.colour->format());
-        blending.emplace_back().colorWriteMask = mask::eR | mask::eG | mask::eB | mask::eA;
-    }
+    for (const image* colour : target.colours) formats.push_back(colour->format());
+    const std::vector blending(formats.size(), blend_of(target.kind));
     const vk::PipelineColorBlendStateCreateInfo blend({}, false, {}, blending);
     const vk::PipelineRenderingCreateInfo rendering(0, formats, target.depth.format());
     const vk::GraphicsPipelineCreateInfo info({}, stages, &input, &assembly, nullptr, &view, &rasterization, &samples,
@@ -56,15 +66,17 @@ raster_pass::raster_pass(const device& owner, const raster_shaders& shaders, con
 
 void raster_pass::record(const vk::raii::CommandBuffer& commands, const buffer& vertices, push_constants push) const
 {
-    const auto attachment = [](const image& whole, const vk::ClearValue& clear) {
+    const bool opaque = target_.kind == drawing::opaque;
+    const auto attachment = [&](const image& whole, const vk::ClearValue& clear) {
         vk::RenderingAttachmentInfo info(whole.level0(), vk::ImageLayout::eGeneral);
-        return info.setLoadOp(vk::AttachmentLoadOp::eClear)
+        return info.setLoadOp(opaque ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eLoad)
             .setStoreOp(vk::AttachmentStoreOp::eStore)
             .setClearValue(clear);
     };
     const auto depth = attachment(target_.depth, vk::ClearDepthStencilValue(1, 0));
     std::vector<vk::RenderingAttachmentInfo> colours;
-    if (target_.colour) colours.push_back(attachment(*target_.colour, vk::ClearColorValue(target_.background)));
+    for (const image* colour : target_.colours)
+        colours.push_back(attachment(*colour, vk::ClearColorValue(target_.background)));
     commands.beginRendering({{}, {{}, target_.depth.extent()}, 1, 0, colours, &depth});
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline_);
     inputs_.bind(commands, vk::PipelineBindPoint::eGraphics, push);

@@ -1,11 +1,12 @@
 // Rasterization by Vulkan's graphics pipeline: triangles from one buffer of floats, without indices, into a depth
-// buffer and at most one picture.
+// buffer and any number of pictures.
 #pragma once
 
 #include "device.hpp"
 
 #include <array>
 #include <optional>
+#include <vector>
 
 namespace gnomon::renderer::vulkan {
 
@@ -14,12 +15,19 @@ struct raster_shaders {
     std::optional<shader> fragment; // without one, depth alone is drawn
 };
 
-// The images that are drawn into. They are cleared first, the depth buffer to 1.
+// Opaque drawing clears all images first, the depth buffer to 1, and keeps the nearest triangle. Translucent drawing adds
+// to images that hold opaque surfaces: triangles in front of the depth buffer, which stays as it is, blend over what is
+// there in the order of the vertices. Their opacity is the fourth channel that the shader writes, or, with a second
+// source, what it writes for each channel at location 0, index 1 (of a device that offers dualSrcBlend).
+enum class drawing { opaque, translucent, translucent_by_second_source };
+
+// The images that are drawn into.
 struct raster_target {
     const image& depth;
-    vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
-    const image* colour = nullptr;
+    std::vector<const image*> colours{};
     std::array<float, 4> background{};
+    vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
+    drawing kind = drawing::opaque;
 };
 
 class raster_pass {

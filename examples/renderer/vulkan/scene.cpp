@@ -1,6 +1,10 @@
 #include "scene.hpp"
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include <algorithm>
+#include <functional>
 
 namespace gnomon::renderer::vulkan {
 
@@ -27,6 +31,30 @@ std::vector<glm::vec3> corners_of(const scene& world)
     return result;
 }
 
+std::vector<glm::vec3> layers_of(const scene& world, const camera& eye)
+{
+    struct layer {
+        double distance;
+        std::array<glm::vec3, 6> corners;
+    };
+    std::vector<layer> layers;
+    for (const mesh& part : translucent_part(world).meshes)
+        for (const glm::uvec3& triangle : part.triangles) {
+            layer& one = layers.emplace_back();
+            for (int i = 0; i < 3; ++i) {
+                const glm::vec2 place =
+                    part.texture_coordinates.empty() ? glm::vec2(0) : part.texture_coordinates[triangle[i]];
+                one.corners[2 * i] = part.positions[triangle[i]];
+                one.corners[2 * i + 1] = {place, part.opacity.r};
+                one.distance += view_distance(eye, one.corners[2 * i]) / 3;
+            }
+        }
+    std::ranges::stable_sort(layers, std::ranges::greater(), &layer::distance);
+    std::vector<glm::vec3> result;
+    for (const layer& one : layers) result.insert(result.end(), one.corners.begin(), one.corners.end());
+    return result;
+}
+
 std::array<glm::vec4, 4> clip_rows(const camera& eye)
 {
     const double near = eye.near_distance, scale = 1 / (eye.far_distance - near);
@@ -42,16 +70,6 @@ std::array<glm::vec4, 3> shadow_rows(const camera& light)
     return {row(light, light.right, 0.5 / light.half_extent.x, 0.5),
             row(light, light.up, -0.5 / light.half_extent.y, 0.5),
             row(light, light.forward, depth, -depth * light.near_distance - 1)};
-}
-
-renderer::image<glm::vec4> read_back(const device& owner, const image& source)
-{
-    const int width = int(source.extent().width), height = int(source.extent().height);
-    renderer::image<glm::vec4> result(width, height);
-    const buffer pixels(owner, result.pixels.size() * sizeof(glm::vec4), vk::BufferUsageFlagBits::eTransferDst);
-    owner.run([&](const vk::raii::CommandBuffer& commands) { copy(commands, source, pixels); });
-    std::ranges::copy(pixels.mapped<glm::vec4>(), result.pixels.begin());
-    return result;
 }
 
 picture without_alpha(const renderer::image<glm::vec4>& source)

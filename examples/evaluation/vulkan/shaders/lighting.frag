@@ -1,10 +1,11 @@
 // The camera's picture: a sun, shadowed by the map, and a sky (renderer/shade/shading.cpp). Alpha is the sun's visibility.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "method.glsl"
 #include "view.h"
 
 layout(binding = 0) uniform frame { view seen; };
+#include "method.glsl"
+
 layout(binding = 1) uniform texture2D first_map;
 layout(binding = 2) uniform texture2D second_map;
 layout(binding = 3) uniform sampler trilinear;

@@ -1,8 +1,10 @@
 // lighting.frag in HLSL.
-#include "method.hlsl"
+#define vec4 float4
 #include "view.h"
 
 [[vk::binding(0)]] cbuffer frame { view seen; };
+#include "method.hlsl"
+
 [[vk::binding(1)]] Texture2D<float4> first_map;
 [[vk::binding(2)]] Texture2D<float4> second_map;
 [[vk::binding(3)]] SamplerState trilinear;

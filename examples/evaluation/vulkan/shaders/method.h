@@ -40,6 +40,24 @@ channels2 channels_of(texel t)
     c.c2 = t.first.y;
     return c;
 }
+#elif GNOMON_METHOD_CHANNELS == 4 && GNOMON_METHOD_FIRST == 2
+texel texel_of(channels4 c)
+{
+    texel t;
+    t.first = vec4(c.c1, c.c2, 0, 0);
+    t.second = vec4(c.c3, c.c4, 0, 0);
+    return t;
+}
+
+channels4 channels_of(texel t)
+{
+    channels4 c;
+    c.c1 = t.first.x;
+    c.c2 = t.first.y;
+    c.c3 = t.second.x;
+    c.c4 = t.second.y;
+    return c;
+}
 #elif GNOMON_METHOD_CHANNELS == 4
 texel texel_of(channels4 c)
 {
