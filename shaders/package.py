@@ -42,6 +42,8 @@ TECHNIQUES = {
                   "moments/hamburger6.h"], "6"),
     "absorbance": (["storage/absorbance4.h"], "4"),
     "moments4_summed": (["storage/moments4_summed.h", "storage/moments4_summed_within.h"], "4"),
+    "moments6_summed": (["storage/moments6_summed.h"], "6"),
+    "variance_summed": (["storage/variance_summed.h"], ""),
     "two_point": (["moments/two_point.h"], ""),
     "depth": (["moments/depth.h"], ""),
 }

@@ -65,5 +65,7 @@
 #include "storage/moments4_within.h"
 #include "storage/moments6.h"
 #include "storage/moments6_blended.h"
+#include "storage/moments6_summed.h"
 #include "storage/variance.h"
+#include "storage/variance_summed.h"
 #endif

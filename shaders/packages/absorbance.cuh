@@ -433,6 +433,18 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real n
     return gnomon_sum(gnomon_difference(x, rounder), rounder);
 }
 
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real nearest_natural(Real x)
+{
+    Real rounder = Real(8388608);
+    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
+        rounder = Real(4503599627370496.0);
+    }
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
 GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif
@@ -1114,8 +1126,8 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 // M = var z^2, and D_1 D_2 = V M - L^2. All three cancel, so they are computed from exact products. A bias (bias.h) is
 // added to the covariances, as double words, because added to the moments it would be rounded away. hamburger4.h
 // divides later, and uses G = g V = E[P_1^3] = L - 2 b1 V in place of L.
-#ifndef GNOMON_MOMENTS_HANKEL4_H
-#define GNOMON_MOMENTS_HANKEL4_H
+#ifndef GNOMON_MOMENTS_HANKEL4_4
+#define GNOMON_MOMENTS_HANKEL4_4
 
 GNOMON_WARNINGS_OFF namespace gnomon {
 
@@ -1165,6 +1177,18 @@ GNOMON_INLINE constexpr covariances4<Real> covariances4_from_moments(moments4<Re
     return c;
 }
 
+/// The factored matrix of the moments b + e, where e is small: a bias, or what rounding took from b.
+/// NaN: stays NaN.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_with_change(moments4<Real> b, moments4<Real> e)
+{
+    covariances4 c = covariances4_from_moments(b);
+    double_word v = covariance_add_bias(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
+    double_word l = covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
+    double_word m = covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
+    return hankel4_make(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
+}
+
 /// The factored matrix of the mixture (1 - alpha) Z + alpha Z*, where Z has the moments b and Z* is symmetric with
 /// second and fourth moments bias2 and bias4.
 /// Domain: alpha in [0, 1), and at least n delta / (n delta + r) for moments that are off by n roundings (bias.h). With
@@ -1181,11 +1205,7 @@ GNOMON_INLINE constexpr hankel4<Real> hankel4_constant_bias(moments4<Real> b, st
     e.b2 = alpha * (bias2 - b.b2);
     e.b3 = Real(-1) * alpha * b.b3;
     e.b4 = alpha * (bias4 - b.b4);
-    covariances4 c = covariances4_from_moments(b);
-    double_word v = covariance_add_bias(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
-    double_word l = covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
-    double_word m = covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
-    return hankel4_make(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
+    return hankel4_with_change(b, e);
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon
@@ -1220,6 +1240,16 @@ GNOMON_WARNINGS_OFF namespace gnomon {
 /// The canonical distribution: depth0 at the receiver and depth1 <= depth2. The weights are in [0, 1] and sum to 1.
 template <class Real, class = require_real<Real>>
 struct distribution3 { Real depth0, depth1, depth2, weight0, weight1, weight2; };
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// moments/hamburger4.h ------------------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_HAMBURGER4_4
+#define GNOMON_MOMENTS_HAMBURGER4_4
+
+GNOMON_WARNINGS_OFF namespace gnomon {
 
 inline constexpr double hamburger4_scale = 72057594037927936.0;     // 2^56
 inline constexpr double hamburger4_lower_scale = 281474976710656.0; // 2^48
@@ -1909,20 +1939,35 @@ GNOMON_INLINE constexpr certificate4<Real> certificate4_make(hankel4<Real> h, Re
     return p;
 }
 
-/// The least possible value of E[p], given channels c of theta4 that are each off by at most noise. The coefficients of
-/// p at the channels are the transpose of theta4_inverse times those at the moments.
+/// The coefficients of p at the channels of theta4, with the sign of s: the transpose of theta4_inverse times those at
+/// the moments.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr channels4<Real> certificate4_theta(certificate4<Real> p)
+{
+    Real third = Real(0.75) * p.s3;
+    channels4<Real> r;
+    r.c1 = literal<Real>(theta4_inverse11) * p.s1 - third;
+    r.c2 = Real(0.125) * (p.s2 - p.s4);
+    r.c3 = literal<Real>(theta4_inverse13) * (p.s1 + third);
+    r.c4 = p.s2 + p.s4;
+    return r;
+}
+
+/// The most by which E[p] changes with channels that are each off by at most noise, from the coefficients at them.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real certificate4_theta_doubt(channels4<Real> t, std::type_identity_t<Real> noise)
+{
+    return noise * ((gnomon_abs(t.c1) + gnomon_abs(t.c2)) + (gnomon_abs(t.c3) + gnomon_abs(t.c4)));
+}
+
+/// The least possible value of E[p], given channels c of theta4 that are each off by at most noise.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real certificate4_theta_mean(certificate4<Real> p, channels4<Real> c,
                                                      std::type_identity_t<Real> noise)
 {
-    Real third = Real(0.75) * p.s3;
-    Real p1 = literal<Real>(theta4_inverse11) * p.s1 - third;
-    Real p2 = Real(0.125) * (p.s2 - p.s4);
-    Real p3 = literal<Real>(theta4_inverse13) * (p.s1 + third);
-    Real p4 = p.s2 + p.s4;
-    Real mean = (p.s0 + (p2 * c.c2 + p4 * c.c4)) + (p1 * (c.c1 - Real(0.5)) + p3 * (c.c3 - Real(0.5)));
-    Real doubt = noise * ((gnomon_abs(p1) + gnomon_abs(p2)) + (gnomon_abs(p3) + gnomon_abs(p4)));
-    return p.top - (mean + doubt);
+    channels4 t = certificate4_theta(p);
+    Real mean = (p.s0 + (t.c2 * c.c2 + t.c4 * c.c4)) + (t.c1 * (c.c1 - Real(0.5)) + t.c3 * (c.c3 - Real(0.5)));
+    return p.top - (mean + certificate4_theta_doubt(t, noise));
 }
 
 /// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels c of theta4 that are each off by at
@@ -1939,20 +1984,23 @@ GNOMON_INLINE constexpr Real certified4_theta_lower(hankel4<Real> h, channels4<R
 
 inline constexpr double certified4_scale = 137438953472.0; // 2^37
 
-/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
-/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. Float
-/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
-/// the node before z_f, or 1 minus the weight of z_f. The contribution of the bias is then subtracted. 0 if rounding
-/// left h at its floor.
-/// Domain: z_f in [-1, 1], clamped.
-/// NaN: 0, lit.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real certified4_constant_bias_lower(hankel4<Real> h, moments4<Real> noise,
-                                                            std::type_identity_t<Real> bias2,
-                                                            std::type_identity_t<Real> bias4,
-                                                            std::type_identity_t<Real> alpha, Real z_f)
+/// A certificate and its mean for the biased moments, and what the bias added to that. known is 0 if rounding left
+/// the matrix at its floor or if nothing is certified, else 1.
+template <class Real, class = require_real<Real>> struct certified4_mean
 {
-    Real z = clamp_or_nan(z_f, Real(-1), Real(1));
+    certificate4<Real> p;
+    Real mean, added, known;
+};
+
+/// The certificate at z in [-1, 1] from the matrix h of moments with a constant bias that is kept apart. Float
+/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
+/// the node before z, or 1 minus the weight of z.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr certified4_mean<Real> certified4_constant_bias_mean(hankel4<Real> h,
+                                                                            std::type_identity_t<Real> bias2,
+                                                                            std::type_identity_t<Real> bias4,
+                                                                            std::type_identity_t<Real> alpha, Real z)
+{
     Real u = z - h.mean;
     Real vu = h.variance * u;
     Real slope = vu - h.third;
@@ -1980,15 +2028,53 @@ GNOMON_INLINE constexpr Real certified4_constant_bias_lower(hankel4<Real> h, mom
     Real n2 = gnomon_select(between, c, g) * gnomon_select(between, (c - g) - g, g);
     Real t0 = gnomon_select(between, Real(0.5) + b * inverse, Real(1));
     Real t1 = gnomon_select(between, g, c);
-    certificate4 p = certificate4_about(z, n0, t0, t1, n1, n2);
+    certified4_mean<Real> m;
+    m.p = certificate4_about(z, n0, t0, t1, n1, n2);
     Real share = gnomon_select(between, Real(0.5) * (e * (r + b)) - w * (a * u), e);
-    Real mean = share / (w * gnomon_select(between, r, Real(1)));
-    Real added = alpha * ((p.top - p.s0) - (bias2 * p.s2 + bias4 * p.s4));
-    Real doubt = (noise.b1 * gnomon_abs(p.s1) + noise.b2 * gnomon_abs(p.s2)) +
-                 (noise.b3 * gnomon_abs(p.s3) + noise.b4 * gnomon_abs(p.s4));
-    mask_t<Real> known = (between || positive) &&
-                         (literal<Real>(pivot_floor<lane_t<Real>>) * h.variance < h.determinant);
-    return gnomon_select(known, saturate_or_zero(mean - (added + doubt)), Real(0));
+    m.mean = share / (w * gnomon_select(between, r, Real(1)));
+    m.added = alpha * ((m.p.top - m.p.s0) - (bias2 * m.p.s2 + bias4 * m.p.s4));
+    m.known = gnomon_select((between || positive) &&
+                            (literal<Real>(pivot_floor<lane_t<Real>>) * h.variance < h.determinant), Real(1), Real(0));
+    return m;
+}
+
+/// The certified mean without what the bias added and less the doubt about it, as an intensity.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real certified4_constant_bias_intensity(certified4_mean<Real> m, Real doubt)
+{
+    return gnomon_select(Real(0) < m.known, saturate_or_zero(m.mean - (m.added + doubt)), Real(0));
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
+/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. 0 if
+/// rounding left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real certified4_constant_bias_lower(hankel4<Real> h, moments4<Real> noise,
+                                                            std::type_identity_t<Real> bias2,
+                                                            std::type_identity_t<Real> bias4,
+                                                            std::type_identity_t<Real> alpha, Real z_f)
+{
+    certified4_mean m = certified4_constant_bias_mean(h, bias2, bias4, alpha, clamp_or_nan(z_f, Real(-1), Real(1)));
+    Real doubt = (noise.b1 * gnomon_abs(m.p.s1) + noise.b2 * gnomon_abs(m.p.s2)) +
+                 (noise.b3 * gnomon_abs(m.p.s3) + noise.b4 * gnomon_abs(m.p.s4));
+    return certified4_constant_bias_intensity(m, doubt);
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels of theta4 with more than 16 bits,
+/// each off by at most noise. h is the matrix of their moments by hankel4_constant_bias with the same bias2, bias4 and
+/// alpha. 0 if rounding left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real certified4_theta_constant_bias_lower(hankel4<Real> h, std::type_identity_t<Real> noise,
+                                                                  std::type_identity_t<Real> bias2,
+                                                                  std::type_identity_t<Real> bias4,
+                                                                  std::type_identity_t<Real> alpha, Real z_f)
+{
+    certified4_mean m = certified4_constant_bias_mean(h, bias2, bias4, alpha, clamp_or_nan(z_f, Real(-1), Real(1)));
+    return certified4_constant_bias_intensity(m, certificate4_theta_doubt(certificate4_theta(m.p), noise));
 }
 
 /// The largest error of each moment of b after one rounding to float: 2 delta |b_j|, but at most delta.

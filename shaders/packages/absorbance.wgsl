@@ -46,6 +46,15 @@ fn nearest_integer(x: f32) -> f32
     return gnomon_sum(gnomon_difference(x, rounder), rounder);
 }
 
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+fn nearest_natural(x: f32) -> f32
+{
+    let rounder = 8388608.0;
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
 // numerics/select.h ---------------------------------------------------------------------------------------------------
 // Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
 
@@ -593,6 +602,17 @@ fn gnomon_covariances4_from_moments(b: moments4_) -> gnomon_covariances4_
     return c;
 }
 
+/// The factored matrix of the moments b + e, where e is small: a bias, or what rounding took from b.
+/// NaN: stays NaN.
+fn gnomon_hankel4_with_change(b: moments4_, e: moments4_) -> hankel4_
+{
+    let c = gnomon_covariances4_from_moments(b);
+    let v = gnomon_covariance_add_bias(c.v, b.b1_, b.b1_, e.b2_, e.b1_, e.b1_);
+    let l = gnomon_covariance_add_bias(c.l, b.b1_, b.b2_, e.b3_, e.b1_, e.b2_);
+    let m = gnomon_covariance_add_bias(c.m, b.b2_, b.b2_, e.b4_, e.b2_, e.b2_);
+    return gnomon_hankel4_make(b.b1_ + e.b1_, v.high + v.low, l.high + l.low, gnomon_double_word_determinant(v, l, m));
+}
+
 /// The factored matrix of the mixture (1 - alpha) Z + alpha Z*, where Z has the moments b and Z* is symmetric with
 /// second and fourth moments bias2 and bias4.
 /// Domain: alpha in [0, 1), and at least n delta / (n delta + r) for moments that are off by n roundings (bias.h). With
@@ -606,11 +626,7 @@ fn hankel4_constant_bias(b: moments4_, bias2: f32, bias4: f32, alpha: f32) -> ha
     e.b2_ = alpha * (bias2 - b.b2_);
     e.b3_ = -1.0 * alpha * b.b3_;
     e.b4_ = alpha * (bias4 - b.b4_);
-    let c = gnomon_covariances4_from_moments(b);
-    let v = gnomon_covariance_add_bias(c.v, b.b1_, b.b1_, e.b2_, e.b1_, e.b1_);
-    let l = gnomon_covariance_add_bias(c.l, b.b1_, b.b2_, e.b3_, e.b1_, e.b2_);
-    let m = gnomon_covariance_add_bias(c.m, b.b2_, b.b2_, e.b4_, e.b2_, e.b2_);
-    return gnomon_hankel4_make(b.b1_ + e.b1_, v.high + v.low, l.high + l.low, gnomon_double_word_determinant(v, l, m));
+    return gnomon_hankel4_with_change(b, e);
 }
 
 // moments/hamburger4.h ------------------------------------------------------------------------------------------------
@@ -636,6 +652,8 @@ fn hankel4_constant_bias(b: moments4_, bias2: f32, bias4: f32, alpha: f32) -> ha
 
 /// The canonical distribution: depth0 at the receiver and depth1 <= depth2. The weights are in [0, 1] and sum to 1.
 struct gnomon_distribution3_ { depth0_: f32, depth1_: f32, depth2_: f32, weight0_: f32, weight1_: f32, weight2_: f32 }
+
+// moments/hamburger4.h ------------------------------------------------------------------------------------------------
 
 const gnomon_hamburger4_scale: f32 = 72057594037927936.0; // 2^56
 const hamburger4_lower_scale: f32 = 281474976710656.0; // 2^48
@@ -1234,18 +1252,31 @@ fn gnomon_certificate4_make(h: hankel4_, z_f: f32) -> gnomon_certificate4_
     return p;
 }
 
-/// The least possible value of E[p], given channels c of theta4_ that are each off by at most noise. The coefficients
-/// of p at the channels are the transpose of theta4_inverse times those at the moments.
-fn gnomon_certificate4_theta_mean(p: gnomon_certificate4_, c: channels4_, noise: f32) -> f32
+/// The coefficients of p at the channels of theta4_, with the sign of s: the transpose of theta4_inverse times those at
+/// the moments.
+fn gnomon_certificate4_theta(p: gnomon_certificate4_) -> channels4_
 {
     let third = 0.75 * p.s3_;
-    let p1 = gnomon_theta4_inverse11_ * p.s1_ - third;
-    let p2 = 0.125 * (p.s2_ - p.s4_);
-    let p3 = gnomon_theta4_inverse13_ * (p.s1_ + third);
-    let p4 = p.s2_ + p.s4_;
-    let mean = (p.s0_ + (p2 * c.c2_ + p4 * c.c4_)) + (p1 * (c.c1_ - 0.5) + p3 * (c.c3_ - 0.5));
-    let doubt = noise * ((gnomon_abs(p1) + gnomon_abs(p2)) + (gnomon_abs(p3) + gnomon_abs(p4)));
-    return p.top - (mean + doubt);
+    var r: channels4_;
+    r.c1_ = gnomon_theta4_inverse11_ * p.s1_ - third;
+    r.c2_ = 0.125 * (p.s2_ - p.s4_);
+    r.c3_ = gnomon_theta4_inverse13_ * (p.s1_ + third);
+    r.c4_ = p.s2_ + p.s4_;
+    return r;
+}
+
+/// The most by which E[p] changes with channels that are each off by at most noise, from the coefficients at them.
+fn gnomon_certificate4_theta_doubt(t: channels4_, noise: f32) -> f32
+{
+    return noise * ((gnomon_abs(t.c1_) + gnomon_abs(t.c2_)) + (gnomon_abs(t.c3_) + gnomon_abs(t.c4_)));
+}
+
+/// The least possible value of E[p], given channels c of theta4_ that are each off by at most noise.
+fn gnomon_certificate4_theta_mean(p: gnomon_certificate4_, c: channels4_, noise: f32) -> f32
+{
+    let t = gnomon_certificate4_theta(p);
+    let mean = (p.s0_ + (t.c2_ * c.c2_ + t.c4_ * c.c4_)) + (t.c1_ * (c.c1_ - 0.5) + t.c3_ * (c.c3_ - 0.5));
+    return p.top - (mean + gnomon_certificate4_theta_doubt(t, noise));
 }
 
 /// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels c of theta4_ that are each off by at
@@ -1258,25 +1289,28 @@ fn certified4_theta_lower(h: hankel4_, c: channels4_, noise: f32, z_f: f32) -> f
     return saturate_or_zero(gnomon_certificate4_theta_mean(p, c, noise));
 }
 
-const certified4_scale: f32 = 137438953472.0; // 2^37
+const gnomon_certified4_scale: f32 = 137438953472.0; // 2^37
 
-/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
-/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. Float
-/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
-/// the node before z_f, or 1 minus the weight of z_f. The contribution of the bias is then subtracted. 0 if rounding
-/// left h at its floor.
-/// Domain: z_f in [-1, 1], clamped.
-/// NaN: 0, lit.
-fn certified4_constant_bias_lower(h: hankel4_, noise: moments4_, bias2: f32, bias4: f32, alpha: f32, z_f: f32) -> f32
+/// A certificate and its mean for the biased moments, and what the bias added to that. known is 0 if rounding left
+/// the matrix at its floor or if nothing is certified, else 1.
+struct certified4_mean
 {
-    let z = clamp_or_nan(z_f, -1.0, 1.0);
+    p: gnomon_certificate4_,
+    mean: f32, added: f32, known: f32,
+}
+
+/// The certificate at z in [-1, 1] from the matrix h of moments with a constant bias that is kept apart. Float
+/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
+/// the node before z, or 1 minus the weight of z.
+fn gnomon_certified4_constant_bias_mean(h: hankel4_, bias2: f32, bias4: f32, alpha: f32, z: f32) -> certified4_mean
+{
     let u = z - h.mean;
     let vu = h.variance * u;
     let slope = vu - h.third;
     let q = slope * u - h.variance * h.variance;
     // The power of two is a factor of a, b and w, which otherwise underflow for a single depth.
-    let s = certified4_scale * q;
-    let n = certified4_scale * h.determinant;
+    let s = gnomon_certified4_scale * q;
+    let n = gnomon_certified4_scale * h.determinant;
     let un = u * n;
     let e = u * un + q * s;
     let w = h.variance * n + e;
@@ -1297,14 +1331,45 @@ fn certified4_constant_bias_lower(h: hankel4_, noise: moments4_, bias2: f32, bia
     let n2 = gnomon_select(between, c, g) * gnomon_select(between, (c - g) - g, g);
     let t0 = gnomon_select(between, 0.5 + b * inverse, 1.0);
     let t1 = gnomon_select(between, g, c);
-    let p = gnomon_certificate4_about(z, n0, t0, t1, n1, n2);
+    var m: certified4_mean;
+    m.p = gnomon_certificate4_about(z, n0, t0, t1, n1, n2);
     let share = gnomon_select(between, 0.5 * (e * (r + b)) - w * (a * u), e);
-    let mean = share / (w * gnomon_select(between, r, 1.0));
-    let added = alpha * ((p.top - p.s0_) - (bias2 * p.s2_ + bias4 * p.s4_));
-    let doubt = (noise.b1_ * gnomon_abs(p.s1_) + noise.b2_ * gnomon_abs(p.s2_)) +
-                (noise.b3_ * gnomon_abs(p.s3_) + noise.b4_ * gnomon_abs(p.s4_));
-    let known = (between || positive) && (gnomon_pivot_floor * h.variance < h.determinant);
-    return gnomon_select(known, saturate_or_zero(mean - (added + doubt)), 0.0);
+    m.mean = share / (w * gnomon_select(between, r, 1.0));
+    m.added = alpha * ((m.p.top - m.p.s0_) - (bias2 * m.p.s2_ + bias4 * m.p.s4_));
+    m.known = gnomon_select((between || positive) && (gnomon_pivot_floor * h.variance < h.determinant), 1.0, 0.0);
+    return m;
+}
+
+/// The certified mean without what the bias added and less the doubt about it, as an intensity.
+fn gnomon_certified4_constant_bias_intensity(m: certified4_mean, doubt: f32) -> f32
+{
+    return gnomon_select(0.0 < m.known, saturate_or_zero(m.mean - (m.added + doubt)), 0.0);
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
+/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. 0 if
+/// rounding left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+fn certified4_constant_bias_lower(h: hankel4_, noise: moments4_, bias2: f32, bias4: f32, alpha: f32, z_f: f32) -> f32
+{
+    let m = gnomon_certified4_constant_bias_mean(h, bias2, bias4, alpha, clamp_or_nan(z_f, -1.0, 1.0));
+    let doubt = (noise.b1_ * gnomon_abs(m.p.s1_) + noise.b2_ * gnomon_abs(m.p.s2_)) +
+                (noise.b3_ * gnomon_abs(m.p.s3_) + noise.b4_ * gnomon_abs(m.p.s4_));
+    return gnomon_certified4_constant_bias_intensity(m, doubt);
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels of theta4_ with more than 16 bits,
+/// each off by at most noise. h is the matrix of their moments by hankel4_constant_bias with the same bias2, bias4 and
+/// alpha. 0 if rounding left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+fn certified4_theta_constant_bias_lower(h: hankel4_, noise: f32, bias2: f32, bias4: f32, alpha: f32, z_f: f32) -> f32
+{
+    let m = gnomon_certified4_constant_bias_mean(h, bias2, bias4, alpha, clamp_or_nan(z_f, -1.0, 1.0));
+    return gnomon_certified4_constant_bias_intensity(m,
+                                                     gnomon_certificate4_theta_doubt(gnomon_certificate4_theta(m.p),
+                                                                                     noise));
 }
 
 /// The largest error of each moment of b after one rounding to float: 2 delta |b_j|, but at most delta.

@@ -483,8 +483,8 @@ moments6 moments6_add(moments6 sum, moments6 b, float weight)
 // M = var z^2, and D_1 D_2 = V M - L^2. All three cancel, so they are computed from exact products. A bias (bias.h) is
 // added to the covariances, as double words, because added to the moments it would be rounded away. hamburger4.h
 // divides later, and uses G = g V = E[P_1^3] = L - 2 b1 V in place of L.
-#ifndef GNOMON_MOMENTS_HANKEL4_H
-#define GNOMON_MOMENTS_HANKEL4_H
+#ifndef GNOMON_MOMENTS_HANKEL4_4
+#define GNOMON_MOMENTS_HANKEL4_4
 
 /// The factored matrix: mean b1, variance D_1, third central moment G, determinant D_1 D_2. Variance and determinant
 /// are positive for any moments in [-2^30, 2^30]; larger moments can overflow.
@@ -529,6 +529,17 @@ gnomon_covariances4 gnomon_covariances4_from_moments(moments4 b)
     return c;
 }
 
+/// The factored matrix of the moments b + e, where e is small: a bias, or what rounding took from b.
+/// NaN: stays NaN.
+hankel4 gnomon_hankel4_with_change(moments4 b, moments4 e)
+{
+    gnomon_covariances4 c = gnomon_covariances4_from_moments(b);
+    gnomon_double_word v = gnomon_covariance_add_bias(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
+    gnomon_double_word l = gnomon_covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
+    gnomon_double_word m = gnomon_covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
+    return gnomon_hankel4_make(b.b1 + e.b1, v.high + v.low, l.high + l.low, gnomon_double_word_determinant(v, l, m));
+}
+
 /// The factored matrix of the mixture (1 - alpha) Z + alpha Z*, where Z has the moments b and Z* is symmetric with
 /// second and fourth moments bias2 and bias4.
 /// Domain: alpha in [0, 1), and at least n delta / (n delta + r) for moments that are off by n roundings (bias.h). With
@@ -542,11 +553,7 @@ hankel4 hankel4_constant_bias(moments4 b, float bias2, float bias4, float alpha)
     e.b2 = alpha * (bias2 - b.b2);
     e.b3 = -1.0 * alpha * b.b3;
     e.b4 = alpha * (bias4 - b.b4);
-    gnomon_covariances4 c = gnomon_covariances4_from_moments(b);
-    gnomon_double_word v = gnomon_covariance_add_bias(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
-    gnomon_double_word l = gnomon_covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
-    gnomon_double_word m = gnomon_covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
-    return gnomon_hankel4_make(b.b1 + e.b1, v.high + v.low, l.high + l.low, gnomon_double_word_determinant(v, l, m));
+    return gnomon_hankel4_with_change(b, e);
 }
 
 #endif
@@ -576,6 +583,12 @@ hankel4 hankel4_constant_bias(moments4 b, float bias2, float bias4, float alpha)
 
 /// The canonical distribution: depth0 at the receiver and depth1 <= depth2. The weights are in [0, 1] and sum to 1.
 struct gnomon_distribution3 { float depth0, depth1, depth2, weight0, weight1, weight2; };
+
+#endif
+
+// moments/hamburger4.h ------------------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_HAMBURGER4_4
+#define GNOMON_MOMENTS_HAMBURGER4_4
 
 const float gnomon_hamburger4_scale = 72057594037927936.0;     // 2^56
 const float hamburger4_lower_scale = 281474976710656.0; // 2^48
@@ -742,6 +755,12 @@ float blocker2_depth(float mean, float variance, float z_f)
     float total = blocker_epsilon * whole + u * u;
     return gnomon_blocker_depth_before(z, below / total);
 }
+
+#endif
+
+// soft/blocker.h ------------------------------------------------------------------------------------------------------
+#ifndef GNOMON_SOFT_BLOCKER_4
+#define GNOMON_SOFT_BLOCKER_4
 
 /// Mean blocker depth in [-1, z_f] from four moments.
 /// Domain: z_f in [-1, 1], clamped.

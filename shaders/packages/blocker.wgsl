@@ -470,6 +470,17 @@ fn gnomon_covariances4_from_moments(b: moments4_) -> gnomon_covariances4_
     return c;
 }
 
+/// The factored matrix of the moments b + e, where e is small: a bias, or what rounding took from b.
+/// NaN: stays NaN.
+fn gnomon_hankel4_with_change(b: moments4_, e: moments4_) -> hankel4_
+{
+    let c = gnomon_covariances4_from_moments(b);
+    let v = gnomon_covariance_add_bias(c.v, b.b1_, b.b1_, e.b2_, e.b1_, e.b1_);
+    let l = gnomon_covariance_add_bias(c.l, b.b1_, b.b2_, e.b3_, e.b1_, e.b2_);
+    let m = gnomon_covariance_add_bias(c.m, b.b2_, b.b2_, e.b4_, e.b2_, e.b2_);
+    return gnomon_hankel4_make(b.b1_ + e.b1_, v.high + v.low, l.high + l.low, gnomon_double_word_determinant(v, l, m));
+}
+
 /// The factored matrix of the mixture (1 - alpha) Z + alpha Z*, where Z has the moments b and Z* is symmetric with
 /// second and fourth moments bias2 and bias4.
 /// Domain: alpha in [0, 1), and at least n delta / (n delta + r) for moments that are off by n roundings (bias.h). With
@@ -483,11 +494,7 @@ fn hankel4_constant_bias(b: moments4_, bias2: f32, bias4: f32, alpha: f32) -> ha
     e.b2_ = alpha * (bias2 - b.b2_);
     e.b3_ = -1.0 * alpha * b.b3_;
     e.b4_ = alpha * (bias4 - b.b4_);
-    let c = gnomon_covariances4_from_moments(b);
-    let v = gnomon_covariance_add_bias(c.v, b.b1_, b.b1_, e.b2_, e.b1_, e.b1_);
-    let l = gnomon_covariance_add_bias(c.l, b.b1_, b.b2_, e.b3_, e.b1_, e.b2_);
-    let m = gnomon_covariance_add_bias(c.m, b.b2_, b.b2_, e.b4_, e.b2_, e.b2_);
-    return gnomon_hankel4_make(b.b1_ + e.b1_, v.high + v.low, l.high + l.low, gnomon_double_word_determinant(v, l, m));
+    return gnomon_hankel4_with_change(b, e);
 }
 
 // moments/hamburger4.h ------------------------------------------------------------------------------------------------
@@ -513,6 +520,8 @@ fn hankel4_constant_bias(b: moments4_, bias2: f32, bias4: f32, alpha: f32) -> ha
 
 /// The canonical distribution: depth0 at the receiver and depth1 <= depth2. The weights are in [0, 1] and sum to 1.
 struct gnomon_distribution3_ { depth0_: f32, depth1_: f32, depth2_: f32, weight0_: f32, weight1_: f32, weight2_: f32 }
+
+// moments/hamburger4.h ------------------------------------------------------------------------------------------------
 
 const gnomon_hamburger4_scale: f32 = 72057594037927936.0; // 2^56
 const hamburger4_lower_scale: f32 = 281474976710656.0; // 2^48
@@ -675,6 +684,8 @@ fn blocker2_depth(mean: f32, variance: f32, z_f: f32) -> f32
     let total = blocker_epsilon * whole + u * u;
     return gnomon_blocker_depth_before(z, below / total);
 }
+
+// soft/blocker.h ------------------------------------------------------------------------------------------------------
 
 /// Mean blocker depth in [-1, z_f] from four moments.
 /// Domain: z_f in [-1, 1], clamped.

@@ -1370,8 +1370,8 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 // M = var z^2, and D_1 D_2 = V M - L^2. All three cancel, so they are computed from exact products. A bias (bias.h) is
 // added to the covariances, as double words, because added to the moments it would be rounded away. hamburger4.h
 // divides later, and uses G = g V = E[P_1^3] = L - 2 b1 V in place of L.
-#ifndef GNOMON_MOMENTS_HANKEL4_H
-#define GNOMON_MOMENTS_HANKEL4_H
+#ifndef GNOMON_MOMENTS_HANKEL4_4
+#define GNOMON_MOMENTS_HANKEL4_4
 
 GNOMON_WARNINGS_OFF namespace gnomon {
 
@@ -1421,6 +1421,18 @@ GNOMON_INLINE constexpr covariances4<Real> covariances4_from_moments(moments4<Re
     return c;
 }
 
+/// The factored matrix of the moments b + e, where e is small: a bias, or what rounding took from b.
+/// NaN: stays NaN.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_with_change(moments4<Real> b, moments4<Real> e)
+{
+    covariances4 c = covariances4_from_moments(b);
+    double_word v = covariance_add_bias(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
+    double_word l = covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
+    double_word m = covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
+    return hankel4_make(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
+}
+
 /// The factored matrix of the mixture (1 - alpha) Z + alpha Z*, where Z has the moments b and Z* is symmetric with
 /// second and fourth moments bias2 and bias4.
 /// Domain: alpha in [0, 1), and at least n delta / (n delta + r) for moments that are off by n roundings (bias.h). With
@@ -1437,11 +1449,7 @@ GNOMON_INLINE constexpr hankel4<Real> hankel4_constant_bias(moments4<Real> b, st
     e.b2 = alpha * (bias2 - b.b2);
     e.b3 = Real(-1) * alpha * b.b3;
     e.b4 = alpha * (bias4 - b.b4);
-    covariances4 c = covariances4_from_moments(b);
-    double_word v = covariance_add_bias(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
-    double_word l = covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
-    double_word m = covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
-    return hankel4_make(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
+    return hankel4_with_change(b, e);
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon
@@ -1476,6 +1484,16 @@ GNOMON_WARNINGS_OFF namespace gnomon {
 /// The canonical distribution: depth0 at the receiver and depth1 <= depth2. The weights are in [0, 1] and sum to 1.
 template <class Real, class = require_real<Real>>
 struct distribution3 { Real depth0, depth1, depth2, weight0, weight1, weight2; };
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// moments/hamburger4.h ------------------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_HAMBURGER4_4
+#define GNOMON_MOMENTS_HAMBURGER4_4
+
+GNOMON_WARNINGS_OFF namespace gnomon {
 
 inline constexpr double hamburger4_scale = 72057594037927936.0;     // 2^56
 inline constexpr double hamburger4_lower_scale = 281474976710656.0; // 2^48
@@ -1657,6 +1675,16 @@ GNOMON_INLINE constexpr Real blocker2_depth(Real mean, Real variance, Real z_f)
     Real total = literal<Real>(blocker_epsilon) * whole + u * u;
     return blocker_depth_before(z, below / total);
 }
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// soft/blocker.h ------------------------------------------------------------------------------------------------------
+#ifndef GNOMON_SOFT_BLOCKER_4
+#define GNOMON_SOFT_BLOCKER_4
+
+GNOMON_WARNINGS_OFF namespace gnomon {
 
 /// Mean blocker depth in [-1, z_f] from four moments.
 /// Domain: z_f in [-1, 1], clamped.

@@ -433,6 +433,18 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real n
     return gnomon_sum(gnomon_difference(x, rounder), rounder);
 }
 
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real nearest_natural(Real x)
+{
+    Real rounder = Real(8388608);
+    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
+        rounder = Real(4503599627370496.0);
+    }
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
 GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif

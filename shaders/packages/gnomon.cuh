@@ -697,6 +697,18 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real n
     return gnomon_sum(gnomon_difference(x, rounder), rounder);
 }
 
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real nearest_natural(Real x)
+{
+    Real rounder = Real(8388608);
+    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
+        rounder = Real(4503599627370496.0);
+    }
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
 GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif
@@ -3642,8 +3654,8 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 // M = var z^2, and D_1 D_2 = V M - L^2. All three cancel, so they are computed from exact products. A bias (bias.h) is
 // added to the covariances, as double words, because added to the moments it would be rounded away. hamburger4.h
 // divides later, and uses G = g V = E[P_1^3] = L - 2 b1 V in place of L.
-#ifndef GNOMON_MOMENTS_HANKEL4_H
-#define GNOMON_MOMENTS_HANKEL4_H
+#ifndef GNOMON_MOMENTS_HANKEL4_4
+#define GNOMON_MOMENTS_HANKEL4_4
 
 GNOMON_WARNINGS_OFF namespace gnomon {
 
@@ -3693,6 +3705,18 @@ GNOMON_INLINE constexpr covariances4<Real> covariances4_from_moments(moments4<Re
     return c;
 }
 
+/// The factored matrix of the moments b + e, where e is small: a bias, or what rounding took from b.
+/// NaN: stays NaN.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_with_change(moments4<Real> b, moments4<Real> e)
+{
+    covariances4 c = covariances4_from_moments(b);
+    double_word v = covariance_add_bias(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
+    double_word l = covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
+    double_word m = covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
+    return hankel4_make(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
+}
+
 /// The factored matrix of the mixture (1 - alpha) Z + alpha Z*, where Z has the moments b and Z* is symmetric with
 /// second and fourth moments bias2 and bias4.
 /// Domain: alpha in [0, 1), and at least n delta / (n delta + r) for moments that are off by n roundings (bias.h). With
@@ -3709,11 +3733,7 @@ GNOMON_INLINE constexpr hankel4<Real> hankel4_constant_bias(moments4<Real> b, st
     e.b2 = alpha * (bias2 - b.b2);
     e.b3 = Real(-1) * alpha * b.b3;
     e.b4 = alpha * (bias4 - b.b4);
-    covariances4 c = covariances4_from_moments(b);
-    double_word v = covariance_add_bias(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
-    double_word l = covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
-    double_word m = covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
-    return hankel4_make(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
+    return hankel4_with_change(b, e);
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon
@@ -3748,6 +3768,16 @@ GNOMON_WARNINGS_OFF namespace gnomon {
 /// The canonical distribution: depth0 at the receiver and depth1 <= depth2. The weights are in [0, 1] and sum to 1.
 template <class Real, class = require_real<Real>>
 struct distribution3 { Real depth0, depth1, depth2, weight0, weight1, weight2; };
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// moments/hamburger4.h ------------------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_HAMBURGER4_4
+#define GNOMON_MOMENTS_HAMBURGER4_4
+
+GNOMON_WARNINGS_OFF namespace gnomon {
 
 inline constexpr double hamburger4_scale = 72057594037927936.0;     // 2^56
 inline constexpr double hamburger4_lower_scale = 281474976710656.0; // 2^48
@@ -4705,20 +4735,35 @@ GNOMON_INLINE constexpr certificate4<Real> certificate4_make(hankel4<Real> h, Re
     return p;
 }
 
-/// The least possible value of E[p], given channels c of theta4 that are each off by at most noise. The coefficients of
-/// p at the channels are the transpose of theta4_inverse times those at the moments.
+/// The coefficients of p at the channels of theta4, with the sign of s: the transpose of theta4_inverse times those at
+/// the moments.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr channels4<Real> certificate4_theta(certificate4<Real> p)
+{
+    Real third = Real(0.75) * p.s3;
+    channels4<Real> r;
+    r.c1 = literal<Real>(theta4_inverse11) * p.s1 - third;
+    r.c2 = Real(0.125) * (p.s2 - p.s4);
+    r.c3 = literal<Real>(theta4_inverse13) * (p.s1 + third);
+    r.c4 = p.s2 + p.s4;
+    return r;
+}
+
+/// The most by which E[p] changes with channels that are each off by at most noise, from the coefficients at them.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real certificate4_theta_doubt(channels4<Real> t, std::type_identity_t<Real> noise)
+{
+    return noise * ((gnomon_abs(t.c1) + gnomon_abs(t.c2)) + (gnomon_abs(t.c3) + gnomon_abs(t.c4)));
+}
+
+/// The least possible value of E[p], given channels c of theta4 that are each off by at most noise.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real certificate4_theta_mean(certificate4<Real> p, channels4<Real> c,
                                                      std::type_identity_t<Real> noise)
 {
-    Real third = Real(0.75) * p.s3;
-    Real p1 = literal<Real>(theta4_inverse11) * p.s1 - third;
-    Real p2 = Real(0.125) * (p.s2 - p.s4);
-    Real p3 = literal<Real>(theta4_inverse13) * (p.s1 + third);
-    Real p4 = p.s2 + p.s4;
-    Real mean = (p.s0 + (p2 * c.c2 + p4 * c.c4)) + (p1 * (c.c1 - Real(0.5)) + p3 * (c.c3 - Real(0.5)));
-    Real doubt = noise * ((gnomon_abs(p1) + gnomon_abs(p2)) + (gnomon_abs(p3) + gnomon_abs(p4)));
-    return p.top - (mean + doubt);
+    channels4 t = certificate4_theta(p);
+    Real mean = (p.s0 + (t.c2 * c.c2 + t.c4 * c.c4)) + (t.c1 * (c.c1 - Real(0.5)) + t.c3 * (c.c3 - Real(0.5)));
+    return p.top - (mean + certificate4_theta_doubt(t, noise));
 }
 
 /// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels c of theta4 that are each off by at
@@ -4735,20 +4780,23 @@ GNOMON_INLINE constexpr Real certified4_theta_lower(hankel4<Real> h, channels4<R
 
 inline constexpr double certified4_scale = 137438953472.0; // 2^37
 
-/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
-/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. Float
-/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
-/// the node before z_f, or 1 minus the weight of z_f. The contribution of the bias is then subtracted. 0 if rounding
-/// left h at its floor.
-/// Domain: z_f in [-1, 1], clamped.
-/// NaN: 0, lit.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real certified4_constant_bias_lower(hankel4<Real> h, moments4<Real> noise,
-                                                            std::type_identity_t<Real> bias2,
-                                                            std::type_identity_t<Real> bias4,
-                                                            std::type_identity_t<Real> alpha, Real z_f)
+/// A certificate and its mean for the biased moments, and what the bias added to that. known is 0 if rounding left
+/// the matrix at its floor or if nothing is certified, else 1.
+template <class Real, class = require_real<Real>> struct certified4_mean
 {
-    Real z = clamp_or_nan(z_f, Real(-1), Real(1));
+    certificate4<Real> p;
+    Real mean, added, known;
+};
+
+/// The certificate at z in [-1, 1] from the matrix h of moments with a constant bias that is kept apart. Float
+/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
+/// the node before z, or 1 minus the weight of z.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr certified4_mean<Real> certified4_constant_bias_mean(hankel4<Real> h,
+                                                                            std::type_identity_t<Real> bias2,
+                                                                            std::type_identity_t<Real> bias4,
+                                                                            std::type_identity_t<Real> alpha, Real z)
+{
     Real u = z - h.mean;
     Real vu = h.variance * u;
     Real slope = vu - h.third;
@@ -4776,15 +4824,53 @@ GNOMON_INLINE constexpr Real certified4_constant_bias_lower(hankel4<Real> h, mom
     Real n2 = gnomon_select(between, c, g) * gnomon_select(between, (c - g) - g, g);
     Real t0 = gnomon_select(between, Real(0.5) + b * inverse, Real(1));
     Real t1 = gnomon_select(between, g, c);
-    certificate4 p = certificate4_about(z, n0, t0, t1, n1, n2);
+    certified4_mean<Real> m;
+    m.p = certificate4_about(z, n0, t0, t1, n1, n2);
     Real share = gnomon_select(between, Real(0.5) * (e * (r + b)) - w * (a * u), e);
-    Real mean = share / (w * gnomon_select(between, r, Real(1)));
-    Real added = alpha * ((p.top - p.s0) - (bias2 * p.s2 + bias4 * p.s4));
-    Real doubt = (noise.b1 * gnomon_abs(p.s1) + noise.b2 * gnomon_abs(p.s2)) +
-                 (noise.b3 * gnomon_abs(p.s3) + noise.b4 * gnomon_abs(p.s4));
-    mask_t<Real> known = (between || positive) &&
-                         (literal<Real>(pivot_floor<lane_t<Real>>) * h.variance < h.determinant);
-    return gnomon_select(known, saturate_or_zero(mean - (added + doubt)), Real(0));
+    m.mean = share / (w * gnomon_select(between, r, Real(1)));
+    m.added = alpha * ((m.p.top - m.p.s0) - (bias2 * m.p.s2 + bias4 * m.p.s4));
+    m.known = gnomon_select((between || positive) &&
+                            (literal<Real>(pivot_floor<lane_t<Real>>) * h.variance < h.determinant), Real(1), Real(0));
+    return m;
+}
+
+/// The certified mean without what the bias added and less the doubt about it, as an intensity.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real certified4_constant_bias_intensity(certified4_mean<Real> m, Real doubt)
+{
+    return gnomon_select(Real(0) < m.known, saturate_or_zero(m.mean - (m.added + doubt)), Real(0));
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
+/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. 0 if
+/// rounding left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real certified4_constant_bias_lower(hankel4<Real> h, moments4<Real> noise,
+                                                            std::type_identity_t<Real> bias2,
+                                                            std::type_identity_t<Real> bias4,
+                                                            std::type_identity_t<Real> alpha, Real z_f)
+{
+    certified4_mean m = certified4_constant_bias_mean(h, bias2, bias4, alpha, clamp_or_nan(z_f, Real(-1), Real(1)));
+    Real doubt = (noise.b1 * gnomon_abs(m.p.s1) + noise.b2 * gnomon_abs(m.p.s2)) +
+                 (noise.b3 * gnomon_abs(m.p.s3) + noise.b4 * gnomon_abs(m.p.s4));
+    return certified4_constant_bias_intensity(m, doubt);
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels of theta4 with more than 16 bits,
+/// each off by at most noise. h is the matrix of their moments by hankel4_constant_bias with the same bias2, bias4 and
+/// alpha. 0 if rounding left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real certified4_theta_constant_bias_lower(hankel4<Real> h, std::type_identity_t<Real> noise,
+                                                                  std::type_identity_t<Real> bias2,
+                                                                  std::type_identity_t<Real> bias4,
+                                                                  std::type_identity_t<Real> alpha, Real z_f)
+{
+    certified4_mean m = certified4_constant_bias_mean(h, bias2, bias4, alpha, clamp_or_nan(z_f, Real(-1), Real(1)));
+    return certified4_constant_bias_intensity(m, certificate4_theta_doubt(certificate4_theta(m.p), noise));
 }
 
 /// The largest error of each moment of b after one rounding to float: 2 delta |b_j|, but at most delta.
@@ -7543,6 +7629,16 @@ GNOMON_INLINE constexpr Real blocker2_depth(Real mean, Real variance, Real z_f)
     return blocker_depth_before(z, below / total);
 }
 
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// soft/blocker.h ------------------------------------------------------------------------------------------------------
+#ifndef GNOMON_SOFT_BLOCKER_4
+#define GNOMON_SOFT_BLOCKER_4
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
 /// Mean blocker depth in [-1, z_f] from four moments.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: no blocker, z_f, for a NaN in h; a z_f of NaN is the far plane.
@@ -7841,19 +7937,25 @@ GNOMON_WARNINGS_OFF namespace gnomon {
 /// A rectangle of a map, from (x0, y0) to (x1, y1) in texels.
 template <class Real, class = require_real<Real>> struct summed_area_rectangle { Real x0, y0, x1, y1; };
 
-inline constexpr double summed_area_range = 4294967296.0;    // 2^32
-inline constexpr double summed_area_most_texels = 1048576.0; // 2^20
-inline constexpr double summed_area_slack = 0.0009765625;    // 2^-10
+inline constexpr double summed_area_range = 4294967296.0;         // 2^32
+inline constexpr double summed_area_most_texels = 1048576.0;      // 2^20
+inline constexpr double summed_area_step = 5.9604644775390625e-8; // 2^-24
+inline constexpr double summed_area_slack = 0.0009765625;         // 2^-10
 
-/// The whole number nearest to x, ties to even.
-/// Domain: x >= 0.
-template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real summed_area_nearest(Real x)
+inline constexpr double summed_area_code_noise = 1.1641532182693481e-10; // 2^-33
+inline constexpr double summed_area_float_noise = 4.4703483581542969e-8; // 1.5 times 2^-25
+inline constexpr double summed_area_least_noise = 8.1956386566162109e-8; // 2.75 times 2^-25, in small tables
+
+/// The largest error of a channel of a rectangle, for a table by summed_area_scale(most_texels): half a code,
+/// most_texels 2^-33, and what float arithmetic rounds on the way from the depth to the mean, in the channel, the
+/// resolve of four samples, the sum and the mean. Errors of float arithmetic do not all come together; a search by
+/// climbing found these.
+/// Domain: most_texels at least 0.
+/// NaN: the noise of a small table.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real summed_area_noise(Real most_texels)
 {
-    Real rounder = Real(8388608);
-    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
-        rounder = Real(4503599627370496.0);
-    }
-    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+    Real noise = literal<Real>(summed_area_code_noise) * most_texels + literal<Real>(summed_area_float_noise);
+    return gnomon_max(noise, literal<Real>(summed_area_least_noise));
 }
 
 /// The number that channels are multiplied by: the largest whole number S of the precision of Real for which sums over
@@ -7865,27 +7967,29 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real s
 template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real summed_area_scale(Real most_texels)
 {
     Real n = clamp_or_high(most_texels, Real(1), literal<Real>(summed_area_most_texels));
-    Real s = literal<Real>(summed_area_range) / n;
-    double_word p = two_product(s, n);
-    Real step = Real(5.9604644775390625e-8);
-    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
-        step = Real(1.1102230246251565e-16);
-    }
-    mask_t<Real> fits = (p.high - literal<Real>(summed_area_range)) + p.low < Real(0);
-    s = gnomon_select(fits, s, s - step * s);
-    Real whole = summed_area_nearest(s);
-    return whole - gnomon_select(s < whole, Real(1), Real(0));
+    Real range = literal<Real>(summed_area_range);
+    Real s = range / n;
+    Real whole = nearest_natural(s);
+    whole = whole - gnomon_select(s < whole, Real(1), Real(0));
+    double_word sum = two_product(whole, n);
+    mask_t<Real> wraps = Real(0) <= (sum.high - range) + sum.low;
+    return whole - gnomon_select(wraps, gnomon_max(Real(1), literal<Real>(summed_area_step) * whole), Real(0));
 }
 
 /// The code of a channel: the whole number nearest to scale times the channel, which conversion to an unsigned integer
 /// leaves as it is.
 /// Domain: any channel, clamped to [0, 1]; scale by summed_area_scale.
 /// NaN: 0.
+/// Error: half a code for scales up to 2^24, beyond which codes are floats.
 /// Source: Peters 2017, Sec. 4.2
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real summed_area_code(Real channel, std::type_identity_t<Real> scale)
 {
-    return summed_area_nearest(scale * saturate_or_zero(channel));
+    double_word p = two_product(saturate_or_zero(channel), scale);
+    Real code = nearest_natural(p.high);
+    Real rest = (p.high - code) + p.low; // more than half a code where p.high was rounded
+    code = code + gnomon_select(Real(0.5) < rest, Real(1), Real(0));
+    return code - gnomon_select(rest < Real(-0.5), Real(1), Real(0));
 }
 
 /// The rectangle of the given widths about (x, y).
@@ -8018,11 +8122,15 @@ GNOMON_INLINE constexpr Real summed_area_width(summed_area_parts<Real> parts)
 /// Domain: a sum of codes, weighted by widths, over a rectangle of that area; scale by summed_area_scale. 0 for an area
 /// of 0 without a sum.
 /// NaN: 0.
-/// Error: relative, 2 2^-p.
+/// Error: relative, 2^-p, for the sum as it is given.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real summed_area_mean(Real sum, Real area, std::type_identity_t<Real> scale)
 {
-    return saturate_or_zero(sum / (area * scale));
+    double_word whole = two_product(area, scale);
+    Real mean = saturate_or_zero(sum / whole.high);
+    double_word p = two_product(mean, whole.high);
+    Real rest = (sum - p.high) - (p.low + mean * whole.low);
+    return saturate_or_zero(mean + rest / whole.high);
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon
@@ -8876,31 +8984,70 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 //                   z_b = moments4_summed_blocker(c, most_texels, z_f)
 //                   shadow = moments4_summed_intensity(c, most_texels, z_f - bias)
 //
-// Channels are off by moments4_summed_noise at most: by half a code, most_texels 2^-33, and by what float arithmetic
-// rounds from the depth to the moments.
+// Encoding and the inverse of theta4 keep the digits that Real has no room for. Else the noise of channels
+// (summed_area_noise) would be 2.5e-7 for 784 texels, not 1.4e-7. Intensities exceed Z(z < z_f), for every distribution
+// Z on [-1, 1], by at most
+//   moments4_summed_intensity   stored4_arithmetic_weight: certificates (certified4.h)
+//   hankel4_from_summed         moments4_summed_bias_ratio times the noise, and that of arithmetic
+// Tests search for the largest excess by hill climbing (tests/soft/honest_summed.cpp).
 #ifndef GNOMON_STORAGE_MOMENTS4_SUMMED_H
 #define GNOMON_STORAGE_MOMENTS4_SUMMED_H
 
 GNOMON_WARNINGS_OFF namespace gnomon {
 
-inline constexpr double moments4_summed_code_noise = 1.1641532182693481e-10; // 2^-33
-inline constexpr double moments4_summed_float_noise = 1.8e-7;
-inline constexpr double moments4_summed_bias_ratio = 4.0;
+inline constexpr double moments4_summed_bias_ratio = 5.0;
 
-/// The largest error of the channels of a rectangle, for a table by summed_area_scale(most_texels).
-/// Domain: most_texels at least 0.
-template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real moments4_summed_noise(Real most_texels)
+/// a + b as a double word, for magnitudes in any order.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr double_word<Real> summed_two_sum(Real a, Real b) { return two_difference(a, Real(-1) * b); }
+
+inline constexpr double summed_four_ninths = 0.44444444444444442;
+inline constexpr double summed_third = 0.33333333333333331;
+
+/// What a factor is short of a constant, root - factor, where root^2 = square: the digits that Real has no room for.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real summed_root_rest(Real factor, Real square)
 {
-    return literal<Real>(moments4_summed_code_noise) * most_texels + literal<Real>(moments4_summed_float_noise);
+    double_word p = two_product(factor, factor);
+    return ((square - p.high) - p.low) * (Real(0.5) / factor);
 }
 
 /// The four channels of the texel of a depth z, each in [0, 1].
 /// Domain: any z, limited to [-1, 1].
 /// NaN: the far plane, which shadows nothing.
+/// Error: one rounding.
 /// Source: Peters 2017, Eq. 3
 template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr channels4<Real> moments4_summed_encode(Real z)
 {
-    return theta4(moments4_from_depth(clamp_or_high(z, Real(-1), Real(1))));
+    Real x = clamp_or_high(z, Real(-1), Real(1));
+    double_word z2 = two_product(x, x);
+    double_word z3 = two_product(z2.high, x);
+    z3.low = z3.low + z2.low * x;
+    double_word z4 = two_product(z2.high, z2.high);
+    z4.low = z4.low + Real(2) * (z2.high * z2.low);
+    channels4<Real> c;
+    // 1/2 + 3/2 z - 2 z^3
+    double_word s = two_difference(Real(0.5), Real(2) * z3.high);
+    double_word t = summed_two_sum(s.high, x);
+    double_word u = summed_two_sum(t.high, Real(0.5) * x);
+    c.c1 = u.high + (u.low + (t.low + (s.low - Real(2) * z3.low)));
+    // 4 (z^2 - z^4)
+    double_word d = two_difference(z2.high, z4.high);
+    c.c2 = Real(4) * (d.high + (d.low + (z2.low - z4.low)));
+    // 1/2 + sqrt(3)/2 (z - 4/9 z^3)
+    Real ninths = literal<Real>(summed_four_ninths);
+    double_word n = two_product(ninths, Real(9));
+    double_word q = two_product(z3.high, ninths);
+    double_word w = two_difference(x, q.high);
+    Real rest = w.low - (q.low + (z3.low * ninths + z3.high * (((Real(4) - n.high) - n.low) * (Real(0.25) * ninths))));
+    Real root = literal<Real>(theta4_31);
+    double_word p = two_product(root, w.high);
+    double_word h = summed_two_sum(Real(0.5), p.high);
+    c.c3 = h.high + (h.low + (p.low + (root * rest + summed_root_rest(root, Real(0.75)) * w.high)));
+    // (z^2 + z^4) / 2
+    double_word m = summed_two_sum(z2.high, z4.high);
+    c.c4 = Real(0.5) * (m.high + (m.low + (z2.low + z4.low)));
+    return c;
 }
 
 /// The codes of a texel with these channels: whole numbers in [0, 2^32 - 1].
@@ -8938,23 +9085,68 @@ GNOMON_INLINE constexpr channels4<Real> moments4_summed_channels(channels4<Real>
     return r;
 }
 
+/// The factored matrix of the channels of a rectangle, with a constant bias of weight alpha. What rounding would take
+/// from the moments is added to their covariances.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel4<Real> hankel4_from_summed_theta(channels4<Real> c, std::type_identity_t<Real> bias2,
+                                                                std::type_identity_t<Real> bias4,
+                                                                std::type_identity_t<Real> alpha)
+{
+    double_word c1 = two_difference(c.c1, Real(0.5));
+    double_word c3 = two_difference(c.c3, Real(0.5));
+    Real root = literal<Real>(theta4_inverse13);
+    Real third = literal<Real>(summed_third);
+    // t = sqrt(3) (c3 - 1/2),    b1 = t - (c1 - 1/2) / 3,    b3 = 3/4 (t - (c1 - 1/2))
+    double_word t = two_product(root, c3.high);
+    t.low = t.low + (root * c3.low + summed_root_rest(root, Real(3)) * c3.high);
+    double_word n = two_product(third, Real(3));
+    double_word q = two_product(third, c1.high);
+    q.low = q.low + (third * c1.low + (third * ((Real(1) - n.high) - n.low)) * c1.high);
+    double_word d1 = two_difference(t.high, q.high);
+    double_word d3 = two_difference(t.high, c1.high);
+    double_word p3 = two_product(Real(0.75), d3.high);
+    Real eighth = Real(0.125) * c.c2;
+    double_word d2 = summed_two_sum(c.c4, eighth);
+    double_word d4 = two_difference(c.c4, eighth);
+    moments4<Real> b;
+    b.b1 = d1.high;
+    b.b2 = d2.high;
+    b.b3 = p3.high;
+    b.b4 = d4.high;
+    moments4<Real> e;
+    e.b1 = (d1.low + (t.low - q.low)) - alpha * b.b1;
+    e.b2 = d2.low + alpha * (bias2 - b.b2);
+    e.b3 = (p3.low + Real(0.75) * (d3.low + (t.low - c1.low))) - alpha * b.b3;
+    e.b4 = d4.low + alpha * (bias4 - b.b4);
+    return hankel4_with_change(b, e);
+}
+
+/// The weight of the constant bias of a table for most_texels, at most 1/2.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real moments4_summed_weight(Real most_texels)
+{
+    return gnomon_min(literal<Real>(moments4_summed_bias_ratio) * summed_area_noise(most_texels), Real(0.5));
+}
+
 /// The factored matrix of the channels of a rectangle, with the constant bias of a table for most_texels.
+/// Domain: most_texels as of the table's scale.
+/// NaN: stays NaN; a most_texels of NaN counts as a small one.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr hankel4<Real> hankel4_from_summed(channels4<Real> c, std::type_identity_t<Real> most_texels)
 {
-    Real weight = literal<Real>(moments4_summed_bias_ratio) * moments4_summed_noise(most_texels);
-    return hankel4_constant_bias(theta4_inverse(c), literal<Real>(bias4_theta_b2), literal<Real>(bias4_theta_b4),
-                                 gnomon_min(weight, Real(0.5)));
+    return hankel4_from_summed_theta(c, literal<Real>(bias4_theta_b2), literal<Real>(bias4_theta_b4),
+                                     moments4_summed_weight(most_texels));
 }
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a rectangle.
-/// Domain: any z_f, limited to [-1, 1].
+/// Domain: any z_f, limited to [-1, 1]; most_texels as of the table's scale.
 /// NaN: 0, lit.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real moments4_summed_intensity(channels4<Real> c, std::type_identity_t<Real> most_texels,
                                                        Real z_f)
 {
-    return hamburger4_lower(hankel4_from_summed(c, most_texels), z_f);
+    return certified4_theta_constant_bias_lower(hankel4_from_summed(c, most_texels), summed_area_noise(most_texels),
+                                                literal<Real>(bias4_theta_b2), literal<Real>(bias4_theta_b4),
+                                                moments4_summed_weight(most_texels), z_f);
 }
 
 /// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.
@@ -8988,7 +9180,7 @@ inline constexpr double moments4_summed_within_float_weight = 1e-6;
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real moments4_summed_within_weight(Real most_texels)
 {
-    return literal<Real>(moments4_summed_within_bias_ratio) * moments4_summed_noise(most_texels) +
+    return literal<Real>(moments4_summed_within_bias_ratio) * summed_area_noise(most_texels) +
            literal<Real>(moments4_summed_within_float_weight);
 }
 
@@ -8997,9 +9189,8 @@ template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr hankel4<Real> hankel4_from_summed_within(channels4<Real> c,
                                                                  std::type_identity_t<Real> most_texels)
 {
-    return hankel4_constant_bias(theta4_inverse(c), literal<Real>(bias4_theta_within_b2),
-                                 literal<Real>(bias4_theta_within_b4),
-                                 gnomon_min(moments4_summed_within_weight(most_texels), Real(0.5)));
+    return hankel4_from_summed_theta(c, literal<Real>(bias4_theta_within_b2), literal<Real>(bias4_theta_within_b4),
+                                     gnomon_min(moments4_summed_within_weight(most_texels), Real(0.5)));
 }
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a rectangle.
@@ -9419,6 +9610,127 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif
 
+// storage/moments6_summed.h -------------------------------------------------------------------------------------------
+// Six moments in a summed-area table (soft/summed_area.h): moments4_summed.h for search regions that hold more
+// surfaces, in 24 bytes a texel.
+//
+//   a texel:        c = moments6_summed_encode(z)               channels of theta6; a resolve averages them
+//                   codes = moments6_summed_codes(c, scale)     whole numbers, to be converted to 32-bit unsigned
+// integers
+//   a rectangle:    c = moments6_summed_channels(sums, area, scale)
+//                   z_b = moments6_summed_blocker(c, most_texels, z_f)
+//                   shadow = moments6_summed_intensity(c, most_texels, z_f - bias)
+//
+// Channels are off by half a code, most_texels 2^-33, and by what float arithmetic rounds. Intensities exceed Z(z <
+// z_f) by moments6_summed_weight at most.
+#ifndef GNOMON_STORAGE_MOMENTS6_SUMMED_H
+#define GNOMON_STORAGE_MOMENTS6_SUMMED_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+inline constexpr double moments6_summed_code_weight = 8e-10; // 2^-33 / r
+inline constexpr double moments6_summed_float_weight = 6e-6;
+
+/// The weight of the constant bias of a table for most_texels, by which intensities may exceed the truth.
+/// Domain: most_texels as of the table's scale.
+/// NaN: the weight of a small table.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real moments6_summed_weight(Real most_texels)
+{
+    Real weight = literal<Real>(moments6_summed_code_weight) * most_texels +
+                  literal<Real>(moments6_summed_float_weight);
+    return gnomon_min(gnomon_max(weight, literal<Real>(moments6_summed_float_weight)), Real(0.5));
+}
+
+/// The six channels of the texel of a depth z, each in [0, 1].
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Sec. 5.4.3
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr channels6<Real> moments6_summed_encode(Real z)
+{
+    return theta6(moments6_from_depth(clamp_or_high(z, Real(-1), Real(1))));
+}
+
+/// The codes of a texel with these channels: whole numbers in [0, 2^32 - 1].
+/// Domain: any channels, each limited to [0, 1]; scale by summed_area_scale.
+/// NaN: the codes of the far plane.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr channels6<Real> moments6_summed_codes(channels6<Real> c, std::type_identity_t<Real> scale)
+{
+    Real any = (clamp_or_nan(c.c1, Real(0), Real(1)) + clamp_or_nan(c.c2, Real(0), Real(1))) +
+               (clamp_or_nan(c.c3, Real(0), Real(1)) + clamp_or_nan(c.c4, Real(0), Real(1))) +
+               (clamp_or_nan(c.c5, Real(0), Real(1)) + clamp_or_nan(c.c6, Real(0), Real(1)));
+    mask_t<Real> known = any == any;
+    channels6 border = moments6_summed_encode(Real(1));
+    channels6<Real> r;
+    r.c1 = summed_area_code(gnomon_select(known, c.c1, border.c1), scale);
+    r.c2 = summed_area_code(gnomon_select(known, c.c2, border.c2), scale);
+    r.c3 = summed_area_code(gnomon_select(known, c.c3, border.c3), scale);
+    r.c4 = summed_area_code(gnomon_select(known, c.c4, border.c4), scale);
+    r.c5 = summed_area_code(gnomon_select(known, c.c5, border.c5), scale);
+    r.c6 = summed_area_code(gnomon_select(known, c.c6, border.c6), scale);
+    return r;
+}
+
+/// The mean channels of a rectangle, from the sums of its codes and its area.
+/// Domain: sums and area as for summed_area_mean; the border, which is lit, for an area of 0.
+/// NaN: channels of 0 for sums; the border for an area.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr channels6<Real> moments6_summed_channels(channels6<Real> sums, Real area,
+                                                                 std::type_identity_t<Real> scale)
+{
+    mask_t<Real> some = Real(0) < area;
+    channels6 border = moments6_summed_encode(Real(1));
+    channels6<Real> r;
+    r.c1 = gnomon_select(some, summed_area_mean(sums.c1, area, scale), border.c1);
+    r.c2 = gnomon_select(some, summed_area_mean(sums.c2, area, scale), border.c2);
+    r.c3 = gnomon_select(some, summed_area_mean(sums.c3, area, scale), border.c3);
+    r.c4 = gnomon_select(some, summed_area_mean(sums.c4, area, scale), border.c4);
+    r.c5 = gnomon_select(some, summed_area_mean(sums.c5, area, scale), border.c5);
+    r.c6 = gnomon_select(some, summed_area_mean(sums.c6, area, scale), border.c6);
+    return r;
+}
+
+/// The factored matrix of the channels of a rectangle, with a constant bias of weight alpha.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel6<Real> hankel6_from_summed_theta(channels6<Real> c, std::type_identity_t<Real> alpha)
+{
+    return hankel6_constant_bias(theta6_inverse(c), literal<Real>(bias6_theta_b2), literal<Real>(bias6_theta_b4),
+                                 literal<Real>(bias6_theta_b6), alpha);
+}
+
+/// The factored matrix of the channels of a rectangle, with the constant bias of a table for most_texels.
+/// Domain: most_texels as of the table's scale.
+/// NaN: stays NaN; a most_texels of NaN counts as a small one.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel6<Real> hankel6_from_summed(channels6<Real> c, std::type_identity_t<Real> most_texels)
+{
+    return hankel6_from_summed_theta(c, moments6_summed_weight(most_texels));
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a rectangle.
+/// Domain: any z_f, limited to [-1, 1]; most_texels as of the table's scale.
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments6_summed_intensity(channels6<Real> c, std::type_identity_t<Real> most_texels,
+                                                       Real z_f)
+{
+    return hamburger6_lower(hankel6_from_summed(c, most_texels), z_f);
+}
+
+/// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: no blocker, z_f, for a NaN in c; a z_f of NaN is the far plane.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real moments6_summed_blocker(channels6<Real> c, std::type_identity_t<Real> most_texels,
+                                                     Real z_f)
+{
+    return blocker6_depth(hankel6_from_summed(c, most_texels), z_f);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
 // storage/variance.h --------------------------------------------------------------------------------------------------
 // Variance shadow maps in a storage format: from a depth to the channels of a texel, and from filtered channels to a
 // shadow, each with the minimum variance that hides the roundings of its format.
@@ -9462,6 +9774,112 @@ GNOMON_INLINE constexpr Real variance_unorm16_intensity(channels2<Real> c, Real 
     variance_settings<Real> settings;
     settings.minimum_variance = literal<Real>(variance_unorm16_minimum_variance);
     return variance_intensity(b, z_f, settings);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// storage/variance_summed.h -------------------------------------------------------------------------------------------
+// The mean and the mean square of depths in a summed-area table (soft/summed_area.h; Lauritzen 2007), in 8 bytes a
+// texel: what variance soft shadow mapping reads (Yang et al. 2010).
+//
+//   a texel:        c = variance_summed_encode(z)               (1 + z) / 2 and z^2; a resolve averages them
+//                   codes = variance_summed_codes(c, scale)     whole numbers, to be converted to 32-bit unsigned
+// integers
+//   a rectangle:    c = variance_summed_channels(sums, area, scale)
+//                   z_b = variance_summed_blocker(c, most_texels, z_f)
+//                   shadow = variance_summed_intensity(c, most_texels, z_f - bias)
+//
+// With channels that are off by noise, the mean is off by 2 noise and the variance by (1 + 4 |mean|) noise at most.
+// Cantelli's bound from the largest variance and the least distance never darkens.
+#ifndef GNOMON_STORAGE_VARIANCE_SUMMED_H
+#define GNOMON_STORAGE_VARIANCE_SUMMED_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+inline constexpr double variance_summed_darkening = 1e-6;
+
+/// The two channels of the texel of a depth z, each in [0, 1].
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr channels2<Real> variance_summed_encode(Real z)
+{
+    Real x = clamp_or_high(z, Real(-1), Real(1));
+    channels2<Real> c;
+    c.c1 = Real(0.5) * x + Real(0.5);
+    c.c2 = x * x;
+    return c;
+}
+
+/// The codes of a texel with these channels: whole numbers in [0, 2^32 - 1].
+/// Domain: any channels, each limited to [0, 1]; scale by summed_area_scale.
+/// NaN: the codes of the far plane.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr channels2<Real> variance_summed_codes(channels2<Real> c, std::type_identity_t<Real> scale)
+{
+    Real any = clamp_or_nan(c.c1, Real(0), Real(1)) + clamp_or_nan(c.c2, Real(0), Real(1));
+    mask_t<Real> known = any == any;
+    channels2<Real> r;
+    r.c1 = summed_area_code(gnomon_select(known, c.c1, Real(1)), scale);
+    r.c2 = summed_area_code(gnomon_select(known, c.c2, Real(1)), scale);
+    return r;
+}
+
+/// The mean channels of a rectangle, from the sums of its codes and its area.
+/// Domain: sums and area as for summed_area_mean; the border, which is lit, for an area of 0.
+/// NaN: channels of 0 for sums; the border for an area.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr channels2<Real> variance_summed_channels(channels2<Real> sums, Real area,
+                                                                 std::type_identity_t<Real> scale)
+{
+    mask_t<Real> some = Real(0) < area;
+    channels2<Real> r;
+    r.c1 = gnomon_select(some, summed_area_mean(sums.c1, area, scale), Real(1));
+    r.c2 = gnomon_select(some, summed_area_mean(sums.c2, area, scale), Real(1));
+    return r;
+}
+
+/// The mean and the largest variance that channels may have which are off by noise.
+template <class Real, class = require_real<Real>> struct variance_summed_moments { Real mean, variance; };
+
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr variance_summed_moments<Real> variance_summed_decode(channels2<Real> c, Real noise)
+{
+    variance_summed_moments<Real> r;
+    r.mean = (c.c1 - Real(0.5)) * Real(2);
+    Real doubt = (Real(1) + Real(4) * gnomon_abs(r.mean)) * noise;
+    r.variance = gnomon_max(subtract_product_rounded(c.c2, r.mean, r.mean), Real(0)) + doubt;
+    return r;
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a rectangle.
+/// Domain: any z_f, limited to [-1, 1]; most_texels as of the table's scale.
+/// NaN: 0, lit.
+/// Source: Donnelly & Lauritzen 2006
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real variance_summed_intensity(channels2<Real> c, std::type_identity_t<Real> most_texels,
+                                                       Real z_f)
+{
+    Real noise = summed_area_noise(most_texels);
+    variance_summed_moments b = variance_summed_decode(c, noise);
+    Real distance_ = (clamp_or_nan(z_f, Real(-1), Real(1)) - b.mean) - Real(2) * noise;
+    Real d = gnomon_max(Real(0), distance_);
+    Real intensity = saturate_or_zero(d * d / (b.variance + d * d));
+    return gnomon_select(c.c2 == c.c2, intensity, Real(0));
+}
+
+/// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: no blocker, z_f, for a NaN in c; a z_f of NaN is the far plane.
+/// Source: Yang 2010
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real variance_summed_blocker(channels2<Real> c, std::type_identity_t<Real> most_texels,
+                                                     Real z_f)
+{
+    variance_summed_moments b = variance_summed_decode(c, summed_area_noise(most_texels));
+    Real depth = blocker2_depth(b.mean, b.variance, z_f);
+    return gnomon_select(c.c2 == c.c2, depth, clamp_or_high(z_f, Real(-1), Real(1)));
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon

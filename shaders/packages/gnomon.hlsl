@@ -284,6 +284,15 @@ float nearest_integer(float x)
     return gnomon_sum(gnomon_difference(x, rounder), rounder);
 }
 
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+float nearest_natural(float x)
+{
+    float rounder = 8388608.0;
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
 #endif
 
 // numerics/trigonometry.h ---------------------------------------------------------------------------------------------
@@ -2840,8 +2849,8 @@ gnomon_double_word gnomon_covariance_add_bias(gnomon_double_word c, float b_i, f
 // M = var z^2, and D_1 D_2 = V M - L^2. All three cancel, so they are computed from exact products. A bias (bias.h) is
 // added to the covariances, as double words, because added to the moments it would be rounded away. hamburger4.h
 // divides later, and uses G = g V = E[P_1^3] = L - 2 b1 V in place of L.
-#ifndef GNOMON_MOMENTS_HANKEL4_H
-#define GNOMON_MOMENTS_HANKEL4_H
+#ifndef GNOMON_MOMENTS_HANKEL4_4
+#define GNOMON_MOMENTS_HANKEL4_4
 
 /// The factored matrix: mean b1, variance D_1, third central moment G, determinant D_1 D_2. Variance and determinant
 /// are positive for any moments in [-2^30, 2^30]; larger moments can overflow.
@@ -2886,6 +2895,17 @@ gnomon_covariances4 gnomon_covariances4_from_moments(moments4 b)
     return c;
 }
 
+/// The factored matrix of the moments b + e, where e is small: a bias, or what rounding took from b.
+/// NaN: stays NaN.
+hankel4 gnomon_hankel4_with_change(moments4 b, moments4 e)
+{
+    gnomon_covariances4 c = gnomon_covariances4_from_moments(b);
+    gnomon_double_word v = gnomon_covariance_add_bias(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
+    gnomon_double_word l = gnomon_covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
+    gnomon_double_word m = gnomon_covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
+    return gnomon_hankel4_make(b.b1 + e.b1, v.high + v.low, l.high + l.low, gnomon_double_word_determinant(v, l, m));
+}
+
 /// The factored matrix of the mixture (1 - alpha) Z + alpha Z*, where Z has the moments b and Z* is symmetric with
 /// second and fourth moments bias2 and bias4.
 /// Domain: alpha in [0, 1), and at least n delta / (n delta + r) for moments that are off by n roundings (bias.h). With
@@ -2899,11 +2919,7 @@ hankel4 hankel4_constant_bias(moments4 b, float bias2, float bias4, float alpha)
     e.b2 = alpha * (bias2 - b.b2);
     e.b3 = -1.0 * alpha * b.b3;
     e.b4 = alpha * (bias4 - b.b4);
-    gnomon_covariances4 c = gnomon_covariances4_from_moments(b);
-    gnomon_double_word v = gnomon_covariance_add_bias(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
-    gnomon_double_word l = gnomon_covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
-    gnomon_double_word m = gnomon_covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
-    return gnomon_hankel4_make(b.b1 + e.b1, v.high + v.low, l.high + l.low, gnomon_double_word_determinant(v, l, m));
+    return gnomon_hankel4_with_change(b, e);
 }
 
 #endif
@@ -2933,6 +2949,12 @@ hankel4 hankel4_constant_bias(moments4 b, float bias2, float bias4, float alpha)
 
 /// The canonical distribution: depth0 at the receiver and depth1 <= depth2. The weights are in [0, 1] and sum to 1.
 struct gnomon_distribution3 { float depth0, depth1, depth2, weight0, weight1, weight2; };
+
+#endif
+
+// moments/hamburger4.h ------------------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_HAMBURGER4_4
+#define GNOMON_MOMENTS_HAMBURGER4_4
 
 static const float gnomon_hamburger4_scale = 72057594037927936.0;     // 2^56
 static const float hamburger4_lower_scale = 281474976710656.0; // 2^48
@@ -3782,18 +3804,31 @@ gnomon_certificate4 gnomon_certificate4_make(hankel4 h, float z_f)
     return p;
 }
 
-/// The least possible value of E[p], given channels c of theta4 that are each off by at most noise. The coefficients of
-/// p at the channels are the transpose of theta4_inverse times those at the moments.
-float gnomon_certificate4_theta_mean(gnomon_certificate4 p, channels4 c, float noise)
+/// The coefficients of p at the channels of theta4, with the sign of s: the transpose of theta4_inverse times those at
+/// the moments.
+channels4 gnomon_certificate4_theta(gnomon_certificate4 p)
 {
     float third = 0.75 * p.s3;
-    float p1 = gnomon_theta4_inverse11 * p.s1 - third;
-    float p2 = 0.125 * (p.s2 - p.s4);
-    float p3 = gnomon_theta4_inverse13 * (p.s1 + third);
-    float p4 = p.s2 + p.s4;
-    float mean = (p.s0 + (p2 * c.c2 + p4 * c.c4)) + (p1 * (c.c1 - 0.5) + p3 * (c.c3 - 0.5));
-    float doubt = noise * ((gnomon_abs(p1) + gnomon_abs(p2)) + (gnomon_abs(p3) + gnomon_abs(p4)));
-    return p.top - (mean + doubt);
+    channels4 r;
+    r.c1 = gnomon_theta4_inverse11 * p.s1 - third;
+    r.c2 = 0.125 * (p.s2 - p.s4);
+    r.c3 = gnomon_theta4_inverse13 * (p.s1 + third);
+    r.c4 = p.s2 + p.s4;
+    return r;
+}
+
+/// The most by which E[p] changes with channels that are each off by at most noise, from the coefficients at them.
+float gnomon_certificate4_theta_doubt(channels4 t, float noise)
+{
+    return noise * ((gnomon_abs(t.c1) + gnomon_abs(t.c2)) + (gnomon_abs(t.c3) + gnomon_abs(t.c4)));
+}
+
+/// The least possible value of E[p], given channels c of theta4 that are each off by at most noise.
+float gnomon_certificate4_theta_mean(gnomon_certificate4 p, channels4 c, float noise)
+{
+    channels4 t = gnomon_certificate4_theta(p);
+    float mean = (p.s0 + (t.c2 * c.c2 + t.c4 * c.c4)) + (t.c1 * (c.c1 - 0.5) + t.c3 * (c.c3 - 0.5));
+    return p.top - (mean + gnomon_certificate4_theta_doubt(t, noise));
 }
 
 /// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels c of theta4 that are each off by at
@@ -3806,25 +3841,28 @@ float certified4_theta_lower(hankel4 h, channels4 c, float noise, float z_f)
     return saturate_or_zero(gnomon_certificate4_theta_mean(p, c, noise));
 }
 
-static const float certified4_scale = 137438953472.0; // 2^37
+static const float gnomon_certified4_scale = 137438953472.0; // 2^37
 
-/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
-/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. Float
-/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
-/// the node before z_f, or 1 minus the weight of z_f. The contribution of the bias is then subtracted. 0 if rounding
-/// left h at its floor.
-/// Domain: z_f in [-1, 1], clamped.
-/// NaN: 0, lit.
-float certified4_constant_bias_lower(hankel4 h, moments4 noise, float bias2, float bias4, float alpha, float z_f)
+/// A certificate and its mean for the biased moments, and what the bias added to that. known is 0 if rounding left
+/// the matrix at its floor or if nothing is certified, else 1.
+struct certified4_mean
 {
-    float z = clamp_or_nan(z_f, -1.0, 1.0);
+    gnomon_certificate4 p;
+    float mean, added, known;
+};
+
+/// The certificate at z in [-1, 1] from the matrix h of moments with a constant bias that is kept apart. Float
+/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
+/// the node before z, or 1 minus the weight of z.
+certified4_mean gnomon_certified4_constant_bias_mean(hankel4 h, float bias2, float bias4, float alpha, float z)
+{
     float u = z - h.mean;
     float vu = h.variance * u;
     float slope = vu - h.third;
     float q = slope * u - h.variance * h.variance;
     // The power of two is a factor of a, b and w, which otherwise underflow for a single depth.
-    float s = certified4_scale * q;
-    float n = certified4_scale * h.determinant;
+    float s = gnomon_certified4_scale * q;
+    float n = gnomon_certified4_scale * h.determinant;
     float un = u * n;
     float e = u * un + q * s;
     float w = h.variance * n + e;
@@ -3845,14 +3883,45 @@ float certified4_constant_bias_lower(hankel4 h, moments4 noise, float bias2, flo
     float n2 = gnomon_select(between, c, g) * gnomon_select(between, (c - g) - g, g);
     float t0 = gnomon_select(between, 0.5 + b * inverse, 1.0);
     float t1 = gnomon_select(between, g, c);
-    gnomon_certificate4 p = gnomon_certificate4_about(z, n0, t0, t1, n1, n2);
+    certified4_mean m;
+    m.p = gnomon_certificate4_about(z, n0, t0, t1, n1, n2);
     float share = gnomon_select(between, 0.5 * (e * (r + b)) - w * (a * u), e);
-    float mean = share / (w * gnomon_select(between, r, 1.0));
-    float added = alpha * ((p.top - p.s0) - (bias2 * p.s2 + bias4 * p.s4));
-    float doubt = (noise.b1 * gnomon_abs(p.s1) + noise.b2 * gnomon_abs(p.s2)) +
-                  (noise.b3 * gnomon_abs(p.s3) + noise.b4 * gnomon_abs(p.s4));
-    bool known = (between || positive) && (gnomon_pivot_floor * h.variance < h.determinant);
-    return gnomon_select(known, saturate_or_zero(mean - (added + doubt)), 0.0);
+    m.mean = share / (w * gnomon_select(between, r, 1.0));
+    m.added = alpha * ((m.p.top - m.p.s0) - (bias2 * m.p.s2 + bias4 * m.p.s4));
+    m.known = gnomon_select((between || positive) && (gnomon_pivot_floor * h.variance < h.determinant), 1.0, 0.0);
+    return m;
+}
+
+/// The certified mean without what the bias added and less the doubt about it, as an intensity.
+float gnomon_certified4_constant_bias_intensity(certified4_mean m, float doubt)
+{
+    return gnomon_select(0.0 < m.known, saturate_or_zero(m.mean - (m.added + doubt)), 0.0);
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
+/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. 0 if
+/// rounding left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+float certified4_constant_bias_lower(hankel4 h, moments4 noise, float bias2, float bias4, float alpha, float z_f)
+{
+    certified4_mean m = gnomon_certified4_constant_bias_mean(h, bias2, bias4, alpha, clamp_or_nan(z_f, -1.0, 1.0));
+    float doubt = (noise.b1 * gnomon_abs(m.p.s1) + noise.b2 * gnomon_abs(m.p.s2)) +
+                  (noise.b3 * gnomon_abs(m.p.s3) + noise.b4 * gnomon_abs(m.p.s4));
+    return gnomon_certified4_constant_bias_intensity(m, doubt);
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels of theta4 with more than 16 bits,
+/// each off by at most noise. h is the matrix of their moments by hankel4_constant_bias with the same bias2, bias4 and
+/// alpha. 0 if rounding left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+float certified4_theta_constant_bias_lower(hankel4 h, float noise, float bias2, float bias4, float alpha, float z_f)
+{
+    certified4_mean m = gnomon_certified4_constant_bias_mean(h, bias2, bias4, alpha, clamp_or_nan(z_f, -1.0, 1.0));
+    return gnomon_certified4_constant_bias_intensity(m,
+                                                     gnomon_certificate4_theta_doubt(gnomon_certificate4_theta(m.p),
+                                                                                     noise));
 }
 
 /// The largest error of each moment of b after one rounding to float: 2 delta |b_j|, but at most delta.
@@ -6343,6 +6412,12 @@ float blocker2_depth(float mean, float variance, float z_f)
     return gnomon_blocker_depth_before(z, below / total);
 }
 
+#endif
+
+// soft/blocker.h ------------------------------------------------------------------------------------------------------
+#ifndef GNOMON_SOFT_BLOCKER_4
+#define GNOMON_SOFT_BLOCKER_4
+
 /// Mean blocker depth in [-1, z_f] from four moments.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: no blocker, z_f, for a NaN in h; a z_f of NaN is the far plane.
@@ -6610,16 +6685,25 @@ float penumbra_local(float z_f, float z_b, float near_distance, float far_distan
 /// A rectangle of a map, from (x0, y0) to (x1, y1) in texels.
 struct summed_area_rectangle { float x0, y0, x1, y1; };
 
-static const float summed_area_range = 4294967296.0;    // 2^32
-static const float summed_area_most_texels = 1048576.0; // 2^20
-static const float summed_area_slack = 0.0009765625;    // 2^-10
+static const float summed_area_range = 4294967296.0;         // 2^32
+static const float summed_area_most_texels = 1048576.0;      // 2^20
+static const float summed_area_step = 5.9604644775390625e-8; // 2^-24
+static const float summed_area_slack = 0.0009765625;         // 2^-10
 
-/// The whole number nearest to x, ties to even.
-/// Domain: x >= 0.
-float gnomon_summed_area_nearest(float x)
+static const float summed_area_code_noise = 1.1641532182693481e-10; // 2^-33
+static const float summed_area_float_noise = 4.4703483581542969e-8; // 1.5 times 2^-25
+static const float summed_area_least_noise = 8.1956386566162109e-8; // 2.75 times 2^-25, in small tables
+
+/// The largest error of a channel of a rectangle, for a table by summed_area_scale(most_texels): half a code,
+/// most_texels 2^-33, and what float arithmetic rounds on the way from the depth to the mean, in the channel, the
+/// resolve of four samples, the sum and the mean. Errors of float arithmetic do not all come together; a search by
+/// climbing found these.
+/// Domain: most_texels at least 0.
+/// NaN: the noise of a small table.
+float summed_area_noise(float most_texels)
 {
-    float rounder = 8388608.0;
-    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+    float noise = summed_area_code_noise * most_texels + summed_area_float_noise;
+    return gnomon_max(noise, summed_area_least_noise);
 }
 
 /// The number that channels are multiplied by: the largest whole number S of the precision of float for which sums over
@@ -6631,23 +6715,28 @@ float gnomon_summed_area_nearest(float x)
 float summed_area_scale(float most_texels)
 {
     float n = clamp_or_high(most_texels, 1.0, summed_area_most_texels);
-    float s = summed_area_range / n;
-    gnomon_double_word p = two_product(s, n);
-    float step = 5.9604644775390625e-8;
-    bool fits = (p.high - summed_area_range) + p.low < 0.0;
-    s = gnomon_select(fits, s, s - step * s);
-    float whole = gnomon_summed_area_nearest(s);
-    return whole - gnomon_select(s < whole, 1.0, 0.0);
+    float range = summed_area_range;
+    float s = range / n;
+    float whole = nearest_natural(s);
+    whole = whole - gnomon_select(s < whole, 1.0, 0.0);
+    gnomon_double_word sum = two_product(whole, n);
+    bool wraps = 0.0 <= (sum.high - range) + sum.low;
+    return whole - gnomon_select(wraps, gnomon_max(1.0, summed_area_step * whole), 0.0);
 }
 
 /// The code of a channel: the whole number nearest to scale times the channel, which conversion to an unsigned integer
 /// leaves as it is.
 /// Domain: any channel, clamped to [0, 1]; scale by summed_area_scale.
 /// NaN: 0.
+/// Error: half a code for scales up to 2^24, beyond which codes are floats.
 /// Source: Peters 2017, Sec. 4.2
 float summed_area_code(float channel, float scale)
 {
-    return gnomon_summed_area_nearest(scale * saturate_or_zero(channel));
+    gnomon_double_word p = two_product(saturate_or_zero(channel), scale);
+    float code = nearest_natural(p.high);
+    float rest = (p.high - code) + p.low; // more than half a code where p.high was rounded
+    code = code + gnomon_select(0.5 < rest, 1.0, 0.0);
+    return code - gnomon_select(rest < -0.5, 1.0, 0.0);
 }
 
 /// The rectangle of the given widths about (x, y).
@@ -6769,8 +6858,15 @@ float summed_area_width(summed_area_parts parts)
 /// Domain: a sum of codes, weighted by widths, over a rectangle of that area; scale by summed_area_scale. 0 for an area
 /// of 0 without a sum.
 /// NaN: 0.
-/// Error: relative, 2 2^-p.
-float summed_area_mean(float sum, float area, float scale) { return saturate_or_zero(sum / (area * scale)); }
+/// Error: relative, 2^-p, for the sum as it is given.
+float summed_area_mean(float sum, float area, float scale)
+{
+    gnomon_double_word whole = two_product(area, scale);
+    float mean = saturate_or_zero(sum / whole.high);
+    gnomon_double_word p = two_product(mean, whole.high);
+    float rest = (sum - p.high) - (p.low + mean * whole.low);
+    return saturate_or_zero(mean + rest / whole.high);
+}
 
 #endif
 
@@ -7509,27 +7605,67 @@ float moments4_float_blended_intensity(channels4 c, float roundings, float z_f)
 //                   z_b = moments4_summed_blocker(c, most_texels, z_f)
 //                   shadow = moments4_summed_intensity(c, most_texels, z_f - bias)
 //
-// Channels are off by moments4_summed_noise at most: by half a code, most_texels 2^-33, and by what float arithmetic
-// rounds from the depth to the moments.
+// Encoding and the inverse of theta4 keep the digits that Real has no room for. Else the noise of channels
+// (summed_area_noise) would be 2.5e-7 for 784 texels, not 1.4e-7. Intensities exceed Z(z < z_f), for every distribution
+// Z on [-1, 1], by at most
+//   moments4_summed_intensity   gnomon_stored4_arithmetic_weight: certificates (certified4.h)
+//   hankel4_from_summed         gnomon_moments4_summed_bias_ratio times the noise, and that of arithmetic
+// Tests search for the largest excess by hill climbing (tests/soft/honest_summed.cpp).
 #ifndef GNOMON_STORAGE_MOMENTS4_SUMMED_H
 #define GNOMON_STORAGE_MOMENTS4_SUMMED_H
 
-static const float moments4_summed_code_noise = 1.1641532182693481e-10; // 2^-33
-static const float moments4_summed_float_noise = 1.8e-7;
-static const float moments4_summed_bias_ratio = 4.0;
+static const float gnomon_moments4_summed_bias_ratio = 5.0;
 
-/// The largest error of the channels of a rectangle, for a table by summed_area_scale(most_texels).
-/// Domain: most_texels at least 0.
-float moments4_summed_noise(float most_texels)
+/// a + b as a double word, for magnitudes in any order.
+gnomon_double_word gnomon_summed_two_sum(float a, float b) { return two_difference(a, -1.0 * b); }
+
+static const float gnomon_summed_four_ninths = 0.44444444444444442;
+static const float gnomon_summed_third = 0.33333333333333331;
+
+/// What a factor is short of a constant, root - factor, where root^2 = square: the digits that float has no room for.
+float gnomon_summed_root_rest(float factor, float square)
 {
-    return moments4_summed_code_noise * most_texels + moments4_summed_float_noise;
+    gnomon_double_word p = two_product(factor, factor);
+    return ((square - p.high) - p.low) * (0.5 / factor);
 }
 
 /// The four channels of the texel of a depth z, each in [0, 1].
 /// Domain: any z, limited to [-1, 1].
 /// NaN: the far plane, which shadows nothing.
+/// Error: one rounding.
 /// Source: Peters 2017, Eq. 3
-channels4 moments4_summed_encode(float z) { return theta4(moments4_from_depth(clamp_or_high(z, -1.0, 1.0))); }
+channels4 moments4_summed_encode(float z)
+{
+    float x = clamp_or_high(z, -1.0, 1.0);
+    gnomon_double_word z2 = two_product(x, x);
+    gnomon_double_word z3 = two_product(z2.high, x);
+    z3.low = z3.low + z2.low * x;
+    gnomon_double_word z4 = two_product(z2.high, z2.high);
+    z4.low = z4.low + 2.0 * (z2.high * z2.low);
+    channels4 c;
+    // 1/2 + 3/2 z - 2 z^3
+    gnomon_double_word s = two_difference(0.5, 2.0 * z3.high);
+    gnomon_double_word t = gnomon_summed_two_sum(s.high, x);
+    gnomon_double_word u = gnomon_summed_two_sum(t.high, 0.5 * x);
+    c.c1 = u.high + (u.low + (t.low + (s.low - 2.0 * z3.low)));
+    // 4 (z^2 - z^4)
+    gnomon_double_word d = two_difference(z2.high, z4.high);
+    c.c2 = 4.0 * (d.high + (d.low + (z2.low - z4.low)));
+    // 1/2 + sqrt(3)/2 (z - 4/9 z^3)
+    float ninths = gnomon_summed_four_ninths;
+    gnomon_double_word n = two_product(ninths, 9.0);
+    gnomon_double_word q = two_product(z3.high, ninths);
+    gnomon_double_word w = two_difference(x, q.high);
+    float rest = w.low - (q.low + (z3.low * ninths + z3.high * (((4.0 - n.high) - n.low) * (0.25 * ninths))));
+    float root = gnomon_theta4_31;
+    gnomon_double_word p = two_product(root, w.high);
+    gnomon_double_word h = gnomon_summed_two_sum(0.5, p.high);
+    c.c3 = h.high + (h.low + (p.low + (root * rest + gnomon_summed_root_rest(root, 0.75) * w.high)));
+    // (z^2 + z^4) / 2
+    gnomon_double_word m = gnomon_summed_two_sum(z2.high, z4.high);
+    c.c4 = 0.5 * (m.high + (m.low + (z2.low + z4.low)));
+    return c;
+}
 
 /// The codes of a texel with these channels: whole numbers in [0, 2^32 - 1].
 /// Domain: any channels, each limited to [0, 1]; scale by summed_area_scale.
@@ -7563,19 +7699,62 @@ channels4 moments4_summed_channels(channels4 sums, float area, float scale)
     return r;
 }
 
+/// The factored matrix of the channels of a rectangle, with a constant bias of weight alpha. What rounding would take
+/// from the moments is added to their covariances.
+hankel4 gnomon_hankel4_from_summed_theta(channels4 c, float bias2, float bias4, float alpha)
+{
+    gnomon_double_word c1 = two_difference(c.c1, 0.5);
+    gnomon_double_word c3 = two_difference(c.c3, 0.5);
+    float root = gnomon_theta4_inverse13;
+    float third = gnomon_summed_third;
+    // t = sqrt(3) (c3 - 1/2),    b1 = t - (c1 - 1/2) / 3,    b3 = 3/4 (t - (c1 - 1/2))
+    gnomon_double_word t = two_product(root, c3.high);
+    t.low = t.low + (root * c3.low + gnomon_summed_root_rest(root, 3.0) * c3.high);
+    gnomon_double_word n = two_product(third, 3.0);
+    gnomon_double_word q = two_product(third, c1.high);
+    q.low = q.low + (third * c1.low + (third * ((1.0 - n.high) - n.low)) * c1.high);
+    gnomon_double_word d1 = two_difference(t.high, q.high);
+    gnomon_double_word d3 = two_difference(t.high, c1.high);
+    gnomon_double_word p3 = two_product(0.75, d3.high);
+    float eighth = 0.125 * c.c2;
+    gnomon_double_word d2 = gnomon_summed_two_sum(c.c4, eighth);
+    gnomon_double_word d4 = two_difference(c.c4, eighth);
+    moments4 b;
+    b.b1 = d1.high;
+    b.b2 = d2.high;
+    b.b3 = p3.high;
+    b.b4 = d4.high;
+    moments4 e;
+    e.b1 = (d1.low + (t.low - q.low)) - alpha * b.b1;
+    e.b2 = d2.low + alpha * (bias2 - b.b2);
+    e.b3 = (p3.low + 0.75 * (d3.low + (t.low - c1.low))) - alpha * b.b3;
+    e.b4 = d4.low + alpha * (bias4 - b.b4);
+    return gnomon_hankel4_with_change(b, e);
+}
+
+/// The weight of the constant bias of a table for most_texels, at most 1/2.
+float gnomon_moments4_summed_weight(float most_texels)
+{
+    return gnomon_min(gnomon_moments4_summed_bias_ratio * summed_area_noise(most_texels), 0.5);
+}
+
 /// The factored matrix of the channels of a rectangle, with the constant bias of a table for most_texels.
+/// Domain: most_texels as of the table's scale.
+/// NaN: stays NaN; a most_texels of NaN counts as a small one.
 hankel4 hankel4_from_summed(channels4 c, float most_texels)
 {
-    float weight = moments4_summed_bias_ratio * moments4_summed_noise(most_texels);
-    return hankel4_constant_bias(theta4_inverse(c), bias4_theta_b2, bias4_theta_b4, gnomon_min(weight, 0.5));
+    return gnomon_hankel4_from_summed_theta(c, bias4_theta_b2, bias4_theta_b4,
+                                            gnomon_moments4_summed_weight(most_texels));
 }
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a rectangle.
-/// Domain: any z_f, limited to [-1, 1].
+/// Domain: any z_f, limited to [-1, 1]; most_texels as of the table's scale.
 /// NaN: 0, lit.
 float moments4_summed_intensity(channels4 c, float most_texels, float z_f)
 {
-    return hamburger4_lower(hankel4_from_summed(c, most_texels), z_f);
+    return certified4_theta_constant_bias_lower(hankel4_from_summed(c, most_texels), summed_area_noise(most_texels),
+                                                bias4_theta_b2, bias4_theta_b4,
+                                                gnomon_moments4_summed_weight(most_texels), z_f);
 }
 
 /// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.
@@ -7602,14 +7781,14 @@ static const float moments4_summed_within_float_weight = 1e-6;
 /// Domain: most_texels at least 0.
 float moments4_summed_within_weight(float most_texels)
 {
-    return moments4_summed_within_bias_ratio * moments4_summed_noise(most_texels) + moments4_summed_within_float_weight;
+    return moments4_summed_within_bias_ratio * summed_area_noise(most_texels) + moments4_summed_within_float_weight;
 }
 
 /// The factored matrix of the channels of a rectangle, with a bias for depths in [-1, 1].
 hankel4 hankel4_from_summed_within(channels4 c, float most_texels)
 {
-    return hankel4_constant_bias(theta4_inverse(c), bias4_theta_within_b2, bias4_theta_within_b4,
-                                 gnomon_min(moments4_summed_within_weight(most_texels), 0.5));
+    return gnomon_hankel4_from_summed_theta(c, bias4_theta_within_b2, bias4_theta_within_b4,
+                                            gnomon_min(moments4_summed_within_weight(most_texels), 0.5));
 }
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a rectangle.
@@ -7951,6 +8130,109 @@ float moments6_float_blended_intensity(channels6 c, float roundings, float z_f)
 
 #endif
 
+// storage/moments6_summed.h -------------------------------------------------------------------------------------------
+// Six moments in a summed-area table (soft/summed_area.h): moments4_summed.h for search regions that hold more
+// surfaces, in 24 bytes a texel.
+//
+//   a texel:        c = moments6_summed_encode(z)               channels of theta6; a resolve averages them
+//                   codes = moments6_summed_codes(c, scale)     whole numbers, to be converted to 32-bit unsigned
+// integers
+//   a rectangle:    c = moments6_summed_channels(sums, area, scale)
+//                   z_b = moments6_summed_blocker(c, most_texels, z_f)
+//                   shadow = moments6_summed_intensity(c, most_texels, z_f - bias)
+//
+// Channels are off by half a code, most_texels 2^-33, and by what float arithmetic rounds. Intensities exceed Z(z <
+// z_f) by moments6_summed_weight at most.
+#ifndef GNOMON_STORAGE_MOMENTS6_SUMMED_H
+#define GNOMON_STORAGE_MOMENTS6_SUMMED_H
+
+static const float moments6_summed_code_weight = 8e-10; // 2^-33 / r
+static const float moments6_summed_float_weight = 6e-6;
+
+/// The weight of the constant bias of a table for most_texels, by which intensities may exceed the truth.
+/// Domain: most_texels as of the table's scale.
+/// NaN: the weight of a small table.
+float moments6_summed_weight(float most_texels)
+{
+    float weight = moments6_summed_code_weight * most_texels + moments6_summed_float_weight;
+    return gnomon_min(gnomon_max(weight, moments6_summed_float_weight), 0.5);
+}
+
+/// The six channels of the texel of a depth z, each in [0, 1].
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+/// Source: Peters 2017, Sec. 5.4.3
+channels6 moments6_summed_encode(float z) { return theta6(moments6_from_depth(clamp_or_high(z, -1.0, 1.0))); }
+
+/// The codes of a texel with these channels: whole numbers in [0, 2^32 - 1].
+/// Domain: any channels, each limited to [0, 1]; scale by summed_area_scale.
+/// NaN: the codes of the far plane.
+channels6 moments6_summed_codes(channels6 c, float scale)
+{
+    float any = (clamp_or_nan(c.c1, 0.0, 1.0) + clamp_or_nan(c.c2, 0.0, 1.0)) +
+                (clamp_or_nan(c.c3, 0.0, 1.0) + clamp_or_nan(c.c4, 0.0, 1.0)) +
+                (clamp_or_nan(c.c5, 0.0, 1.0) + clamp_or_nan(c.c6, 0.0, 1.0));
+    bool known = any == any;
+    channels6 border = moments6_summed_encode(1.0);
+    channels6 r;
+    r.c1 = summed_area_code(gnomon_select(known, c.c1, border.c1), scale);
+    r.c2 = summed_area_code(gnomon_select(known, c.c2, border.c2), scale);
+    r.c3 = summed_area_code(gnomon_select(known, c.c3, border.c3), scale);
+    r.c4 = summed_area_code(gnomon_select(known, c.c4, border.c4), scale);
+    r.c5 = summed_area_code(gnomon_select(known, c.c5, border.c5), scale);
+    r.c6 = summed_area_code(gnomon_select(known, c.c6, border.c6), scale);
+    return r;
+}
+
+/// The mean channels of a rectangle, from the sums of its codes and its area.
+/// Domain: sums and area as for summed_area_mean; the border, which is lit, for an area of 0.
+/// NaN: channels of 0 for sums; the border for an area.
+channels6 moments6_summed_channels(channels6 sums, float area, float scale)
+{
+    bool some = 0.0 < area;
+    channels6 border = moments6_summed_encode(1.0);
+    channels6 r;
+    r.c1 = gnomon_select(some, summed_area_mean(sums.c1, area, scale), border.c1);
+    r.c2 = gnomon_select(some, summed_area_mean(sums.c2, area, scale), border.c2);
+    r.c3 = gnomon_select(some, summed_area_mean(sums.c3, area, scale), border.c3);
+    r.c4 = gnomon_select(some, summed_area_mean(sums.c4, area, scale), border.c4);
+    r.c5 = gnomon_select(some, summed_area_mean(sums.c5, area, scale), border.c5);
+    r.c6 = gnomon_select(some, summed_area_mean(sums.c6, area, scale), border.c6);
+    return r;
+}
+
+/// The factored matrix of the channels of a rectangle, with a constant bias of weight alpha.
+hankel6 gnomon_hankel6_from_summed_theta(channels6 c, float alpha)
+{
+    return hankel6_constant_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6, alpha);
+}
+
+/// The factored matrix of the channels of a rectangle, with the constant bias of a table for most_texels.
+/// Domain: most_texels as of the table's scale.
+/// NaN: stays NaN; a most_texels of NaN counts as a small one.
+hankel6 hankel6_from_summed(channels6 c, float most_texels)
+{
+    return gnomon_hankel6_from_summed_theta(c, moments6_summed_weight(most_texels));
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a rectangle.
+/// Domain: any z_f, limited to [-1, 1]; most_texels as of the table's scale.
+/// NaN: 0, lit.
+float moments6_summed_intensity(channels6 c, float most_texels, float z_f)
+{
+    return hamburger6_lower(hankel6_from_summed(c, most_texels), z_f);
+}
+
+/// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: no blocker, z_f, for a NaN in c; a z_f of NaN is the far plane.
+float moments6_summed_blocker(channels6 c, float most_texels, float z_f)
+{
+    return blocker6_depth(hankel6_from_summed(c, most_texels), z_f);
+}
+
+#endif
+
 // storage/variance.h --------------------------------------------------------------------------------------------------
 // Variance shadow maps in a storage format: from a depth to the channels of a texel, and from filtered channels to a
 // shadow, each with the minimum variance that hides the roundings of its format.
@@ -7990,6 +8272,100 @@ float variance_unorm16_intensity(channels2 c, float z_f)
     variance_settings settings;
     settings.minimum_variance = variance_unorm16_minimum_variance;
     return variance_intensity(b, z_f, settings);
+}
+
+#endif
+
+// storage/variance_summed.h -------------------------------------------------------------------------------------------
+// The mean and the mean square of depths in a summed-area table (soft/summed_area.h; Lauritzen 2007), in 8 bytes a
+// texel: what variance soft shadow mapping reads (Yang et al. 2010).
+//
+//   a texel:        c = variance_summed_encode(z)               (1 + z) / 2 and z^2; a resolve averages them
+//                   codes = variance_summed_codes(c, scale)     whole numbers, to be converted to 32-bit unsigned
+// integers
+//   a rectangle:    c = variance_summed_channels(sums, area, scale)
+//                   z_b = variance_summed_blocker(c, most_texels, z_f)
+//                   shadow = variance_summed_intensity(c, most_texels, z_f - bias)
+//
+// With channels that are off by noise, the mean is off by 2 noise and the variance by (1 + 4 |mean|) noise at most.
+// Cantelli's bound from the largest variance and the least distance never darkens.
+#ifndef GNOMON_STORAGE_VARIANCE_SUMMED_H
+#define GNOMON_STORAGE_VARIANCE_SUMMED_H
+
+static const float variance_summed_darkening = 1e-6;
+
+/// The two channels of the texel of a depth z, each in [0, 1].
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+channels2 variance_summed_encode(float z)
+{
+    float x = clamp_or_high(z, -1.0, 1.0);
+    channels2 c;
+    c.c1 = 0.5 * x + 0.5;
+    c.c2 = x * x;
+    return c;
+}
+
+/// The codes of a texel with these channels: whole numbers in [0, 2^32 - 1].
+/// Domain: any channels, each limited to [0, 1]; scale by summed_area_scale.
+/// NaN: the codes of the far plane.
+channels2 variance_summed_codes(channels2 c, float scale)
+{
+    float any = clamp_or_nan(c.c1, 0.0, 1.0) + clamp_or_nan(c.c2, 0.0, 1.0);
+    bool known = any == any;
+    channels2 r;
+    r.c1 = summed_area_code(gnomon_select(known, c.c1, 1.0), scale);
+    r.c2 = summed_area_code(gnomon_select(known, c.c2, 1.0), scale);
+    return r;
+}
+
+/// The mean channels of a rectangle, from the sums of its codes and its area.
+/// Domain: sums and area as for summed_area_mean; the border, which is lit, for an area of 0.
+/// NaN: channels of 0 for sums; the border for an area.
+channels2 variance_summed_channels(channels2 sums, float area, float scale)
+{
+    bool some = 0.0 < area;
+    channels2 r;
+    r.c1 = gnomon_select(some, summed_area_mean(sums.c1, area, scale), 1.0);
+    r.c2 = gnomon_select(some, summed_area_mean(sums.c2, area, scale), 1.0);
+    return r;
+}
+
+/// The mean and the largest variance that channels may have which are off by noise.
+struct variance_summed_moments { float mean, variance; };
+
+variance_summed_moments gnomon_variance_summed_decode(channels2 c, float noise)
+{
+    variance_summed_moments r;
+    r.mean = (c.c1 - 0.5) * 2.0;
+    float doubt = (1.0 + 4.0 * gnomon_abs(r.mean)) * noise;
+    r.variance = gnomon_max(subtract_product_rounded(c.c2, r.mean, r.mean), 0.0) + doubt;
+    return r;
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a rectangle.
+/// Domain: any z_f, limited to [-1, 1]; most_texels as of the table's scale.
+/// NaN: 0, lit.
+/// Source: Donnelly & Lauritzen 2006
+float variance_summed_intensity(channels2 c, float most_texels, float z_f)
+{
+    float noise = summed_area_noise(most_texels);
+    variance_summed_moments b = gnomon_variance_summed_decode(c, noise);
+    float distance_ = (clamp_or_nan(z_f, -1.0, 1.0) - b.mean) - 2.0 * noise;
+    float d = gnomon_max(0.0, distance_);
+    float intensity = saturate_or_zero(d * d / (b.variance + d * d));
+    return gnomon_select(c.c2 == c.c2, intensity, 0.0);
+}
+
+/// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: no blocker, z_f, for a NaN in c; a z_f of NaN is the far plane.
+/// Source: Yang 2010
+float variance_summed_blocker(channels2 c, float most_texels, float z_f)
+{
+    variance_summed_moments b = gnomon_variance_summed_decode(c, summed_area_noise(most_texels));
+    float depth = blocker2_depth(b.mean, b.variance, z_f);
+    return gnomon_select(c.c2 == c.c2, depth, clamp_or_high(z_f, -1.0, 1.0));
 }
 
 #endif

@@ -633,8 +633,8 @@ gnomon_double_word gnomon_covariance_add_bias(gnomon_double_word c, float b_i, f
 // M = var z^2, and D_1 D_2 = V M - L^2. All three cancel, so they are computed from exact products. A bias (bias.h) is
 // added to the covariances, as double words, because added to the moments it would be rounded away. hamburger4.h
 // divides later, and uses G = g V = E[P_1^3] = L - 2 b1 V in place of L.
-#ifndef GNOMON_MOMENTS_HANKEL4_H
-#define GNOMON_MOMENTS_HANKEL4_H
+#ifndef GNOMON_MOMENTS_HANKEL4_4
+#define GNOMON_MOMENTS_HANKEL4_4
 
 /// The factored matrix: mean b1, variance D_1, third central moment G, determinant D_1 D_2. Variance and determinant
 /// are positive for any moments in [-2^30, 2^30]; larger moments can overflow.
@@ -679,6 +679,17 @@ gnomon_covariances4 gnomon_covariances4_from_moments(moments4 b)
     return c;
 }
 
+/// The factored matrix of the moments b + e, where e is small: a bias, or what rounding took from b.
+/// NaN: stays NaN.
+hankel4 gnomon_hankel4_with_change(moments4 b, moments4 e)
+{
+    gnomon_covariances4 c = gnomon_covariances4_from_moments(b);
+    gnomon_double_word v = gnomon_covariance_add_bias(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
+    gnomon_double_word l = gnomon_covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
+    gnomon_double_word m = gnomon_covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
+    return gnomon_hankel4_make(b.b1 + e.b1, v.high + v.low, l.high + l.low, gnomon_double_word_determinant(v, l, m));
+}
+
 /// The factored matrix of the mixture (1 - alpha) Z + alpha Z*, where Z has the moments b and Z* is symmetric with
 /// second and fourth moments bias2 and bias4.
 /// Domain: alpha in [0, 1), and at least n delta / (n delta + r) for moments that are off by n roundings (bias.h). With
@@ -692,11 +703,7 @@ hankel4 hankel4_constant_bias(moments4 b, float bias2, float bias4, float alpha)
     e.b2 = alpha * (bias2 - b.b2);
     e.b3 = -1.0 * alpha * b.b3;
     e.b4 = alpha * (bias4 - b.b4);
-    gnomon_covariances4 c = gnomon_covariances4_from_moments(b);
-    gnomon_double_word v = gnomon_covariance_add_bias(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
-    gnomon_double_word l = gnomon_covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
-    gnomon_double_word m = gnomon_covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
-    return gnomon_hankel4_make(b.b1 + e.b1, v.high + v.low, l.high + l.low, gnomon_double_word_determinant(v, l, m));
+    return gnomon_hankel4_with_change(b, e);
 }
 
 #endif
@@ -782,18 +789,31 @@ gnomon_certificate4 gnomon_certificate4_make(hankel4 h, float z_f)
     return p;
 }
 
-/// The least possible value of E[p], given channels c of theta4 that are each off by at most noise. The coefficients of
-/// p at the channels are the transpose of theta4_inverse times those at the moments.
-float gnomon_certificate4_theta_mean(gnomon_certificate4 p, channels4 c, float noise)
+/// The coefficients of p at the channels of theta4, with the sign of s: the transpose of theta4_inverse times those at
+/// the moments.
+channels4 gnomon_certificate4_theta(gnomon_certificate4 p)
 {
     float third = 0.75 * p.s3;
-    float p1 = gnomon_theta4_inverse11 * p.s1 - third;
-    float p2 = 0.125 * (p.s2 - p.s4);
-    float p3 = gnomon_theta4_inverse13 * (p.s1 + third);
-    float p4 = p.s2 + p.s4;
-    float mean = (p.s0 + (p2 * c.c2 + p4 * c.c4)) + (p1 * (c.c1 - 0.5) + p3 * (c.c3 - 0.5));
-    float doubt = noise * ((gnomon_abs(p1) + gnomon_abs(p2)) + (gnomon_abs(p3) + gnomon_abs(p4)));
-    return p.top - (mean + doubt);
+    channels4 r;
+    r.c1 = gnomon_theta4_inverse11 * p.s1 - third;
+    r.c2 = 0.125 * (p.s2 - p.s4);
+    r.c3 = gnomon_theta4_inverse13 * (p.s1 + third);
+    r.c4 = p.s2 + p.s4;
+    return r;
+}
+
+/// The most by which E[p] changes with channels that are each off by at most noise, from the coefficients at them.
+float gnomon_certificate4_theta_doubt(channels4 t, float noise)
+{
+    return noise * ((gnomon_abs(t.c1) + gnomon_abs(t.c2)) + (gnomon_abs(t.c3) + gnomon_abs(t.c4)));
+}
+
+/// The least possible value of E[p], given channels c of theta4 that are each off by at most noise.
+float gnomon_certificate4_theta_mean(gnomon_certificate4 p, channels4 c, float noise)
+{
+    channels4 t = gnomon_certificate4_theta(p);
+    float mean = (p.s0 + (t.c2 * c.c2 + t.c4 * c.c4)) + (t.c1 * (c.c1 - 0.5) + t.c3 * (c.c3 - 0.5));
+    return p.top - (mean + gnomon_certificate4_theta_doubt(t, noise));
 }
 
 /// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels c of theta4 that are each off by at
@@ -806,25 +826,28 @@ float certified4_theta_lower(hankel4 h, channels4 c, float noise, float z_f)
     return saturate_or_zero(gnomon_certificate4_theta_mean(p, c, noise));
 }
 
-const float certified4_scale = 137438953472.0; // 2^37
+const float gnomon_certified4_scale = 137438953472.0; // 2^37
 
-/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
-/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. Float
-/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
-/// the node before z_f, or 1 minus the weight of z_f. The contribution of the bias is then subtracted. 0 if rounding
-/// left h at its floor.
-/// Domain: z_f in [-1, 1], clamped.
-/// NaN: 0, lit.
-float certified4_constant_bias_lower(hankel4 h, moments4 noise, float bias2, float bias4, float alpha, float z_f)
+/// A certificate and its mean for the biased moments, and what the bias added to that. known is 0 if rounding left
+/// the matrix at its floor or if nothing is certified, else 1.
+struct certified4_mean
 {
-    float z = clamp_or_nan(z_f, -1.0, 1.0);
+    gnomon_certificate4 p;
+    float mean, added, known;
+};
+
+/// The certificate at z in [-1, 1] from the matrix h of moments with a constant bias that is kept apart. Float
+/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
+/// the node before z, or 1 minus the weight of z.
+certified4_mean gnomon_certified4_constant_bias_mean(hankel4 h, float bias2, float bias4, float alpha, float z)
+{
     float u = z - h.mean;
     float vu = h.variance * u;
     float slope = vu - h.third;
     float q = slope * u - h.variance * h.variance;
     // The power of two is a factor of a, b and w, which otherwise underflow for a single depth.
-    float s = certified4_scale * q;
-    float n = certified4_scale * h.determinant;
+    float s = gnomon_certified4_scale * q;
+    float n = gnomon_certified4_scale * h.determinant;
     float un = u * n;
     float e = u * un + q * s;
     float w = h.variance * n + e;
@@ -845,14 +868,45 @@ float certified4_constant_bias_lower(hankel4 h, moments4 noise, float bias2, flo
     float n2 = gnomon_select(between, c, g) * gnomon_select(between, (c - g) - g, g);
     float t0 = gnomon_select(between, 0.5 + b * inverse, 1.0);
     float t1 = gnomon_select(between, g, c);
-    gnomon_certificate4 p = gnomon_certificate4_about(z, n0, t0, t1, n1, n2);
+    certified4_mean m;
+    m.p = gnomon_certificate4_about(z, n0, t0, t1, n1, n2);
     float share = gnomon_select(between, 0.5 * (e * (r + b)) - w * (a * u), e);
-    float mean = share / (w * gnomon_select(between, r, 1.0));
-    float added = alpha * ((p.top - p.s0) - (bias2 * p.s2 + bias4 * p.s4));
-    float doubt = (noise.b1 * gnomon_abs(p.s1) + noise.b2 * gnomon_abs(p.s2)) +
-                  (noise.b3 * gnomon_abs(p.s3) + noise.b4 * gnomon_abs(p.s4));
-    bool known = (between || positive) && (gnomon_pivot_floor * h.variance < h.determinant);
-    return gnomon_select(known, saturate_or_zero(mean - (added + doubt)), 0.0);
+    m.mean = share / (w * gnomon_select(between, r, 1.0));
+    m.added = alpha * ((m.p.top - m.p.s0) - (bias2 * m.p.s2 + bias4 * m.p.s4));
+    m.known = gnomon_select((between || positive) && (gnomon_pivot_floor * h.variance < h.determinant), 1.0, 0.0);
+    return m;
+}
+
+/// The certified mean without what the bias added and less the doubt about it, as an intensity.
+float gnomon_certified4_constant_bias_intensity(certified4_mean m, float doubt)
+{
+    return gnomon_select(0.0 < m.known, saturate_or_zero(m.mean - (m.added + doubt)), 0.0);
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
+/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. 0 if
+/// rounding left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+float certified4_constant_bias_lower(hankel4 h, moments4 noise, float bias2, float bias4, float alpha, float z_f)
+{
+    certified4_mean m = gnomon_certified4_constant_bias_mean(h, bias2, bias4, alpha, clamp_or_nan(z_f, -1.0, 1.0));
+    float doubt = (noise.b1 * gnomon_abs(m.p.s1) + noise.b2 * gnomon_abs(m.p.s2)) +
+                  (noise.b3 * gnomon_abs(m.p.s3) + noise.b4 * gnomon_abs(m.p.s4));
+    return gnomon_certified4_constant_bias_intensity(m, doubt);
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels of theta4 with more than 16 bits,
+/// each off by at most noise. h is the matrix of their moments by hankel4_constant_bias with the same bias2, bias4 and
+/// alpha. 0 if rounding left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+float certified4_theta_constant_bias_lower(hankel4 h, float noise, float bias2, float bias4, float alpha, float z_f)
+{
+    certified4_mean m = gnomon_certified4_constant_bias_mean(h, bias2, bias4, alpha, clamp_or_nan(z_f, -1.0, 1.0));
+    return gnomon_certified4_constant_bias_intensity(m,
+                                                     gnomon_certificate4_theta_doubt(gnomon_certificate4_theta(m.p),
+                                                                                     noise));
 }
 
 /// The largest error of each moment of b after one rounding to float: 2 delta |b_j|, but at most delta.
@@ -893,6 +947,15 @@ float nearest_integer(float x)
 {
     float rounder = -12582912.0;
     return gnomon_sum(gnomon_difference(x, rounder), rounder);
+}
+
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+float nearest_natural(float x)
+{
+    float rounder = 8388608.0;
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
 }
 
 #endif
@@ -1511,6 +1574,12 @@ float over_darken(float intensity, float strength) { return saturate_or_zero(int
 
 /// The canonical distribution: depth0 at the receiver and depth1 <= depth2. The weights are in [0, 1] and sum to 1.
 struct gnomon_distribution3 { float depth0, depth1, depth2, weight0, weight1, weight2; };
+
+#endif
+
+// moments/hamburger4.h ------------------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_HAMBURGER4_4
+#define GNOMON_MOMENTS_HAMBURGER4_4
 
 const float gnomon_hamburger4_scale = 72057594037927936.0;     // 2^56
 const float hamburger4_lower_scale = 281474976710656.0; // 2^48

@@ -682,8 +682,8 @@ inline double_word covariance_add_bias(double_word c, float b_i, float b_j, floa
 // M = var z^2, and D_1 D_2 = V M - L^2. All three cancel, so they are computed from exact products. A bias (bias.h) is
 // added to the covariances, as double words, because added to the moments it would be rounded away. hamburger4.h
 // divides later, and uses G = g V = E[P_1^3] = L - 2 b1 V in place of L.
-#ifndef GNOMON_MOMENTS_HANKEL4_H
-#define GNOMON_MOMENTS_HANKEL4_H
+#ifndef GNOMON_MOMENTS_HANKEL4_4
+#define GNOMON_MOMENTS_HANKEL4_4
 
 namespace gnomon {
 
@@ -730,6 +730,17 @@ inline covariances4 covariances4_from_moments(moments4 b)
     return c;
 }
 
+/// The factored matrix of the moments b + e, where e is small: a bias, or what rounding took from b.
+/// NaN: stays NaN.
+inline hankel4 hankel4_with_change(moments4 b, moments4 e)
+{
+    covariances4 c = covariances4_from_moments(b);
+    double_word v = covariance_add_bias(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
+    double_word l = covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
+    double_word m = covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
+    return hankel4_make(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
+}
+
 /// The factored matrix of the mixture (1 - alpha) Z + alpha Z*, where Z has the moments b and Z* is symmetric with
 /// second and fourth moments bias2 and bias4.
 /// Domain: alpha in [0, 1), and at least n delta / (n delta + r) for moments that are off by n roundings (bias.h). With
@@ -743,11 +754,7 @@ inline hankel4 hankel4_constant_bias(moments4 b, float bias2, float bias4, float
     e.b2 = alpha * (bias2 - b.b2);
     e.b3 = -1.0f * alpha * b.b3;
     e.b4 = alpha * (bias4 - b.b4);
-    covariances4 c = covariances4_from_moments(b);
-    double_word v = covariance_add_bias(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
-    double_word l = covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
-    double_word m = covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
-    return hankel4_make(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
+    return hankel4_with_change(b, e);
 }
 
 } // namespace gnomon
@@ -837,18 +844,31 @@ inline certificate4 certificate4_make(hankel4 h, float z_f)
     return p;
 }
 
-/// The least possible value of E[p], given channels c of theta4 that are each off by at most noise. The coefficients of
-/// p at the channels are the transpose of theta4_inverse times those at the moments.
-inline float certificate4_theta_mean(certificate4 p, channels4 c, float noise)
+/// The coefficients of p at the channels of theta4, with the sign of s: the transpose of theta4_inverse times those at
+/// the moments.
+inline channels4 certificate4_theta(certificate4 p)
 {
     float third = 0.75f * p.s3;
-    float p1 = theta4_inverse11 * p.s1 - third;
-    float p2 = 0.125f * (p.s2 - p.s4);
-    float p3 = theta4_inverse13 * (p.s1 + third);
-    float p4 = p.s2 + p.s4;
-    float mean = (p.s0 + (p2 * c.c2 + p4 * c.c4)) + (p1 * (c.c1 - 0.5f) + p3 * (c.c3 - 0.5f));
-    float doubt = noise * ((gnomon_abs(p1) + gnomon_abs(p2)) + (gnomon_abs(p3) + gnomon_abs(p4)));
-    return p.top - (mean + doubt);
+    channels4 r;
+    r.c1 = theta4_inverse11 * p.s1 - third;
+    r.c2 = 0.125f * (p.s2 - p.s4);
+    r.c3 = theta4_inverse13 * (p.s1 + third);
+    r.c4 = p.s2 + p.s4;
+    return r;
+}
+
+/// The most by which E[p] changes with channels that are each off by at most noise, from the coefficients at them.
+inline float certificate4_theta_doubt(channels4 t, float noise)
+{
+    return noise * ((gnomon_abs(t.c1) + gnomon_abs(t.c2)) + (gnomon_abs(t.c3) + gnomon_abs(t.c4)));
+}
+
+/// The least possible value of E[p], given channels c of theta4 that are each off by at most noise.
+inline float certificate4_theta_mean(certificate4 p, channels4 c, float noise)
+{
+    channels4 t = certificate4_theta(p);
+    float mean = (p.s0 + (t.c2 * c.c2 + t.c4 * c.c4)) + (t.c1 * (c.c1 - 0.5f) + t.c3 * (c.c3 - 0.5f));
+    return p.top - (mean + certificate4_theta_doubt(t, noise));
 }
 
 /// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels c of theta4 that are each off by at
@@ -863,16 +883,19 @@ inline float certified4_theta_lower(hankel4 h, channels4 c, float noise, float z
 
 constant constexpr float certified4_scale = 137438953472.0f; // 2^37
 
-/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
-/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. Float
-/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
-/// the node before z_f, or 1 minus the weight of z_f. The contribution of the bias is then subtracted. 0 if rounding
-/// left h at its floor.
-/// Domain: z_f in [-1, 1], clamped.
-/// NaN: 0, lit.
-inline float certified4_constant_bias_lower(hankel4 h, moments4 noise, float bias2, float bias4, float alpha, float z_f)
+/// A certificate and its mean for the biased moments, and what the bias added to that. known is 0 if rounding left
+/// the matrix at its floor or if nothing is certified, else 1.
+struct certified4_mean
 {
-    float z = clamp_or_nan(z_f, -1.0f, 1.0f);
+    certificate4 p;
+    float mean, added, known;
+};
+
+/// The certificate at z in [-1, 1] from the matrix h of moments with a constant bias that is kept apart. Float
+/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
+/// the node before z, or 1 minus the weight of z.
+inline certified4_mean certified4_constant_bias_mean(hankel4 h, float bias2, float bias4, float alpha, float z)
+{
     float u = z - h.mean;
     float vu = h.variance * u;
     float slope = vu - h.third;
@@ -900,14 +923,44 @@ inline float certified4_constant_bias_lower(hankel4 h, moments4 noise, float bia
     float n2 = gnomon_select(between, c, g) * gnomon_select(between, (c - g) - g, g);
     float t0 = gnomon_select(between, 0.5f + b * inverse, 1.0f);
     float t1 = gnomon_select(between, g, c);
-    certificate4 p = certificate4_about(z, n0, t0, t1, n1, n2);
+    certified4_mean m;
+    m.p = certificate4_about(z, n0, t0, t1, n1, n2);
     float share = gnomon_select(between, 0.5f * (e * (r + b)) - w * (a * u), e);
-    float mean = share / (w * gnomon_select(between, r, 1.0f));
-    float added = alpha * ((p.top - p.s0) - (bias2 * p.s2 + bias4 * p.s4));
-    float doubt = (noise.b1 * gnomon_abs(p.s1) + noise.b2 * gnomon_abs(p.s2)) +
-                  (noise.b3 * gnomon_abs(p.s3) + noise.b4 * gnomon_abs(p.s4));
-    bool known = (between || positive) && (gnomon_pivot_floor * h.variance < h.determinant);
-    return gnomon_select(known, saturate_or_zero(mean - (added + doubt)), 0.0f);
+    m.mean = share / (w * gnomon_select(between, r, 1.0f));
+    m.added = alpha * ((m.p.top - m.p.s0) - (bias2 * m.p.s2 + bias4 * m.p.s4));
+    m.known = gnomon_select((between || positive) && (gnomon_pivot_floor * h.variance < h.determinant), 1.0f, 0.0f);
+    return m;
+}
+
+/// The certified mean without what the bias added and less the doubt about it, as an intensity.
+inline float certified4_constant_bias_intensity(certified4_mean m, float doubt)
+{
+    return gnomon_select(0.0f < m.known, saturate_or_zero(m.mean - (m.added + doubt)), 0.0f);
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
+/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. 0 if
+/// rounding left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+inline float certified4_constant_bias_lower(hankel4 h, moments4 noise, float bias2, float bias4, float alpha, float z_f)
+{
+    certified4_mean m = certified4_constant_bias_mean(h, bias2, bias4, alpha, clamp_or_nan(z_f, -1.0f, 1.0f));
+    float doubt = (noise.b1 * gnomon_abs(m.p.s1) + noise.b2 * gnomon_abs(m.p.s2)) +
+                  (noise.b3 * gnomon_abs(m.p.s3) + noise.b4 * gnomon_abs(m.p.s4));
+    return certified4_constant_bias_intensity(m, doubt);
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels of theta4 with more than 16 bits,
+/// each off by at most noise. h is the matrix of their moments by hankel4_constant_bias with the same bias2, bias4 and
+/// alpha. 0 if rounding left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+inline float certified4_theta_constant_bias_lower(hankel4 h, float noise, float bias2, float bias4, float alpha,
+                                                  float z_f)
+{
+    certified4_mean m = certified4_constant_bias_mean(h, bias2, bias4, alpha, clamp_or_nan(z_f, -1.0f, 1.0f));
+    return certified4_constant_bias_intensity(m, certificate4_theta_doubt(certificate4_theta(m.p), noise));
 }
 
 /// The largest error of each moment of b after one rounding to float: 2 delta |b_j|, but at most delta.
@@ -952,6 +1005,15 @@ inline float nearest_integer(float x)
 {
     float rounder = -12582912.0f;
     return gnomon_sum(gnomon_difference(x, rounder), rounder);
+}
+
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+inline float nearest_natural(float x)
+{
+    float rounder = 8388608.0f;
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
 }
 
 } // namespace gnomon
@@ -1598,6 +1660,16 @@ namespace gnomon {
 
 /// The canonical distribution: depth0 at the receiver and depth1 <= depth2. The weights are in [0, 1] and sum to 1.
 struct distribution3 { float depth0, depth1, depth2, weight0, weight1, weight2; };
+
+} // namespace gnomon
+
+#endif
+
+// moments/hamburger4.h ------------------------------------------------------------------------------------------------
+#ifndef GNOMON_MOMENTS_HAMBURGER4_4
+#define GNOMON_MOMENTS_HAMBURGER4_4
+
+namespace gnomon {
 
 constant constexpr float hamburger4_scale = 72057594037927936.0f;     // 2^56
 constant constexpr float hamburger4_lower_scale = 281474976710656.0f; // 2^48

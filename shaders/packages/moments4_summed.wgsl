@@ -425,6 +425,17 @@ fn gnomon_covariances4_from_moments(b: moments4_) -> gnomon_covariances4_
     return c;
 }
 
+/// The factored matrix of the moments b + e, where e is small: a bias, or what rounding took from b.
+/// NaN: stays NaN.
+fn gnomon_hankel4_with_change(b: moments4_, e: moments4_) -> hankel4_
+{
+    let c = gnomon_covariances4_from_moments(b);
+    let v = gnomon_covariance_add_bias(c.v, b.b1_, b.b1_, e.b2_, e.b1_, e.b1_);
+    let l = gnomon_covariance_add_bias(c.l, b.b1_, b.b2_, e.b3_, e.b1_, e.b2_);
+    let m = gnomon_covariance_add_bias(c.m, b.b2_, b.b2_, e.b4_, e.b2_, e.b2_);
+    return gnomon_hankel4_make(b.b1_ + e.b1_, v.high + v.low, l.high + l.low, gnomon_double_word_determinant(v, l, m));
+}
+
 /// The factored matrix of the mixture (1 - alpha) Z + alpha Z*, where Z has the moments b and Z* is symmetric with
 /// second and fourth moments bias2 and bias4.
 /// Domain: alpha in [0, 1), and at least n delta / (n delta + r) for moments that are off by n roundings (bias.h). With
@@ -438,11 +449,7 @@ fn hankel4_constant_bias(b: moments4_, bias2: f32, bias4: f32, alpha: f32) -> ha
     e.b2_ = alpha * (bias2 - b.b2_);
     e.b3_ = -1.0 * alpha * b.b3_;
     e.b4_ = alpha * (bias4 - b.b4_);
-    let c = gnomon_covariances4_from_moments(b);
-    let v = gnomon_covariance_add_bias(c.v, b.b1_, b.b1_, e.b2_, e.b1_, e.b1_);
-    let l = gnomon_covariance_add_bias(c.l, b.b1_, b.b2_, e.b3_, e.b1_, e.b2_);
-    let m = gnomon_covariance_add_bias(c.m, b.b2_, b.b2_, e.b4_, e.b2_, e.b2_);
-    return gnomon_hankel4_make(b.b1_ + e.b1_, v.high + v.low, l.high + l.low, gnomon_double_word_determinant(v, l, m));
+    return gnomon_hankel4_with_change(b, e);
 }
 
 // moments/hamburger4.h ------------------------------------------------------------------------------------------------
@@ -468,6 +475,8 @@ fn hankel4_constant_bias(b: moments4_, bias2: f32, bias4: f32, alpha: f32) -> ha
 
 /// The canonical distribution: depth0 at the receiver and depth1 <= depth2. The weights are in [0, 1] and sum to 1.
 struct gnomon_distribution3_ { depth0_: f32, depth1_: f32, depth2_: f32, weight0_: f32, weight1_: f32, weight2_: f32 }
+
+// moments/hamburger4.h ------------------------------------------------------------------------------------------------
 
 const gnomon_hamburger4_scale: f32 = 72057594037927936.0; // 2^56
 const hamburger4_lower_scale: f32 = 281474976710656.0; // 2^48
@@ -631,6 +640,8 @@ fn blocker2_depth(mean: f32, variance: f32, z_f: f32) -> f32
     return gnomon_blocker_depth_before(z, below / total);
 }
 
+// soft/blocker.h ------------------------------------------------------------------------------------------------------
+
 /// Mean blocker depth in [-1, z_f] from four moments.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: no blocker, z_f, for a NaN in h; a z_f of NaN is the far plane.
@@ -668,6 +679,15 @@ fn nearest_integer(x: f32) -> f32
 {
     let rounder = -12582912.0;
     return gnomon_sum(gnomon_difference(x, rounder), rounder);
+}
+
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+fn nearest_natural(x: f32) -> f32
+{
+    let rounder = 8388608.0;
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
 }
 
 // numerics/texel_filter.h ---------------------------------------------------------------------------------------------
@@ -727,14 +747,23 @@ struct summed_area_rectangle { x0_: f32, y0_: f32, x1_: f32, y1_: f32 }
 
 const summed_area_range: f32 = 4294967296.0; // 2^32
 const summed_area_most_texels: f32 = 1048576.0; // 2^20
+const summed_area_step: f32 = 5.9604644775390625e-8; // 2^-24
 const summed_area_slack: f32 = 0.0009765625; // 2^-10
 
-/// The whole number nearest to x, ties to even.
-/// Domain: x >= 0.
-fn gnomon_summed_area_nearest(x: f32) -> f32
+const summed_area_code_noise: f32 = 0x1.p-33; // 1.1641532182693481e-10, 2^-33
+const summed_area_float_noise: f32 = 0x1.8p-25; // 4.4703483581542969e-8, 1.5 times 2^-25
+const summed_area_least_noise: f32 = 0x1.6p-24; // 8.1956386566162109e-8, 2.75 times 2^-25, in small tables
+
+/// The largest error of a channel of a rectangle, for a table by summed_area_scale(most_texels): half a code,
+/// most_texels 2^-33, and what float arithmetic rounds on the way from the depth to the mean, in the channel, the
+/// resolve of four samples, the sum and the mean. Errors of float arithmetic do not all come together; a search by
+/// climbing found these.
+/// Domain: most_texels at least 0.
+/// NaN: the noise of a small table.
+fn summed_area_noise(most_texels: f32) -> f32
 {
-    let rounder = 8388608.0;
-    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+    let noise = summed_area_code_noise * most_texels + summed_area_float_noise;
+    return gnomon_max(noise, summed_area_least_noise);
 }
 
 /// The number that channels are multiplied by: the largest whole number S of the precision of float for which sums over
@@ -746,23 +775,28 @@ fn gnomon_summed_area_nearest(x: f32) -> f32
 fn summed_area_scale(most_texels: f32) -> f32
 {
     let n = clamp_or_high(most_texels, 1.0, summed_area_most_texels);
-    var s = summed_area_range / n;
-    let p = two_product(s, n);
-    let step = 5.9604644775390625e-8;
-    let fits = (p.high - summed_area_range) + p.low < 0.0;
-    s = gnomon_select(fits, s, s - step * s);
-    let whole = gnomon_summed_area_nearest(s);
-    return whole - gnomon_select(s < whole, 1.0, 0.0);
+    let range = summed_area_range;
+    let s = range / n;
+    var whole = nearest_natural(s);
+    whole = whole - gnomon_select(s < whole, 1.0, 0.0);
+    let sum = two_product(whole, n);
+    let wraps = 0.0 <= (sum.high - range) + sum.low;
+    return whole - gnomon_select(wraps, gnomon_max(1.0, summed_area_step * whole), 0.0);
 }
 
 /// The code of a channel: the whole number nearest to scale times the channel, which conversion to an unsigned integer
 /// leaves as it is.
 /// Domain: any channel, clamped to [0, 1]; scale by summed_area_scale.
 /// NaN: 0.
+/// Error: half a code for scales up to 2^24, beyond which codes are floats.
 /// Source: Peters 2017, Sec. 4.2
 fn summed_area_code(channel: f32, scale: f32) -> f32
 {
-    return gnomon_summed_area_nearest(scale * saturate_or_zero(channel));
+    let p = two_product(saturate_or_zero(channel), scale);
+    var code = nearest_natural(p.high);
+    let rest = (p.high - code) + p.low; // more than half a code where p.high was rounded
+    code = code + gnomon_select(0.5 < rest, 1.0, 0.0);
+    return code - gnomon_select(rest < -0.5, 1.0, 0.0);
 }
 
 /// The rectangle of the given widths about (x, y).
@@ -886,8 +920,15 @@ fn summed_area_width(parts: summed_area_parts) -> f32
 /// Domain: a sum of codes, weighted by widths, over a rectangle of that area; scale by summed_area_scale. 0 for an area
 /// of 0 without a sum.
 /// NaN: 0.
-/// Error: relative, 2 2^-p.
-fn summed_area_mean(sum: f32, area: f32, scale: f32) -> f32 { return saturate_or_zero(sum / (area * scale)); }
+/// Error: relative, 2^-p, for the sum as it is given.
+fn summed_area_mean(sum: f32, area: f32, scale: f32) -> f32
+{
+    let whole = two_product(area, scale);
+    let mean = saturate_or_zero(sum / whole.high);
+    let p = two_product(mean, whole.high);
+    let rest = (sum - p.high) - (p.low + mean * whole.low);
+    return saturate_or_zero(mean + rest / whole.high);
+}
 
 // moments/bias.h ------------------------------------------------------------------------------------------------------
 // Biasing: rounding in storage can turn moments into numbers that belong to no distribution, so they are moved inwards
@@ -1127,18 +1168,31 @@ fn gnomon_certificate4_make(h: hankel4_, z_f: f32) -> gnomon_certificate4_
     return p;
 }
 
-/// The least possible value of E[p], given channels c of theta4_ that are each off by at most noise. The coefficients
-/// of p at the channels are the transpose of theta4_inverse times those at the moments.
-fn gnomon_certificate4_theta_mean(p: gnomon_certificate4_, c: channels4_, noise: f32) -> f32
+/// The coefficients of p at the channels of theta4_, with the sign of s: the transpose of theta4_inverse times those at
+/// the moments.
+fn gnomon_certificate4_theta(p: gnomon_certificate4_) -> channels4_
 {
     let third = 0.75 * p.s3_;
-    let p1 = gnomon_theta4_inverse11_ * p.s1_ - third;
-    let p2 = 0.125 * (p.s2_ - p.s4_);
-    let p3 = gnomon_theta4_inverse13_ * (p.s1_ + third);
-    let p4 = p.s2_ + p.s4_;
-    let mean = (p.s0_ + (p2 * c.c2_ + p4 * c.c4_)) + (p1 * (c.c1_ - 0.5) + p3 * (c.c3_ - 0.5));
-    let doubt = noise * ((gnomon_abs(p1) + gnomon_abs(p2)) + (gnomon_abs(p3) + gnomon_abs(p4)));
-    return p.top - (mean + doubt);
+    var r: channels4_;
+    r.c1_ = gnomon_theta4_inverse11_ * p.s1_ - third;
+    r.c2_ = 0.125 * (p.s2_ - p.s4_);
+    r.c3_ = gnomon_theta4_inverse13_ * (p.s1_ + third);
+    r.c4_ = p.s2_ + p.s4_;
+    return r;
+}
+
+/// The most by which E[p] changes with channels that are each off by at most noise, from the coefficients at them.
+fn gnomon_certificate4_theta_doubt(t: channels4_, noise: f32) -> f32
+{
+    return noise * ((gnomon_abs(t.c1_) + gnomon_abs(t.c2_)) + (gnomon_abs(t.c3_) + gnomon_abs(t.c4_)));
+}
+
+/// The least possible value of E[p], given channels c of theta4_ that are each off by at most noise.
+fn gnomon_certificate4_theta_mean(p: gnomon_certificate4_, c: channels4_, noise: f32) -> f32
+{
+    let t = gnomon_certificate4_theta(p);
+    let mean = (p.s0_ + (t.c2_ * c.c2_ + t.c4_ * c.c4_)) + (t.c1_ * (c.c1_ - 0.5) + t.c3_ * (c.c3_ - 0.5));
+    return p.top - (mean + gnomon_certificate4_theta_doubt(t, noise));
 }
 
 /// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels c of theta4_ that are each off by at
@@ -1151,25 +1205,28 @@ fn certified4_theta_lower(h: hankel4_, c: channels4_, noise: f32, z_f: f32) -> f
     return saturate_or_zero(gnomon_certificate4_theta_mean(p, c, noise));
 }
 
-const certified4_scale: f32 = 137438953472.0; // 2^37
+const gnomon_certified4_scale: f32 = 137438953472.0; // 2^37
 
-/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
-/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. Float
-/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
-/// the node before z_f, or 1 minus the weight of z_f. The contribution of the bias is then subtracted. 0 if rounding
-/// left h at its floor.
-/// Domain: z_f in [-1, 1], clamped.
-/// NaN: 0, lit.
-fn certified4_constant_bias_lower(h: hankel4_, noise: moments4_, bias2: f32, bias4: f32, alpha: f32, z_f: f32) -> f32
+/// A certificate and its mean for the biased moments, and what the bias added to that. known is 0 if rounding left
+/// the matrix at its floor or if nothing is certified, else 1.
+struct certified4_mean
 {
-    let z = clamp_or_nan(z_f, -1.0, 1.0);
+    p: gnomon_certificate4_,
+    mean: f32, added: f32, known: f32,
+}
+
+/// The certificate at z in [-1, 1] from the matrix h of moments with a constant bias that is kept apart. Float
+/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
+/// the node before z, or 1 minus the weight of z.
+fn gnomon_certified4_constant_bias_mean(h: hankel4_, bias2: f32, bias4: f32, alpha: f32, z: f32) -> certified4_mean
+{
     let u = z - h.mean;
     let vu = h.variance * u;
     let slope = vu - h.third;
     let q = slope * u - h.variance * h.variance;
     // The power of two is a factor of a, b and w, which otherwise underflow for a single depth.
-    let s = certified4_scale * q;
-    let n = certified4_scale * h.determinant;
+    let s = gnomon_certified4_scale * q;
+    let n = gnomon_certified4_scale * h.determinant;
     let un = u * n;
     let e = u * un + q * s;
     let w = h.variance * n + e;
@@ -1190,14 +1247,45 @@ fn certified4_constant_bias_lower(h: hankel4_, noise: moments4_, bias2: f32, bia
     let n2 = gnomon_select(between, c, g) * gnomon_select(between, (c - g) - g, g);
     let t0 = gnomon_select(between, 0.5 + b * inverse, 1.0);
     let t1 = gnomon_select(between, g, c);
-    let p = gnomon_certificate4_about(z, n0, t0, t1, n1, n2);
+    var m: certified4_mean;
+    m.p = gnomon_certificate4_about(z, n0, t0, t1, n1, n2);
     let share = gnomon_select(between, 0.5 * (e * (r + b)) - w * (a * u), e);
-    let mean = share / (w * gnomon_select(between, r, 1.0));
-    let added = alpha * ((p.top - p.s0_) - (bias2 * p.s2_ + bias4 * p.s4_));
-    let doubt = (noise.b1_ * gnomon_abs(p.s1_) + noise.b2_ * gnomon_abs(p.s2_)) +
-                (noise.b3_ * gnomon_abs(p.s3_) + noise.b4_ * gnomon_abs(p.s4_));
-    let known = (between || positive) && (gnomon_pivot_floor * h.variance < h.determinant);
-    return gnomon_select(known, saturate_or_zero(mean - (added + doubt)), 0.0);
+    m.mean = share / (w * gnomon_select(between, r, 1.0));
+    m.added = alpha * ((m.p.top - m.p.s0_) - (bias2 * m.p.s2_ + bias4 * m.p.s4_));
+    m.known = gnomon_select((between || positive) && (gnomon_pivot_floor * h.variance < h.determinant), 1.0, 0.0);
+    return m;
+}
+
+/// The certified mean without what the bias added and less the doubt about it, as an intensity.
+fn gnomon_certified4_constant_bias_intensity(m: certified4_mean, doubt: f32) -> f32
+{
+    return gnomon_select(0.0 < m.known, saturate_or_zero(m.mean - (m.added + doubt)), 0.0);
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
+/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. 0 if
+/// rounding left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+fn certified4_constant_bias_lower(h: hankel4_, noise: moments4_, bias2: f32, bias4: f32, alpha: f32, z_f: f32) -> f32
+{
+    let m = gnomon_certified4_constant_bias_mean(h, bias2, bias4, alpha, clamp_or_nan(z_f, -1.0, 1.0));
+    let doubt = (noise.b1_ * gnomon_abs(m.p.s1_) + noise.b2_ * gnomon_abs(m.p.s2_)) +
+                (noise.b3_ * gnomon_abs(m.p.s3_) + noise.b4_ * gnomon_abs(m.p.s4_));
+    return gnomon_certified4_constant_bias_intensity(m, doubt);
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels of theta4_ with more than 16 bits,
+/// each off by at most noise. h is the matrix of their moments by hankel4_constant_bias with the same bias2, bias4 and
+/// alpha. 0 if rounding left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+fn certified4_theta_constant_bias_lower(h: hankel4_, noise: f32, bias2: f32, bias4: f32, alpha: f32, z_f: f32) -> f32
+{
+    let m = gnomon_certified4_constant_bias_mean(h, bias2, bias4, alpha, clamp_or_nan(z_f, -1.0, 1.0));
+    return gnomon_certified4_constant_bias_intensity(m,
+                                                     gnomon_certificate4_theta_doubt(gnomon_certificate4_theta(m.p),
+                                                                                     noise));
 }
 
 /// The largest error of each moment of b after one rounding to float: 2 delta |b_j|, but at most delta.
@@ -1440,25 +1528,65 @@ fn moments4_float_filtered_intensity(c: channels4_, z_f: f32) -> f32
 //                   z_b = moments4_summed_blocker(c, most_texels, z_f)
 //                   shadow = moments4_summed_intensity(c, most_texels, z_f - bias)
 //
-// Channels are off by moments4_summed_noise at most: by half a code, most_texels 2^-33, and by what float arithmetic
-// rounds from the depth to the moments.
+// Encoding and the inverse of theta4_ keep the digits that Real has no room for. Else the noise of channels
+// (summed_area_noise) would be 2.5e-7 for 784 texels, not 1.4e-7. Intensities exceed Z(z < z_f), for every distribution
+// Z on [-1, 1], by at most
+//   moments4_summed_intensity   gnomon_stored4_arithmetic_weight: certificates (certified4.h)
+//   hankel4_from_summed         gnomon_moments4_summed_bias_ratio times the noise, and that of arithmetic
+// Tests search for the largest excess by hill climbing (tests/soft/honest_summed.cpp).
 
-const moments4_summed_code_noise: f32 = 0x1.p-33; // 1.1641532182693481e-10, 2^-33
-const moments4_summed_float_noise: f32 = 0x1.828c0cp-23; // 1.8e-7
-const moments4_summed_bias_ratio: f32 = 4.0;
+const gnomon_moments4_summed_bias_ratio: f32 = 5.0;
 
-/// The largest error of the channels of a rectangle, for a table by summed_area_scale(most_texels).
-/// Domain: most_texels at least 0.
-fn moments4_summed_noise(most_texels: f32) -> f32
+/// a + b as a double word, for magnitudes in any order.
+fn gnomon_summed_two_sum(a: f32, b: f32) -> gnomon_double_word { return two_difference(a, -1.0 * b); }
+
+const gnomon_summed_four_ninths: f32 = 0x1.c71c72p-2; // 0.44444444444444442
+const gnomon_summed_third: f32 = 0x1.555556p-2; // 0.33333333333333331
+
+/// What a factor is short of a constant, root - factor, where root^2 = square: the digits that float has no room for.
+fn gnomon_summed_root_rest(factor: f32, square: f32) -> f32
 {
-    return moments4_summed_code_noise * most_texels + moments4_summed_float_noise;
+    let p = two_product(factor, factor);
+    return ((square - p.high) - p.low) * (0.5 / factor);
 }
 
 /// The four channels of the texel of a depth z, each in [0, 1].
 /// Domain: any z, limited to [-1, 1].
 /// NaN: the far plane, which shadows nothing.
+/// Error: one rounding.
 /// Source: Peters 2017, Eq. 3
-fn moments4_summed_encode(z: f32) -> channels4_ { return theta4_(moments4_from_depth(clamp_or_high(z, -1.0, 1.0))); }
+fn moments4_summed_encode(z: f32) -> channels4_
+{
+    let x = clamp_or_high(z, -1.0, 1.0);
+    let z2 = two_product(x, x);
+    var z3 = two_product(z2.high, x);
+    z3.low = z3.low + z2.low * x;
+    var z4 = two_product(z2.high, z2.high);
+    z4.low = z4.low + 2.0 * (z2.high * z2.low);
+    var c: channels4_;
+    // 1/2 + 3/2 z - 2 z^3
+    let s = two_difference(0.5, 2.0 * z3.high);
+    let t = gnomon_summed_two_sum(s.high, x);
+    let u = gnomon_summed_two_sum(t.high, 0.5 * x);
+    c.c1_ = u.high + (u.low + (t.low + (s.low - 2.0 * z3.low)));
+    // 4 (z^2 - z^4)
+    let d = two_difference(z2.high, z4.high);
+    c.c2_ = 4.0 * (d.high + (d.low + (z2.low - z4.low)));
+    // 1/2 + sqrt(3)/2 (z - 4/9 z^3)
+    let ninths = gnomon_summed_four_ninths;
+    let n = two_product(ninths, 9.0);
+    let q = two_product(z3.high, ninths);
+    let w = two_difference(x, q.high);
+    let rest = w.low - (q.low + (z3.low * ninths + z3.high * (((4.0 - n.high) - n.low) * (0.25 * ninths))));
+    let root = gnomon_theta4_31_;
+    let p = two_product(root, w.high);
+    let h = gnomon_summed_two_sum(0.5, p.high);
+    c.c3_ = h.high + (h.low + (p.low + (root * rest + gnomon_summed_root_rest(root, 0.75) * w.high)));
+    // (z^2 + z^4) / 2
+    let m = gnomon_summed_two_sum(z2.high, z4.high);
+    c.c4_ = 0.5 * (m.high + (m.low + (z2.low + z4.low)));
+    return c;
+}
 
 /// The codes of a texel with these channels: whole numbers in [0, 2^32 - 1].
 /// Domain: any channels, each limited to [0, 1]; scale by summed_area_scale.
@@ -1492,19 +1620,62 @@ fn moments4_summed_channels(sums: channels4_, area: f32, scale: f32) -> channels
     return r;
 }
 
+/// The factored matrix of the channels of a rectangle, with a constant bias of weight alpha. What rounding would take
+/// from the moments is added to their covariances.
+fn gnomon_hankel4_from_summed_theta(c: channels4_, bias2: f32, bias4: f32, alpha: f32) -> hankel4_
+{
+    let c1 = two_difference(c.c1_, 0.5);
+    let c3 = two_difference(c.c3_, 0.5);
+    let root = gnomon_theta4_inverse13_;
+    let third = gnomon_summed_third;
+    // t = sqrt(3) (c3 - 1/2),    b1 = t - (c1 - 1/2) / 3,    b3 = 3/4 (t - (c1 - 1/2))
+    var t = two_product(root, c3.high);
+    t.low = t.low + (root * c3.low + gnomon_summed_root_rest(root, 3.0) * c3.high);
+    let n = two_product(third, 3.0);
+    var q = two_product(third, c1.high);
+    q.low = q.low + (third * c1.low + (third * ((1.0 - n.high) - n.low)) * c1.high);
+    let d1 = two_difference(t.high, q.high);
+    let d3 = two_difference(t.high, c1.high);
+    let p3 = two_product(0.75, d3.high);
+    let eighth = 0.125 * c.c2_;
+    let d2 = gnomon_summed_two_sum(c.c4_, eighth);
+    let d4 = two_difference(c.c4_, eighth);
+    var b: moments4_;
+    b.b1_ = d1.high;
+    b.b2_ = d2.high;
+    b.b3_ = p3.high;
+    b.b4_ = d4.high;
+    var e: moments4_;
+    e.b1_ = (d1.low + (t.low - q.low)) - alpha * b.b1_;
+    e.b2_ = d2.low + alpha * (bias2 - b.b2_);
+    e.b3_ = (p3.low + 0.75 * (d3.low + (t.low - c1.low))) - alpha * b.b3_;
+    e.b4_ = d4.low + alpha * (bias4 - b.b4_);
+    return gnomon_hankel4_with_change(b, e);
+}
+
+/// The weight of the constant bias of a table for most_texels, at most 1/2.
+fn gnomon_moments4_summed_weight(most_texels: f32) -> f32
+{
+    return gnomon_min(gnomon_moments4_summed_bias_ratio * summed_area_noise(most_texels), 0.5);
+}
+
 /// The factored matrix of the channels of a rectangle, with the constant bias of a table for most_texels.
+/// Domain: most_texels as of the table's scale.
+/// NaN: stays NaN; a most_texels of NaN counts as a small one.
 fn hankel4_from_summed(c: channels4_, most_texels: f32) -> hankel4_
 {
-    let weight = moments4_summed_bias_ratio * moments4_summed_noise(most_texels);
-    return hankel4_constant_bias(theta4_inverse(c), bias4_theta_b2_, bias4_theta_b4_, gnomon_min(weight, 0.5));
+    return gnomon_hankel4_from_summed_theta(c, bias4_theta_b2_, bias4_theta_b4_,
+                                            gnomon_moments4_summed_weight(most_texels));
 }
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a rectangle.
-/// Domain: any z_f, limited to [-1, 1].
+/// Domain: any z_f, limited to [-1, 1]; most_texels as of the table's scale.
 /// NaN: 0, lit.
 fn moments4_summed_intensity(c: channels4_, most_texels: f32, z_f: f32) -> f32
 {
-    return hamburger4_lower(hankel4_from_summed(c, most_texels), z_f);
+    return certified4_theta_constant_bias_lower(hankel4_from_summed(c, most_texels), summed_area_noise(most_texels),
+                                                bias4_theta_b2_, bias4_theta_b4_,
+                                                gnomon_moments4_summed_weight(most_texels), z_f);
 }
 
 /// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.
@@ -1593,14 +1764,14 @@ const moments4_summed_within_float_weight: f32 = 0x1.0c6f7ap-20; // 1e-6
 /// Domain: most_texels at least 0.
 fn moments4_summed_within_weight(most_texels: f32) -> f32
 {
-    return moments4_summed_within_bias_ratio * moments4_summed_noise(most_texels) + moments4_summed_within_float_weight;
+    return moments4_summed_within_bias_ratio * summed_area_noise(most_texels) + moments4_summed_within_float_weight;
 }
 
 /// The factored matrix of the channels of a rectangle, with a bias for depths in [-1, 1].
 fn hankel4_from_summed_within(c: channels4_, most_texels: f32) -> hankel4_
 {
-    return hankel4_constant_bias(theta4_inverse(c), bias4_theta_within_b2_, bias4_theta_within_b4_,
-                                 gnomon_min(moments4_summed_within_weight(most_texels), 0.5));
+    return gnomon_hankel4_from_summed_theta(c, bias4_theta_within_b2_, bias4_theta_within_b4_,
+                                            gnomon_min(moments4_summed_within_weight(most_texels), 0.5));
 }
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a rectangle.

@@ -46,6 +46,15 @@ fn nearest_integer(x: f32) -> f32
     return gnomon_sum(gnomon_difference(x, rounder), rounder);
 }
 
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+fn nearest_natural(x: f32) -> f32
+{
+    let rounder = 8388608.0;
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
 // numerics/select.h ---------------------------------------------------------------------------------------------------
 // Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
 

@@ -413,6 +413,42 @@ template <class T> GNOMON_INLINE constexpr T gnomon_high_part(T a)
 
 #endif
 
+// numerics/round.h ----------------------------------------------------------------------------------------------------
+// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
+// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
+#ifndef GNOMON_NUMERICS_ROUND_H
+#define GNOMON_NUMERICS_ROUND_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The whole number nearest to x, ties to even.
+/// Domain: |x| <= 2^22 in float, 2^51 in double.
+/// NaN: stays NaN.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real nearest_integer(Real x)
+{
+    Real rounder = Real(-12582912);
+    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
+        rounder = Real(-6755399441055744.0);
+    }
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
+}
+
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real nearest_natural(Real x)
+{
+    Real rounder = Real(8388608);
+    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
+        rounder = Real(4503599627370496.0);
+    }
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
 // numerics/select.h ---------------------------------------------------------------------------------------------------
 // Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
 #ifndef GNOMON_NUMERICS_SELECT_H
@@ -440,30 +476,6 @@ GNOMON_INLINE constexpr Real clamp_or_high(Real x, std::type_identity_t<Real> lo
 /// NaN: 0, lit.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real saturate_or_zero(Real x) { return gnomon_saturate(x); }
-
-GNOMON_WARNINGS_ON } // namespace gnomon
-
-#endif
-
-// numerics/round.h ----------------------------------------------------------------------------------------------------
-// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
-// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
-#ifndef GNOMON_NUMERICS_ROUND_H
-#define GNOMON_NUMERICS_ROUND_H
-
-GNOMON_WARNINGS_OFF namespace gnomon {
-
-/// The whole number nearest to x, ties to even.
-/// Domain: |x| <= 2^22 in float, 2^51 in double.
-/// NaN: stays NaN.
-template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real nearest_integer(Real x)
-{
-    Real rounder = Real(-12582912);
-    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
-        rounder = Real(-6755399441055744.0);
-    }
-    return gnomon_sum(gnomon_difference(x, rounder), rounder);
-}
 
 GNOMON_WARNINGS_ON } // namespace gnomon
 
@@ -673,19 +685,25 @@ GNOMON_WARNINGS_OFF namespace gnomon {
 /// A rectangle of a map, from (x0, y0) to (x1, y1) in texels.
 template <class Real, class = require_real<Real>> struct summed_area_rectangle { Real x0, y0, x1, y1; };
 
-inline constexpr double summed_area_range = 4294967296.0;    // 2^32
-inline constexpr double summed_area_most_texels = 1048576.0; // 2^20
-inline constexpr double summed_area_slack = 0.0009765625;    // 2^-10
+inline constexpr double summed_area_range = 4294967296.0;         // 2^32
+inline constexpr double summed_area_most_texels = 1048576.0;      // 2^20
+inline constexpr double summed_area_step = 5.9604644775390625e-8; // 2^-24
+inline constexpr double summed_area_slack = 0.0009765625;         // 2^-10
 
-/// The whole number nearest to x, ties to even.
-/// Domain: x >= 0.
-template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real summed_area_nearest(Real x)
+inline constexpr double summed_area_code_noise = 1.1641532182693481e-10; // 2^-33
+inline constexpr double summed_area_float_noise = 4.4703483581542969e-8; // 1.5 times 2^-25
+inline constexpr double summed_area_least_noise = 8.1956386566162109e-8; // 2.75 times 2^-25, in small tables
+
+/// The largest error of a channel of a rectangle, for a table by summed_area_scale(most_texels): half a code,
+/// most_texels 2^-33, and what float arithmetic rounds on the way from the depth to the mean, in the channel, the
+/// resolve of four samples, the sum and the mean. Errors of float arithmetic do not all come together; a search by
+/// climbing found these.
+/// Domain: most_texels at least 0.
+/// NaN: the noise of a small table.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real summed_area_noise(Real most_texels)
 {
-    Real rounder = Real(8388608);
-    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
-        rounder = Real(4503599627370496.0);
-    }
-    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+    Real noise = literal<Real>(summed_area_code_noise) * most_texels + literal<Real>(summed_area_float_noise);
+    return gnomon_max(noise, literal<Real>(summed_area_least_noise));
 }
 
 /// The number that channels are multiplied by: the largest whole number S of the precision of Real for which sums over
@@ -697,27 +715,29 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real s
 template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real summed_area_scale(Real most_texels)
 {
     Real n = clamp_or_high(most_texels, Real(1), literal<Real>(summed_area_most_texels));
-    Real s = literal<Real>(summed_area_range) / n;
-    double_word p = two_product(s, n);
-    Real step = Real(5.9604644775390625e-8);
-    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
-        step = Real(1.1102230246251565e-16);
-    }
-    mask_t<Real> fits = (p.high - literal<Real>(summed_area_range)) + p.low < Real(0);
-    s = gnomon_select(fits, s, s - step * s);
-    Real whole = summed_area_nearest(s);
-    return whole - gnomon_select(s < whole, Real(1), Real(0));
+    Real range = literal<Real>(summed_area_range);
+    Real s = range / n;
+    Real whole = nearest_natural(s);
+    whole = whole - gnomon_select(s < whole, Real(1), Real(0));
+    double_word sum = two_product(whole, n);
+    mask_t<Real> wraps = Real(0) <= (sum.high - range) + sum.low;
+    return whole - gnomon_select(wraps, gnomon_max(Real(1), literal<Real>(summed_area_step) * whole), Real(0));
 }
 
 /// The code of a channel: the whole number nearest to scale times the channel, which conversion to an unsigned integer
 /// leaves as it is.
 /// Domain: any channel, clamped to [0, 1]; scale by summed_area_scale.
 /// NaN: 0.
+/// Error: half a code for scales up to 2^24, beyond which codes are floats.
 /// Source: Peters 2017, Sec. 4.2
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real summed_area_code(Real channel, std::type_identity_t<Real> scale)
 {
-    return summed_area_nearest(scale * saturate_or_zero(channel));
+    double_word p = two_product(saturate_or_zero(channel), scale);
+    Real code = nearest_natural(p.high);
+    Real rest = (p.high - code) + p.low; // more than half a code where p.high was rounded
+    code = code + gnomon_select(Real(0.5) < rest, Real(1), Real(0));
+    return code - gnomon_select(rest < Real(-0.5), Real(1), Real(0));
 }
 
 /// The rectangle of the given widths about (x, y).
@@ -850,11 +870,15 @@ GNOMON_INLINE constexpr Real summed_area_width(summed_area_parts<Real> parts)
 /// Domain: a sum of codes, weighted by widths, over a rectangle of that area; scale by summed_area_scale. 0 for an area
 /// of 0 without a sum.
 /// NaN: 0.
-/// Error: relative, 2 2^-p.
+/// Error: relative, 2^-p, for the sum as it is given.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real summed_area_mean(Real sum, Real area, std::type_identity_t<Real> scale)
 {
-    return saturate_or_zero(sum / (area * scale));
+    double_word whole = two_product(area, scale);
+    Real mean = saturate_or_zero(sum / whole.high);
+    double_word p = two_product(mean, whole.high);
+    Real rest = (sum - p.high) - (p.low + mean * whole.low);
+    return saturate_or_zero(mean + rest / whole.high);
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon

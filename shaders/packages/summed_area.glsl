@@ -62,6 +62,32 @@ float gnomon_power_of_two(float n) { return uintBitsToFloat((floatBitsToUint(n +
 
 #endif
 
+// numerics/round.h ----------------------------------------------------------------------------------------------------
+// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
+// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
+#ifndef GNOMON_NUMERICS_ROUND_H
+#define GNOMON_NUMERICS_ROUND_H
+
+/// The whole number nearest to x, ties to even.
+/// Domain: |x| <= 2^22 in float, 2^51 in double.
+/// NaN: stays NaN.
+float nearest_integer(float x)
+{
+    float rounder = -12582912.0;
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
+}
+
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+float nearest_natural(float x)
+{
+    float rounder = 8388608.0;
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
+#endif
+
 // numerics/select.h ---------------------------------------------------------------------------------------------------
 // Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
 #ifndef GNOMON_NUMERICS_SELECT_H
@@ -78,23 +104,6 @@ float clamp_or_high(float x, float low, float high) { return gnomon_max(low, gno
 /// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
 /// NaN: 0, lit.
 float saturate_or_zero(float x) { return gnomon_saturate(x); }
-
-#endif
-
-// numerics/round.h ----------------------------------------------------------------------------------------------------
-// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
-// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
-#ifndef GNOMON_NUMERICS_ROUND_H
-#define GNOMON_NUMERICS_ROUND_H
-
-/// The whole number nearest to x, ties to even.
-/// Domain: |x| <= 2^22 in float, 2^51 in double.
-/// NaN: stays NaN.
-float nearest_integer(float x)
-{
-    float rounder = -12582912.0;
-    return gnomon_sum(gnomon_difference(x, rounder), rounder);
-}
 
 #endif
 
@@ -278,16 +287,25 @@ float gnomon_double_word_determinant(gnomon_double_word a, gnomon_double_word b,
 /// A rectangle of a map, from (x0, y0) to (x1, y1) in texels.
 struct summed_area_rectangle { float x0, y0, x1, y1; };
 
-const float summed_area_range = 4294967296.0;    // 2^32
-const float summed_area_most_texels = 1048576.0; // 2^20
-const float summed_area_slack = 0.0009765625;    // 2^-10
+const float summed_area_range = 4294967296.0;         // 2^32
+const float summed_area_most_texels = 1048576.0;      // 2^20
+const float summed_area_step = 5.9604644775390625e-8; // 2^-24
+const float summed_area_slack = 0.0009765625;         // 2^-10
 
-/// The whole number nearest to x, ties to even.
-/// Domain: x >= 0.
-float gnomon_summed_area_nearest(float x)
+const float summed_area_code_noise = 1.1641532182693481e-10; // 2^-33
+const float summed_area_float_noise = 4.4703483581542969e-8; // 1.5 times 2^-25
+const float summed_area_least_noise = 8.1956386566162109e-8; // 2.75 times 2^-25, in small tables
+
+/// The largest error of a channel of a rectangle, for a table by summed_area_scale(most_texels): half a code,
+/// most_texels 2^-33, and what float arithmetic rounds on the way from the depth to the mean, in the channel, the
+/// resolve of four samples, the sum and the mean. Errors of float arithmetic do not all come together; a search by
+/// climbing found these.
+/// Domain: most_texels at least 0.
+/// NaN: the noise of a small table.
+float summed_area_noise(float most_texels)
 {
-    float rounder = 8388608.0;
-    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+    float noise = summed_area_code_noise * most_texels + summed_area_float_noise;
+    return gnomon_max(noise, summed_area_least_noise);
 }
 
 /// The number that channels are multiplied by: the largest whole number S of the precision of float for which sums over
@@ -299,23 +317,28 @@ float gnomon_summed_area_nearest(float x)
 float summed_area_scale(float most_texels)
 {
     float n = clamp_or_high(most_texels, 1.0, summed_area_most_texels);
-    float s = summed_area_range / n;
-    gnomon_double_word p = two_product(s, n);
-    float step = 5.9604644775390625e-8;
-    bool fits = (p.high - summed_area_range) + p.low < 0.0;
-    s = gnomon_select(fits, s, s - step * s);
-    float whole = gnomon_summed_area_nearest(s);
-    return whole - gnomon_select(s < whole, 1.0, 0.0);
+    float range = summed_area_range;
+    float s = range / n;
+    float whole = nearest_natural(s);
+    whole = whole - gnomon_select(s < whole, 1.0, 0.0);
+    gnomon_double_word sum = two_product(whole, n);
+    bool wraps = 0.0 <= (sum.high - range) + sum.low;
+    return whole - gnomon_select(wraps, gnomon_max(1.0, summed_area_step * whole), 0.0);
 }
 
 /// The code of a channel: the whole number nearest to scale times the channel, which conversion to an unsigned integer
 /// leaves as it is.
 /// Domain: any channel, clamped to [0, 1]; scale by summed_area_scale.
 /// NaN: 0.
+/// Error: half a code for scales up to 2^24, beyond which codes are floats.
 /// Source: Peters 2017, Sec. 4.2
 float summed_area_code(float channel, float scale)
 {
-    return gnomon_summed_area_nearest(scale * saturate_or_zero(channel));
+    gnomon_double_word p = two_product(saturate_or_zero(channel), scale);
+    float code = nearest_natural(p.high);
+    float rest = (p.high - code) + p.low; // more than half a code where p.high was rounded
+    code = code + gnomon_select(0.5 < rest, 1.0, 0.0);
+    return code - gnomon_select(rest < -0.5, 1.0, 0.0);
 }
 
 /// The rectangle of the given widths about (x, y).
@@ -437,8 +460,15 @@ float summed_area_width(summed_area_parts parts)
 /// Domain: a sum of codes, weighted by widths, over a rectangle of that area; scale by summed_area_scale. 0 for an area
 /// of 0 without a sum.
 /// NaN: 0.
-/// Error: relative, 2 2^-p.
-float summed_area_mean(float sum, float area, float scale) { return saturate_or_zero(sum / (area * scale)); }
+/// Error: relative, 2^-p, for the sum as it is given.
+float summed_area_mean(float sum, float area, float scale)
+{
+    gnomon_double_word whole = two_product(area, scale);
+    float mean = saturate_or_zero(sum / whole.high);
+    gnomon_double_word p = two_product(mean, whole.high);
+    float rest = (sum - p.high) - (p.low + mean * whole.low);
+    return saturate_or_zero(mean + rest / whole.high);
+}
 
 #endif
 

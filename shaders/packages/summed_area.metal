@@ -64,6 +64,36 @@ inline float gnomon_power_of_two(float n) { return as_type<float>((as_type<uint>
 
 #endif
 
+// numerics/round.h ----------------------------------------------------------------------------------------------------
+// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
+// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
+#ifndef GNOMON_NUMERICS_ROUND_H
+#define GNOMON_NUMERICS_ROUND_H
+
+namespace gnomon {
+
+/// The whole number nearest to x, ties to even.
+/// Domain: |x| <= 2^22 in float, 2^51 in double.
+/// NaN: stays NaN.
+inline float nearest_integer(float x)
+{
+    float rounder = -12582912.0f;
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
+}
+
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+inline float nearest_natural(float x)
+{
+    float rounder = 8388608.0f;
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
+} // namespace gnomon
+
+#endif
+
 // numerics/select.h ---------------------------------------------------------------------------------------------------
 // Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
 #ifndef GNOMON_NUMERICS_SELECT_H
@@ -82,27 +112,6 @@ inline float clamp_or_high(float x, float low, float high) { return gnomon_max(l
 /// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
 /// NaN: 0, lit.
 inline float saturate_or_zero(float x) { return gnomon_saturate(x); }
-
-} // namespace gnomon
-
-#endif
-
-// numerics/round.h ----------------------------------------------------------------------------------------------------
-// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
-// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
-#ifndef GNOMON_NUMERICS_ROUND_H
-#define GNOMON_NUMERICS_ROUND_H
-
-namespace gnomon {
-
-/// The whole number nearest to x, ties to even.
-/// Domain: |x| <= 2^22 in float, 2^51 in double.
-/// NaN: stays NaN.
-inline float nearest_integer(float x)
-{
-    float rounder = -12582912.0f;
-    return gnomon_sum(gnomon_difference(x, rounder), rounder);
-}
 
 } // namespace gnomon
 
@@ -297,16 +306,25 @@ namespace gnomon {
 /// A rectangle of a map, from (x0, y0) to (x1, y1) in texels.
 struct summed_area_rectangle { float x0, y0, x1, y1; };
 
-constant constexpr float summed_area_range = 4294967296.0f;    // 2^32
-constant constexpr float summed_area_most_texels = 1048576.0f; // 2^20
-constant constexpr float summed_area_slack = 0.0009765625f;    // 2^-10
+constant constexpr float summed_area_range = 4294967296.0f;         // 2^32
+constant constexpr float summed_area_most_texels = 1048576.0f;      // 2^20
+constant constexpr float summed_area_step = 5.9604644775390625e-8f; // 2^-24
+constant constexpr float summed_area_slack = 0.0009765625f;         // 2^-10
 
-/// The whole number nearest to x, ties to even.
-/// Domain: x >= 0.
-inline float summed_area_nearest(float x)
+constant constexpr float summed_area_code_noise = 1.1641532182693481e-10f; // 2^-33
+constant constexpr float summed_area_float_noise = 4.4703483581542969e-8f; // 1.5 times 2^-25
+constant constexpr float summed_area_least_noise = 8.1956386566162109e-8f; // 2.75 times 2^-25, in small tables
+
+/// The largest error of a channel of a rectangle, for a table by summed_area_scale(most_texels): half a code,
+/// most_texels 2^-33, and what float arithmetic rounds on the way from the depth to the mean, in the channel, the
+/// resolve of four samples, the sum and the mean. Errors of float arithmetic do not all come together; a search by
+/// climbing found these.
+/// Domain: most_texels at least 0.
+/// NaN: the noise of a small table.
+inline float summed_area_noise(float most_texels)
 {
-    float rounder = 8388608.0f;
-    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+    float noise = summed_area_code_noise * most_texels + summed_area_float_noise;
+    return gnomon_max(noise, summed_area_least_noise);
 }
 
 /// The number that channels are multiplied by: the largest whole number S of the precision of float for which sums over
@@ -318,23 +336,28 @@ inline float summed_area_nearest(float x)
 inline float summed_area_scale(float most_texels)
 {
     float n = clamp_or_high(most_texels, 1.0f, summed_area_most_texels);
-    float s = summed_area_range / n;
-    double_word p = two_product(s, n);
-    float step = 5.9604644775390625e-8f;
-    bool fits = (p.high - summed_area_range) + p.low < 0.0f;
-    s = gnomon_select(fits, s, s - step * s);
-    float whole = summed_area_nearest(s);
-    return whole - gnomon_select(s < whole, 1.0f, 0.0f);
+    float range = summed_area_range;
+    float s = range / n;
+    float whole = nearest_natural(s);
+    whole = whole - gnomon_select(s < whole, 1.0f, 0.0f);
+    double_word sum = two_product(whole, n);
+    bool wraps = 0.0f <= (sum.high - range) + sum.low;
+    return whole - gnomon_select(wraps, gnomon_max(1.0f, summed_area_step * whole), 0.0f);
 }
 
 /// The code of a channel: the whole number nearest to scale times the channel, which conversion to an unsigned integer
 /// leaves as it is.
 /// Domain: any channel, clamped to [0, 1]; scale by summed_area_scale.
 /// NaN: 0.
+/// Error: half a code for scales up to 2^24, beyond which codes are floats.
 /// Source: Peters 2017, Sec. 4.2
 inline float summed_area_code(float channel, float scale)
 {
-    return summed_area_nearest(scale * saturate_or_zero(channel));
+    double_word p = two_product(saturate_or_zero(channel), scale);
+    float code = nearest_natural(p.high);
+    float rest = (p.high - code) + p.low; // more than half a code where p.high was rounded
+    code = code + gnomon_select(0.5f < rest, 1.0f, 0.0f);
+    return code - gnomon_select(rest < -0.5f, 1.0f, 0.0f);
 }
 
 /// The rectangle of the given widths about (x, y).
@@ -457,8 +480,15 @@ inline float summed_area_width(summed_area_parts parts)
 /// Domain: a sum of codes, weighted by widths, over a rectangle of that area; scale by summed_area_scale. 0 for an area
 /// of 0 without a sum.
 /// NaN: 0.
-/// Error: relative, 2 2^-p.
-inline float summed_area_mean(float sum, float area, float scale) { return saturate_or_zero(sum / (area * scale)); }
+/// Error: relative, 2^-p, for the sum as it is given.
+inline float summed_area_mean(float sum, float area, float scale)
+{
+    double_word whole = two_product(area, scale);
+    float mean = saturate_or_zero(sum / whole.high);
+    double_word p = two_product(mean, whole.high);
+    float rest = (sum - p.high) - (p.low + mean * whole.low);
+    return saturate_or_zero(mean + rest / whole.high);
+}
 
 } // namespace gnomon
 

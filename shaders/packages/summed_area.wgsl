@@ -33,6 +33,28 @@ fn gnomon_high_part(a: f32) -> f32 { return bitcast<f32>(bitcast<u32>(a) & 0xfff
 // The sum has n in its low bits, and the shift moves n into the exponent.
 fn gnomon_power_of_two(n: f32) -> f32 { return bitcast<f32>((bitcast<u32>(n + 12582912.0) << 23u) + 0x3f800000u); }
 
+// numerics/round.h ----------------------------------------------------------------------------------------------------
+// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
+// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
+
+/// The whole number nearest to x, ties to even.
+/// Domain: |x| <= 2^22 in float, 2^51 in double.
+/// NaN: stays NaN.
+fn nearest_integer(x: f32) -> f32
+{
+    let rounder = -12582912.0;
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
+}
+
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+fn nearest_natural(x: f32) -> f32
+{
+    let rounder = 8388608.0;
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
 // numerics/select.h ---------------------------------------------------------------------------------------------------
 // Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
 
@@ -47,19 +69,6 @@ fn clamp_or_high(x: f32, low: f32, high: f32) -> f32 { return gnomon_max(low, gn
 /// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
 /// NaN: 0, lit.
 fn saturate_or_zero(x: f32) -> f32 { return gnomon_saturate(x); }
-
-// numerics/round.h ----------------------------------------------------------------------------------------------------
-// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
-// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
-
-/// The whole number nearest to x, ties to even.
-/// Domain: |x| <= 2^22 in float, 2^51 in double.
-/// NaN: stays NaN.
-fn nearest_integer(x: f32) -> f32
-{
-    let rounder = -12582912.0;
-    return gnomon_sum(gnomon_difference(x, rounder), rounder);
-}
 
 // numerics/texel_filter.h ---------------------------------------------------------------------------------------------
 // Texels of a shadow map along one axis: the texel that holds a position, and the weights of the K + 1 texels that K
@@ -233,14 +242,23 @@ struct summed_area_rectangle { x0_: f32, y0_: f32, x1_: f32, y1_: f32 }
 
 const summed_area_range: f32 = 4294967296.0; // 2^32
 const summed_area_most_texels: f32 = 1048576.0; // 2^20
+const summed_area_step: f32 = 5.9604644775390625e-8; // 2^-24
 const summed_area_slack: f32 = 0.0009765625; // 2^-10
 
-/// The whole number nearest to x, ties to even.
-/// Domain: x >= 0.
-fn gnomon_summed_area_nearest(x: f32) -> f32
+const summed_area_code_noise: f32 = 0x1.p-33; // 1.1641532182693481e-10, 2^-33
+const summed_area_float_noise: f32 = 0x1.8p-25; // 4.4703483581542969e-8, 1.5 times 2^-25
+const summed_area_least_noise: f32 = 0x1.6p-24; // 8.1956386566162109e-8, 2.75 times 2^-25, in small tables
+
+/// The largest error of a channel of a rectangle, for a table by summed_area_scale(most_texels): half a code,
+/// most_texels 2^-33, and what float arithmetic rounds on the way from the depth to the mean, in the channel, the
+/// resolve of four samples, the sum and the mean. Errors of float arithmetic do not all come together; a search by
+/// climbing found these.
+/// Domain: most_texels at least 0.
+/// NaN: the noise of a small table.
+fn summed_area_noise(most_texels: f32) -> f32
 {
-    let rounder = 8388608.0;
-    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+    let noise = summed_area_code_noise * most_texels + summed_area_float_noise;
+    return gnomon_max(noise, summed_area_least_noise);
 }
 
 /// The number that channels are multiplied by: the largest whole number S of the precision of float for which sums over
@@ -252,23 +270,28 @@ fn gnomon_summed_area_nearest(x: f32) -> f32
 fn summed_area_scale(most_texels: f32) -> f32
 {
     let n = clamp_or_high(most_texels, 1.0, summed_area_most_texels);
-    var s = summed_area_range / n;
-    let p = two_product(s, n);
-    let step = 5.9604644775390625e-8;
-    let fits = (p.high - summed_area_range) + p.low < 0.0;
-    s = gnomon_select(fits, s, s - step * s);
-    let whole = gnomon_summed_area_nearest(s);
-    return whole - gnomon_select(s < whole, 1.0, 0.0);
+    let range = summed_area_range;
+    let s = range / n;
+    var whole = nearest_natural(s);
+    whole = whole - gnomon_select(s < whole, 1.0, 0.0);
+    let sum = two_product(whole, n);
+    let wraps = 0.0 <= (sum.high - range) + sum.low;
+    return whole - gnomon_select(wraps, gnomon_max(1.0, summed_area_step * whole), 0.0);
 }
 
 /// The code of a channel: the whole number nearest to scale times the channel, which conversion to an unsigned integer
 /// leaves as it is.
 /// Domain: any channel, clamped to [0, 1]; scale by summed_area_scale.
 /// NaN: 0.
+/// Error: half a code for scales up to 2^24, beyond which codes are floats.
 /// Source: Peters 2017, Sec. 4.2
 fn summed_area_code(channel: f32, scale: f32) -> f32
 {
-    return gnomon_summed_area_nearest(scale * saturate_or_zero(channel));
+    let p = two_product(saturate_or_zero(channel), scale);
+    var code = nearest_natural(p.high);
+    let rest = (p.high - code) + p.low; // more than half a code where p.high was rounded
+    code = code + gnomon_select(0.5 < rest, 1.0, 0.0);
+    return code - gnomon_select(rest < -0.5, 1.0, 0.0);
 }
 
 /// The rectangle of the given widths about (x, y).
@@ -392,5 +415,12 @@ fn summed_area_width(parts: summed_area_parts) -> f32
 /// Domain: a sum of codes, weighted by widths, over a rectangle of that area; scale by summed_area_scale. 0 for an area
 /// of 0 without a sum.
 /// NaN: 0.
-/// Error: relative, 2 2^-p.
-fn summed_area_mean(sum: f32, area: f32, scale: f32) -> f32 { return saturate_or_zero(sum / (area * scale)); }
+/// Error: relative, 2^-p, for the sum as it is given.
+fn summed_area_mean(sum: f32, area: f32, scale: f32) -> f32
+{
+    let whole = two_product(area, scale);
+    let mean = saturate_or_zero(sum / whole.high);
+    let p = two_product(mean, whole.high);
+    let rest = (sum - p.high) - (p.low + mean * whole.low);
+    return saturate_or_zero(mean + rest / whole.high);
+}

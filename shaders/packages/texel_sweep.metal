@@ -81,6 +81,15 @@ inline float nearest_integer(float x)
     return gnomon_sum(gnomon_difference(x, rounder), rounder);
 }
 
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+inline float nearest_natural(float x)
+{
+    float rounder = 8388608.0f;
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
 } // namespace gnomon
 
 #endif

@@ -14,6 +14,7 @@
 #include <gnomon/storage/variance.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -49,6 +50,16 @@ template <class T> void put_absorbance(row_writer<T>& put, const situation& s, b
         mean += absorbance / channels;
     }
     for (std::size_t k = 0; k < 4; ++k) put(mean * s.b[k]);
+}
+
+/// The sums of codes of these channels over a rectangle, its area, and the scale.
+template <class T, std::size_t n> std::array<T, n + 2> any_sums(bit_source& bits, const std::array<T, n>& channels)
+{
+    const T area = T(bits.uniform(1, 784)), scale = summed_area_scale(T(784));
+    std::array<T, n + 2> r{};
+    for (std::size_t k = 0; k < n; ++k) r[k] = channels[k] * area * scale;
+    r[n] = area, r[n + 1] = scale;
+    return r;
 }
 
 /// A family of inputs: its name, how many numbers it gives, and how they are drawn.
@@ -144,16 +155,18 @@ inline constexpr input_family<T> input_families[] = {
          put(summed_area_split(T(begin), T(begin + std::exp2(bits.uniform(-3, 7)))));
      }},
     {"summed1", 3,
-     [](auto put, const situation&, bit_source& bits) {
-         const double area = bits.uniform(1, 784), scale = double(summed_area_scale(T(784)));
-         put(bits.uniform(0, 1) * area * scale), put(area), put(scale);
+     [](auto put, const situation&, bit_source& bits) { put(any_sums<T>(bits, std::array{T(bits.uniform(0, 1))})); }},
+    {"summed2", 4,
+     [](auto put, const situation& s, bit_source& bits) {
+         put(any_sums<T>(bits, std::array{T((1 + s.b[0]) / 2), T(s.b[1])}));
      }},
     {"summed4", 6,
      [](auto put, const situation& s, bit_source& bits) {
-         const double area = bits.uniform(1, 784), scale = double(summed_area_scale(T(784)));
-         const auto c = theta4(moments4_in<T>(s));
-         for (const T x : {c.c1, c.c2, c.c3, c.c4}) put(double(x) * area * scale);
-         put(area), put(scale);
+         put(any_sums<T>(bits, gnomon_bit_cast<std::array<T, 4>>(theta4(moments4_in<T>(s)))));
+     }},
+    {"summed6", 8,
+     [](auto put, const situation& s, bit_source& bits) {
+         put(any_sums<T>(bits, gnomon_bit_cast<std::array<T, 6>>(theta6(moments6_in<T>(s)))));
      }},
     // Arithmetic.
     {"monic_cubic", 3,

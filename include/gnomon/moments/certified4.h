@@ -82,18 +82,31 @@ GNOMON_DETAIL_KERNEL GNOMON_T(certificate4) certificate4_make(GNOMON_T(hankel4) 
     return p;
 }
 
-/// The least possible value of E[p], given channels c of theta4 that are each off by at most noise. The coefficients of
-/// p at the channels are the transpose of theta4_inverse times those at the moments.
-GNOMON_DETAIL_KERNEL Real certificate4_theta_mean(GNOMON_T(certificate4) p, GNOMON_T(channels4) c, GNOMON_SETTING noise)
+/// The coefficients of p at the channels of theta4, with the sign of s: the transpose of theta4_inverse times those at the
+/// moments.
+GNOMON_DETAIL_KERNEL GNOMON_T(channels4) certificate4_theta(GNOMON_T(certificate4) p)
 {
     Real third = Real(0.75) * p.s3;
-    Real p1 = GNOMON_LITERAL(theta4_inverse11) * p.s1 - third;
-    Real p2 = Real(0.125) * (p.s2 - p.s4);
-    Real p3 = GNOMON_LITERAL(theta4_inverse13) * (p.s1 + third);
-    Real p4 = p.s2 + p.s4;
-    Real mean = (p.s0 + (p2 * c.c2 + p4 * c.c4)) + (p1 * (c.c1 - Real(0.5)) + p3 * (c.c3 - Real(0.5)));
-    Real doubt = noise * ((gnomon_abs(p1) + gnomon_abs(p2)) + (gnomon_abs(p3) + gnomon_abs(p4)));
-    return p.top - (mean + doubt);
+    GNOMON_T(channels4) r;
+    r.c1 = GNOMON_LITERAL(theta4_inverse11) * p.s1 - third;
+    r.c2 = Real(0.125) * (p.s2 - p.s4);
+    r.c3 = GNOMON_LITERAL(theta4_inverse13) * (p.s1 + third);
+    r.c4 = p.s2 + p.s4;
+    return r;
+}
+
+/// The most by which E[p] changes with channels that are each off by at most noise, from the coefficients at them.
+GNOMON_DETAIL_KERNEL Real certificate4_theta_doubt(GNOMON_T(channels4) t, GNOMON_SETTING noise)
+{
+    return noise * ((gnomon_abs(t.c1) + gnomon_abs(t.c2)) + (gnomon_abs(t.c3) + gnomon_abs(t.c4)));
+}
+
+/// The least possible value of E[p], given channels c of theta4 that are each off by at most noise.
+GNOMON_DETAIL_KERNEL Real certificate4_theta_mean(GNOMON_T(certificate4) p, GNOMON_T(channels4) c, GNOMON_SETTING noise)
+{
+    channels4 t = certificate4_theta(p);
+    Real mean = (p.s0 + (t.c2 * c.c2 + t.c4 * c.c4)) + (t.c1 * (c.c1 - Real(0.5)) + t.c3 * (c.c3 - Real(0.5)));
+    return p.top - (mean + certificate4_theta_doubt(t, noise));
 }
 
 /// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels c of theta4 that are each off by at
@@ -108,17 +121,21 @@ GNOMON_KERNEL Real certified4_theta_lower(GNOMON_T(hankel4) h, GNOMON_T(channels
 
 GNOMON_CONSTANT(certified4_scale, 137438953472.0); // 2^37
 
-/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
-/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. Float
-/// arithmetic cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of
-/// the node before z_f, or 1 minus the weight of z_f. The contribution of the bias is then subtracted. 0 if rounding
-/// left h at its floor.
-/// Domain: z_f in [-1, 1], clamped.
-/// NaN: 0, lit.
-GNOMON_KERNEL Real certified4_constant_bias_lower(GNOMON_T(hankel4) h, GNOMON_T(moments4) noise, GNOMON_SETTING bias2,
-                                                  GNOMON_SETTING bias4, GNOMON_SETTING alpha, Real z_f)
+/// A certificate and its mean for the biased moments, and what the bias added to that. known is 0 if rounding left
+/// the matrix at its floor or if nothing is certified, else 1.
+GNOMON_STRUCT(certified4_mean)
 {
-    Real z = clamp_or_nan(z_f, Real(-1), Real(1));
+    GNOMON_T(certificate4) p;
+    Real mean, added, known;
+};
+
+/// The certificate at z in [-1, 1] from the matrix h of moments with a constant bias that is kept apart. Float arithmetic
+/// cannot give E[p] of the stored moments. E[p] of the biased moments is known from the nodes: the weight of the node
+/// before z, or 1 minus the weight of z.
+GNOMON_DETAIL_KERNEL GNOMON_T(certified4_mean) certified4_constant_bias_mean(GNOMON_T(hankel4) h, GNOMON_SETTING bias2,
+                                                                             GNOMON_SETTING bias4, GNOMON_SETTING alpha,
+                                                                             Real z)
+{
     Real u = z - h.mean;
     Real vu = h.variance * u;
     Real slope = vu - h.third;
@@ -146,14 +163,46 @@ GNOMON_KERNEL Real certified4_constant_bias_lower(GNOMON_T(hankel4) h, GNOMON_T(
     Real n2 = gnomon_select(between, c, g) * gnomon_select(between, (c - g) - g, g);
     Real t0 = gnomon_select(between, Real(0.5) + b * inverse, Real(1));
     Real t1 = gnomon_select(between, g, c);
-    certificate4 p = certificate4_about(z, n0, t0, t1, n1, n2);
+    GNOMON_T(certified4_mean) m;
+    m.p = certificate4_about(z, n0, t0, t1, n1, n2);
     Real share = gnomon_select(between, Real(0.5) * (e * (r + b)) - w * (a * u), e);
-    Real mean = share / (w * gnomon_select(between, r, Real(1)));
-    Real added = alpha * ((p.top - p.s0) - (bias2 * p.s2 + bias4 * p.s4));
-    Real doubt = (noise.b1 * gnomon_abs(p.s1) + noise.b2 * gnomon_abs(p.s2)) +
-                 (noise.b3 * gnomon_abs(p.s3) + noise.b4 * gnomon_abs(p.s4));
-    GNOMON_MASK known = (between || positive) && (GNOMON_PIVOT_FLOOR * h.variance < h.determinant);
-    return gnomon_select(known, saturate_or_zero(mean - (added + doubt)), Real(0));
+    m.mean = share / (w * gnomon_select(between, r, Real(1)));
+    m.added = alpha * ((m.p.top - m.p.s0) - (bias2 * m.p.s2 + bias4 * m.p.s4));
+    m.known =
+        gnomon_select((between || positive) && (GNOMON_PIVOT_FLOOR * h.variance < h.determinant), Real(1), Real(0));
+    return m;
+}
+
+/// The certified mean without what the bias added and less the doubt about it, as an intensity.
+GNOMON_DETAIL_KERNEL Real certified4_constant_bias_intensity(GNOMON_T(certified4_mean) m, Real doubt)
+{
+    return gnomon_select(Real(0) < m.known, saturate_or_zero(m.mean - (m.added + doubt)), Real(0));
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from moments stored as floats that are each off by
+/// at most the entry in noise. h is their matrix by hankel4_constant_bias with the same bias2, bias4 and alpha. 0 if
+/// rounding left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+GNOMON_KERNEL Real certified4_constant_bias_lower(GNOMON_T(hankel4) h, GNOMON_T(moments4) noise, GNOMON_SETTING bias2,
+                                                  GNOMON_SETTING bias4, GNOMON_SETTING alpha, Real z_f)
+{
+    certified4_mean m = certified4_constant_bias_mean(h, bias2, bias4, alpha, clamp_or_nan(z_f, Real(-1), Real(1)));
+    Real doubt = (noise.b1 * gnomon_abs(m.p.s1) + noise.b2 * gnomon_abs(m.p.s2)) +
+                 (noise.b3 * gnomon_abs(m.p.s3) + noise.b4 * gnomon_abs(m.p.s4));
+    return certified4_constant_bias_intensity(m, doubt);
+}
+
+/// Certified lower bound on the shadow intensity at z_f, in [0, 1], from channels of theta4 with more than 16 bits, each off
+/// by at most noise. h is the matrix of their moments by hankel4_constant_bias with the same bias2, bias4 and alpha. 0 if
+/// rounding left h at its floor.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit.
+GNOMON_KERNEL Real certified4_theta_constant_bias_lower(GNOMON_T(hankel4) h, GNOMON_SETTING noise, GNOMON_SETTING bias2,
+                                                        GNOMON_SETTING bias4, GNOMON_SETTING alpha, Real z_f)
+{
+    certified4_mean m = certified4_constant_bias_mean(h, bias2, bias4, alpha, clamp_or_nan(z_f, Real(-1), Real(1)));
+    return certified4_constant_bias_intensity(m, certificate4_theta_doubt(certificate4_theta(m.p), noise));
 }
 
 /// The largest error of each moment of b after one rounding to float: 2 delta |b_j|, but at most delta.

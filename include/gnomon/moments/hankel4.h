@@ -59,6 +59,17 @@ GNOMON_DETAIL_KERNEL GNOMON_T(covariances4) covariances4_from_moments(GNOMON_T(m
     return c;
 }
 
+/// The factored matrix of the moments b + e, where e is small: a bias, or what rounding took from b.
+/// NaN: stays NaN.
+GNOMON_DETAIL_KERNEL GNOMON_T(hankel4) hankel4_with_change(GNOMON_T(moments4) b, GNOMON_T(moments4) e)
+{
+    covariances4 c = covariances4_from_moments(b);
+    double_word v = covariance_add_bias(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
+    double_word l = covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
+    double_word m = covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
+    return hankel4_make(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
+}
+
 /// The factored matrix of the mixture (1 - alpha) Z + alpha Z*, where Z has the moments b and Z* is symmetric with
 /// second and fourth moments bias2 and bias4.
 /// Domain: alpha in [0, 1), and at least n delta / (n delta + r) for moments that are off by n roundings (bias.h). With
@@ -73,11 +84,7 @@ GNOMON_KERNEL GNOMON_T(hankel4) hankel4_constant_bias(GNOMON_T(moments4) b, GNOM
     e.b2 = alpha * (bias2 - b.b2);
     e.b3 = Real(-1) * alpha * b.b3;
     e.b4 = alpha * (bias4 - b.b4);
-    covariances4 c = covariances4_from_moments(b);
-    double_word v = covariance_add_bias(c.v, b.b1, b.b1, e.b2, e.b1, e.b1);
-    double_word l = covariance_add_bias(c.l, b.b1, b.b2, e.b3, e.b1, e.b2);
-    double_word m = covariance_add_bias(c.m, b.b2, b.b2, e.b4, e.b2, e.b2);
-    return hankel4_make(b.b1 + e.b1, v.high + v.low, l.high + l.low, double_word_determinant(v, l, m));
+    return hankel4_with_change(b, e);
 }
 
 GNOMON_NAMESPACE_END

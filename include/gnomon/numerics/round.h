@@ -17,5 +17,17 @@ GNOMON_KERNEL Real nearest_integer(Real x)
     return gnomon_sum(gnomon_difference(x, rounder), rounder);
 }
 
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+GNOMON_KERNEL Real nearest_natural(Real x)
+{
+    Real rounder = Real(8388608);
+    if (GNOMON_DIGITS > 24) {
+        rounder = Real(4503599627370496.0);
+    }
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
 GNOMON_NAMESPACE_END
 #endif

@@ -19,9 +19,8 @@
 #ifndef GNOMON_PASSES_SUMMED_AREA_HPP
 #define GNOMON_PASSES_SUMMED_AREA_HPP
 
-#include "../soft/summed_area.h"
-#include "../storage/summed_texel.hpp"
 #include "map_view.hpp"
+#include "summed_row.hpp"
 
 #include <algorithm>
 
@@ -39,30 +38,8 @@ template <class Table> void add_to(sums<Table>& a, const sums<Table>& b)
     for (std::size_t k = 0; k < a.size(); ++k) a[k] += b[k];
 }
 
-/// The channels of a texel that holds channels, or depth samples, whose channels are averaged.
-template <summed_table Table> format_channels<Table> channels_of(const format_channels<Table>& c) { return c; }
-template <summed_table Table, std::size_t samples>
-format_channels<Table> channels_of(const std::array<float, samples>& depths)
-{
-    using array = std::array<float, channel_count<Table>>;
-    array sum{};
-    for (const float z : depths) {
-        const auto c = gnomon_bit_cast<array>(Table::from_depth(z));
-        for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += c[k];
-    }
-    for (float& x : sum) x *= 1.0f / float(samples);
-    return gnomon_bit_cast<format_channels<Table>>(sum);
-}
-
-/// The codes of a texel.
-template <summed_table Table, class Source> sums<Table> codes_of(const Source& source, float scale)
-{
-    const auto c =
-        gnomon_bit_cast<std::array<float, channel_count<Table>>>(Table::codes(channels_of<Table>(source), scale));
-    sums<Table> codes{};
-    for (std::size_t k = 0; k < codes.size(); ++k) codes[k] = static_cast<std::uint32_t>(c[k]);
-    return codes;
-}
+/// The scale of a table, of which every code is a float.
+inline double table_scale(std::size_t most_texels) { return double(summed_area_scale(float(most_texels))); }
 
 inline void expect_most_texels(std::string_view pass, std::size_t most_texels)
 {
@@ -87,12 +64,24 @@ template <class Table> sums<Table> sums_before(map_view<const sums<Table>> table
 
 /// The sums over the texels from (x0, y0) to before (x1, y1), as numbers.
 template <class Table>
-std::array<float, channel_count<Table>> sums_between(const sums<Table>& low, const sums<Table>& left,
-                                                     const sums<Table>& above, const sums<Table>& high)
+std::array<double, channel_count<Table>> sums_between(const sums<Table>& low, const sums<Table>& left,
+                                                      const sums<Table>& above, const sums<Table>& high)
 {
-    std::array<float, channel_count<Table>> r{};
-    for (std::size_t k = 0; k < r.size(); ++k) r[k] = float(high[k] - left[k] - above[k] + low[k]);
+    std::array<double, channel_count<Table>> r{};
+    for (std::size_t k = 0; k < r.size(); ++k) r[k] = double(high[k] - left[k] - above[k] + low[k]);
     return r;
+}
+
+/// The mean channels, from the sums over a rectangle of that area.
+template <summed_table Table>
+format_channels<Table> mean_of(const std::array<double, channel_count<Table>>& sum, double area,
+                               std::size_t most_texels)
+{
+    const auto mean = gnomon_bit_cast<std::array<double, channel_count<Table>>>(
+        Table::mean(gnomon_bit_cast<format_channels<Table, double>>(sum), area, table_scale(most_texels)));
+    std::array<float, channel_count<Table>> r{};
+    for (std::size_t k = 0; k < r.size(); ++k) r[k] = float(mean[k]);
+    return gnomon_bit_cast<format_channels<Table>>(r);
 }
 
 } // namespace detail
@@ -111,17 +100,11 @@ void build_summed_area(map_view<const Source> source, map_view<format_texel<Tabl
     detail::expect_most_texels(pass, most_texels);
     GNOMON_EXPECTS(above.empty() || above.size() == table.width,
                    mismatch(pass, "above.size()", above.size(), "table.width", table.width));
-    const float scale = summed_area_scale(float(most_texels));
+    const double scale = detail::table_scale(most_texels);
     const format_texel<Table>* previous = above.empty() ? nullptr : above.data();
     for (std::size_t y = rows.first; y < rows.last; ++y) {
         format_texel<Table>* const row = &table(0, y);
-        format_texel<Table> running{};
-        for (std::size_t x = 0; x < table.width; ++x) {
-            detail::add_to<Table>(running, detail::codes_of<Table>(source(x, y), scale));
-            format_texel<Table> sum = running;
-            if (previous != nullptr) detail::add_to<Table>(sum, previous[x]);
-            row[x] = sum;
-        }
+        detail::sum_row<Table>(std::span(&source(0, y), source.width), scale, previous, row);
         previous = row;
     }
 }
@@ -144,12 +127,11 @@ void summed_area_total(map_view<const Source> source, std::size_t most_texels, r
     detail::expect_most_texels(pass, most_texels);
     GNOMON_EXPECTS(total.size() == source.width,
                    mismatch(pass, "total.size()", total.size(), "source.width", source.width));
-    const float scale = summed_area_scale(float(most_texels));
-    std::fill(total.begin(), total.end(), format_texel<Table>{});
-    for (std::size_t y = rows.first; y < rows.last; ++y)
-        for (std::size_t x = 0; x < source.width; ++x)
-            detail::add_to<Table>(total[x], detail::codes_of<Table>(source(x, y), scale));
-    for (std::size_t x = 1; x < source.width; ++x) detail::add_to<Table>(total[x], total[x - 1]);
+    const double scale = detail::table_scale(most_texels);
+    const format_texel<Table>* above = nullptr;
+    for (std::size_t y = rows.first; y < rows.last; ++y, above = total.data())
+        detail::sum_row<Table>(std::span(&source(0, y), source.width), scale, above, total.data());
+    if (above == nullptr) std::fill(total.begin(), total.end(), format_texel<Table>{});
 }
 
 /// The first of two passes: the running sums of the codes along the given rows.
@@ -181,8 +163,7 @@ format_channels<Table> grid_average(map_view<const format_texel<Table>> table, s
     const auto sum = detail::sums_between<Table>(
         detail::sums_before<Table>(table, x0, y0), detail::sums_before<Table>(table, x0, y1),
         detail::sums_before<Table>(table, x1, y0), detail::sums_before<Table>(table, x1, y1));
-    return Table::mean(gnomon_bit_cast<format_channels<Table>>(sum), (r.x1 - r.x0) * (r.y1 - r.y0),
-                       summed_area_scale(float(most_texels)));
+    return detail::mean_of<Table>(sum, double(r.x1 - r.x0) * double(r.y1 - r.y0), most_texels);
 }
 
 /// The mean channels of a table over a rectangle: clipped to the map, and shrunk where it touches more than most_texels.
@@ -196,20 +177,19 @@ format_channels<Table> rectangle_average(map_view<const format_texel<Table>> tab
     const summed_area_parts<float> a = summed_area_split(r.x0, r.x1), b = summed_area_split(r.y0, r.y1);
     const std::array columns{std::size_t(a.line0), std::size_t(a.line1), std::size_t(a.line2), std::size_t(a.line3)};
     const std::array rows{std::size_t(b.line0), std::size_t(b.line1), std::size_t(b.line2), std::size_t(b.line3)};
-    const std::array across{a.width0, a.width1, a.width2}, along{b.width0, b.width1, b.width2};
+    const std::array across{double(a.width0), double(a.width1), double(a.width2)};
+    const std::array along{double(b.width0), double(b.width1), double(b.width2)};
     std::array<std::array<format_texel<Table>, 4>, 4> corners;
     for (std::size_t j = 0; j < 4; ++j)
         for (std::size_t i = 0; i < 4; ++i) corners[j][i] = detail::sums_before<Table>(table, columns[i], rows[j]);
-    std::array<float, channel_count<Table>> sum{};
+    std::array<double, channel_count<Table>> sum{};
     for (std::size_t j = 0; j < 3; ++j)
         for (std::size_t i = 0; i < 3; ++i) {
             const auto part =
                 detail::sums_between<Table>(corners[j][i], corners[j + 1][i], corners[j][i + 1], corners[j + 1][i + 1]);
-            const float weight = across[i] * along[j];
-            for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight * part[k];
+            for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += across[i] * along[j] * part[k];
         }
-    return Table::mean(gnomon_bit_cast<format_channels<Table>>(sum), summed_area_width(a) * summed_area_width(b),
-                       summed_area_scale(float(most_texels)));
+    return detail::mean_of<Table>(sum, double(summed_area_width(a)) * double(summed_area_width(b)), most_texels);
 }
 
 GNOMON_NAMESPACE_END

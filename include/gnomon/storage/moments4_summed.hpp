@@ -10,9 +10,14 @@ GNOMON_NAMESPACE_BEGIN
 /// 128 bits: sums of four channels after theta4.
 struct moments4_summed : summed_texel<channels4> {
     static constexpr std::string_view name = "4x32 summed", id = "moments4_summed";
-    static constexpr double darkening = stored4_arithmetic_weight;
+    static constexpr double darkening([[maybe_unused]] double most_texels) { return stored4_arithmetic_weight; }
 
-    template <class Real> static constexpr channels<Real> from_depth(Real z) { return moments4_summed_encode(z); }
+    /// Where numbers have digits to spare, the plain transform has the same bits behind the codes.
+    template <class Real> static constexpr channels<Real> from_depth(Real z)
+    {
+        if constexpr (std::is_same_v<Real, double>) return moments4_unorm16_encode(z);
+        else return moments4_summed_encode(z);
+    }
     template <class Real>
     static constexpr channels<Real> codes(const channels<Real>& c, std::type_identity_t<Real> scale)
     {

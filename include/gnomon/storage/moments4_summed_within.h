@@ -14,16 +14,15 @@ GNOMON_CONSTANT(moments4_summed_within_float_weight, 1e-6);
 /// Domain: most_texels at least 0.
 GNOMON_KERNEL Real moments4_summed_within_weight(Real most_texels)
 {
-    return GNOMON_LITERAL(moments4_summed_within_bias_ratio) * moments4_summed_noise(most_texels) +
+    return GNOMON_LITERAL(moments4_summed_within_bias_ratio) * summed_area_noise(most_texels) +
            GNOMON_LITERAL(moments4_summed_within_float_weight);
 }
 
 /// The factored matrix of the channels of a rectangle, with a bias for depths in [-1, 1].
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_summed_within(GNOMON_T(channels4) c, GNOMON_SETTING most_texels)
 {
-    return hankel4_constant_bias(theta4_inverse(c), GNOMON_LITERAL(bias4_theta_within_b2),
-                                 GNOMON_LITERAL(bias4_theta_within_b4),
-                                 gnomon_min(moments4_summed_within_weight(most_texels), Real(0.5)));
+    return hankel4_from_summed_theta(c, GNOMON_LITERAL(bias4_theta_within_b2), GNOMON_LITERAL(bias4_theta_within_b4),
+                                     gnomon_min(moments4_summed_within_weight(most_texels), Real(0.5)));
 }
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a rectangle.

@@ -22,9 +22,9 @@ GNOMON_NAMESPACE_BEGIN
 ///     mean(sums, area, scale)                  the channels of a rectangle; the border for no area
 ///     intensity(channels, most_texels, z_f)    the shadow in a rectangle
 ///     blocker(channels, most_texels, z_f)      the mean depth of what is before z_f in a rectangle
-///     darkening                                the most by which a lit surface is darkened
+///     darkening(most_texels)                   the most by which a lit surface is darkened
 // clang-format off
-template <class Table> concept summed_table = requires(float z, const format_channels<Table>& c) {
+template <class Table> concept summed_table = requires(float z, double w, const format_channels<Table>& c) {
     requires std::same_as<format_texel<Table>, std::array<std::uint32_t, sizeof(format_channels<Table>) / sizeof(float)>>;
     requires Table::bytes_per_texel == sizeof(format_texel<Table>);
     { Table::name } -> std::convertible_to<std::string_view>;
@@ -34,7 +34,7 @@ template <class Table> concept summed_table = requires(float z, const format_cha
     { Table::mean(c, z, z) } -> std::same_as<format_channels<Table>>;
     { Table::intensity(c, z, z) } -> std::same_as<float>;
     { Table::blocker(c, z, z) } -> std::same_as<float>;
-    { Table::darkening } -> std::convertible_to<double>;
+    { Table::darkening(w) } -> std::same_as<double>;
 };
 // clang-format on
 

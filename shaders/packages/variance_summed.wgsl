@@ -1,0 +1,1084 @@
+// Gnomon 0.1.0, variance_summed.wgsl: shadow filtering in WGSL, this file alone.
+// Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
+// Written by shaders/package.py from the kernels in include/gnomon: change them there.
+
+// the language --------------------------------------------------------------------------------------------------------
+// WGSL has neither preprocessor nor include guard: put this text, once, before the shader's own.
+// The same bits as on the CPU come wherever / and sqrt are rounded correctly and no product is fused with a sum,
+// neither of which WGSL can ask for (docs/shaders.md). Exact products stay whole in any case.
+
+const gnomon_pivot_floor: f32 = 0x1p-30;
+
+fn gnomon_select(mask: bool, a: f32, b: f32) -> f32 { return select(b, a, mask); }
+fn gnomon_any(mask: bool) -> bool { return mask; }
+fn gnomon_abs(a: f32) -> f32 { return abs(a); }
+fn gnomon_sqrt(a: f32) -> f32 { return sqrt(a); }
+// x, but nothing is fused, cancelled or reordered across a minimum of integers. Only bits of NaN are above this bound,
+// which is one.
+fn gnomon_kept(x: f32) -> f32 { return bitcast<f32>(min(bitcast<i32>(x), 0x7fc00000)); }
+// x by another minimum, which hides one that is kept already.
+fn gnomon_apart(x: f32) -> f32 { return bitcast<f32>(min(bitcast<u32>(x), 0xffc00000u)); }
+fn gnomon_min(a: f32, b: f32) -> f32 { return select(gnomon_apart(b), a, a < b); }
+fn gnomon_max(a: f32, b: f32) -> f32 { return select(gnomon_apart(b), a, a > b); }
+fn gnomon_product(a: f32, b: f32) -> f32 { return gnomon_kept(a * b); }
+fn gnomon_sum(a: f32, b: f32) -> f32 { return gnomon_kept(a + b); }
+fn gnomon_difference(a: f32, b: f32) -> f32 { return gnomon_kept(a - b); }
+// By integers, so that a NaN becomes 0 where a compiler assumes that there is none.
+fn gnomon_saturate(x: f32) -> f32 {
+    let bits = bitcast<i32>(x);
+    return gnomon_select(bits > 0x7f800000, 0.0, bitcast<f32>(min(max(bits, 0), 0x3f800000)));
+}
+// a without the low half of its significand.
+fn gnomon_high_part(a: f32) -> f32 { return bitcast<f32>(bitcast<u32>(a) & 0xfffff000u); }
+// The sum has n in its low bits, and the shift moves n into the exponent.
+fn gnomon_power_of_two(n: f32) -> f32 { return bitcast<f32>((bitcast<u32>(n + 12582912.0) << 23u) + 0x3f800000u); }
+
+// moments/channels.h --------------------------------------------------------------------------------------------------
+// The channels of a shadow map's texel, as a texture unit returns them: filtered or not, still behind the transform of
+// the storage format. Types of their own, so that channels never pass for moments, nor moments for channels.
+
+struct channels1_ { c1_: f32 }
+
+struct channels2_ { c1_: f32, c2_: f32 }
+
+struct channels5_ { c1_: f32, c2_: f32, c3_: f32, c4_: f32, c5_: f32 }
+
+// moments/channels.h, four moments ------------------------------------------------------------------------------------
+
+struct channels4_ { c1_: f32, c2_: f32, c3_: f32, c4_: f32 }
+
+// moments/channels.h, six moments -------------------------------------------------------------------------------------
+
+struct channels6_ { c1_: f32, c2_: f32, c3_: f32, c4_: f32, c5_: f32, c6_: f32 }
+
+// numerics/quadratic.h ------------------------------------------------------------------------------------------------
+// Roots of a x^2 + 2 b x + c without cancellation. The sum b + sign(b) sqrt(b^2 - a c) has terms of one sign and gives
+// one root; the product of the roots, c / a, gives the other.
+
+/// The two roots, in no particular order.
+struct gnomon_quadratic_result { first: f32, second: f32 }
+
+/// Both roots of a x^2 + 2 b x + c; for complex roots, their common real part twice. One root is infinite if a is 0.
+/// Domain: b^2 and a c neither overflow nor underflow.
+/// NaN: a NaN gives at least one NaN root; a = b = c = 0 gives two.
+/// Error: 4 ulp where a c <= b^2 / 2, by as many roundings.
+fn quadratic_roots(a: f32, b: f32, c: f32) -> gnomon_quadratic_result
+{
+    let r = gnomon_sqrt(gnomon_max(b * b - a * c, 0.0));
+    let t = gnomon_select(b > 0.0, -(b + r), r - b);
+    var x: gnomon_quadratic_result;
+    x.first = t / a;
+    x.second = c / t;
+    return x;
+}
+
+// numerics/select.h ---------------------------------------------------------------------------------------------------
+// Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
+
+/// x clamped to [low, high].
+/// NaN: stays NaN, so that the last step of a kernel can answer it.
+fn clamp_or_nan(x: f32, low: f32, high: f32) -> f32 { return gnomon_min(high, gnomon_max(low, x)); }
+
+/// x clamped to [low, high].
+/// NaN: high.
+fn clamp_or_high(x: f32, low: f32, high: f32) -> f32 { return gnomon_max(low, gnomon_min(x, high)); }
+
+/// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
+/// NaN: 0, lit.
+fn saturate_or_zero(x: f32) -> f32 { return gnomon_saturate(x); }
+
+// moments/bounds.h ----------------------------------------------------------------------------------------------------
+// The shadow intensity that is shown, from bounds on a depth distribution (Peters et al. 2017, Sec. 2.6 and 5.3).
+
+/// Bounds on the shadow intensity: lower <= Z(z < z_f) and Z(z <= z_f) <= upper = lower + weight, where weight is the
+/// largest probability of depth z_f itself. All are in [0, 1], and 0 if a moment or the receiver's depth was NaN.
+struct hamburger_bounds { lower: f32, upper: f32, weight: f32 }
+
+/// Shadow intensity lower + (1 - overestimation) weight, in [0, 1]. overestimation is the paper's beta, which
+/// multiplies visibility: 1 never darkens a lit surface; 1/2 halves the worst error and suits single scattering.
+/// Domain: overestimation in [0, 1], clamped.
+/// NaN: an overestimation of NaN counts as 0; NaN bounds give 0, lit.
+/// Source: Peters 2017, Sec. 5.3.1
+fn bounds_intensity(bounds: hamburger_bounds, overestimation: f32) -> f32
+{
+    return saturate_or_zero(bounds.lower + (1.0 - saturate_or_zero(overestimation)) * bounds.weight);
+}
+
+/// Over-darkened intensity min(1, intensity / strength), which removes light leaking of up to 1 - strength. The paper
+/// uses a strength of 0.98.
+/// Domain: strength in (0, 1]. For 0 the result is 1 where intensity is above 0; for a negative one 0; beyond 1 shadows
+/// are lighter.
+/// NaN: 0, lit.
+/// Source: Annen 2007; Peters 2017, Sec. 2.6
+fn over_darken(intensity: f32, strength: f32) -> f32 { return saturate_or_zero(intensity / strength); }
+
+// numerics/two_product.h ----------------------------------------------------------------------------------------------
+// Error-free transformations: the difference or product of two numbers as the rounded result and its exact error
+// (Dekker 1971; Knuth 1997; Ogita, Rump & Oishi 2005). A double word, the unevaluated sum of such a pair, carries both
+// through further operations, so that differences of products keep the digits that cancellation would lose.
+
+/// The unevaluated sum high + low.
+struct gnomon_double_word { high: f32, low: f32 }
+
+/// The error a b - p of the rounded product p, without a fused multiply-add: both factors are split into halves whose
+/// products are exact. In this order of summation all sums are exact, and an error of zero is +0, as by a fused
+/// multiply-add.
+/// Domain: as for two_product.
+/// Source: Dekker 1971
+fn gnomon_dekker_product_error(a: f32, b: f32, p: f32) -> f32
+{
+    let ah = gnomon_high_part(a);
+    let bh = gnomon_high_part(b);
+    let al = gnomon_difference(a, ah);
+    let bl = gnomon_difference(b, bh);
+    let e = gnomon_difference(ah * bh, p);
+    return gnomon_sum(gnomon_sum(gnomon_sum(e, al * bh), ah * bl), al * bl);
+}
+
+/// a b exactly, as the rounded product and its error. Fused multiply-add and splitting give the same bits.
+/// Domain: |a|, |b| <= 2^100 and |a b| = 0 or >= 2^-100 in float; 2^900 and 2^-900 in double.
+/// Error: none; for smaller products low is off by at most two of the smallest denormals, since each of the four
+/// products of the split route rounds by half of one.
+/// Source: Dekker 1971; Ogita, Rump & Oishi 2005
+fn two_product(a: f32, b: f32) -> gnomon_double_word
+{
+    var r: gnomon_double_word;
+    r.high = gnomon_product(a, b);
+    r.low = gnomon_dekker_product_error(a, b, r.high);
+    return r;
+}
+
+/// a - b exactly, as the rounded difference and its error, for magnitudes in any order.
+/// Source: Knuth 1997, Sec. 4.2.2
+fn two_difference(a: f32, b: f32) -> gnomon_double_word
+{
+    var r: gnomon_double_word;
+    r.high = gnomon_difference(a, b);
+    let bv = gnomon_difference(r.high, a);
+    let av = gnomon_difference(r.high, bv);
+    r.low = gnomon_difference(gnomon_difference(a, av), gnomon_sum(b, bv));
+    return r;
+}
+
+/// a - b exactly, as the rounded difference and its error.
+/// Domain: |a| >= |b| or a = 0; elsewhere low is off by up to a rounding of b.
+/// Source: Dekker 1971
+fn two_difference_ordered(a: f32, b: f32) -> gnomon_double_word
+{
+    var r: gnomon_double_word;
+    r.high = gnomon_difference(a, b);
+    r.low = gnomon_difference(gnomon_difference(a, r.high), b);
+    return r;
+}
+
+/// c - a b as a double word, for magnitudes in any order.
+/// Domain: as for two_product.
+/// Error: 2 u^2 (|c| + |a b|), u = 2^-p.
+fn subtract_product(c: f32, a: f32, b: f32) -> gnomon_double_word
+{
+    let p = two_product(a, b);
+    var r = two_difference(c, p.high);
+    r.low = gnomon_difference(r.low, p.low);
+    return r;
+}
+
+/// c - a b as a double word.
+/// Domain: |c| >= |a b|, elsewhere low is off by up to a rounding of a b; as for two_product.
+/// Error: 2 u^2 (|c| + |a b|), u = 2^-p.
+fn subtract_product_ordered(c: f32, a: f32, b: f32) -> gnomon_double_word
+{
+    let p = two_product(a, b);
+    var r = two_difference_ordered(c, p.high);
+    r.low = gnomon_difference(r.low, p.low);
+    return r;
+}
+
+/// c - a b, rounded. Where c and a b cancel, their difference is exact.
+/// Domain: as for two_product.
+/// Error: 2 roundings of the result, also under cancellation.
+fn subtract_product_rounded(c: f32, a: f32, b: f32) -> f32
+{
+    let p = two_product(a, b);
+    return gnomon_difference(c, p.high) - p.low;
+}
+
+/// a b - c d for double words, as a double word.
+/// Domain: each low is at most 2^-20 of its high in float, 2^-49 in double.
+/// Error: 2^-40 (|a b| + |c d|) in float, 2^-98 (|a b| + |c d|) in double.
+fn gnomon_double_word_minor(a: gnomon_double_word, b: gnomon_double_word, c: gnomon_double_word,
+                            d: gnomon_double_word) -> gnomon_double_word
+{
+    let p = two_product(a.high, b.high);
+    let q = two_product(c.high, d.high);
+    var r = two_difference(p.high, q.high);
+    let cross = (a.high * b.low + a.low * b.high) - (c.high * d.low + c.low * d.high);
+    r.low = r.low + ((p.low - q.low) + (cross + (a.low * b.low - c.low * d.low)));
+    return r;
+}
+
+/// a c - b^2 for double words, rounded.
+/// Domain: as for gnomon_double_word_minor.
+/// Error: 2 roundings of the result beside that of gnomon_double_word_minor.
+fn gnomon_double_word_determinant(a: gnomon_double_word, b: gnomon_double_word, c: gnomon_double_word) -> f32
+{
+    let p = two_product(a.high, c.high);
+    let q = two_product(b.high, b.high);
+    let cross = (a.high * c.low + a.low * (c.high + c.low)) - b.low * ((b.high + b.high) + b.low);
+    return gnomon_difference(p.high, q.high) + ((p.low - q.low) + cross);
+}
+
+// moments/covariance.h ------------------------------------------------------------------------------------------------
+// Covariances of powers of depth, b_(i+j) - b_i b_j, as double words. Over a single surface nearly all digits cancel,
+// and the remaining ones decide the shadow. The factored Hankel matrices of four and of six moments start from them.
+
+/// The covariance (b_ij + e_ij) - (b_i + e_i) (b_j + e_j) after a small change e of the moments, such as a bias, from
+/// c = b_ij - b_i b_j. The change goes into the low word: added to the moments it would be rounded away.
+fn gnomon_covariance_add_bias(given_c: gnomon_double_word, b_i: f32, b_j: f32, e_ij: f32, e_i: f32,
+                              e_j: f32) -> gnomon_double_word
+{
+    var c = given_c;
+    c.low = c.low + (e_ij - (b_i * e_j + e_i * (b_j + e_j)));
+    return c;
+}
+
+// moments/depth.h -----------------------------------------------------------------------------------------------------
+// Signed depth from what depth buffers hold. Signed depth is -1 at the near plane, +1 at the far plane, and linear in
+// the view distance: filters need the linearity, since they average depths. A perspective projection is not linear, so
+// its buffer needs a conversion of its own.
+//
+//   buffer                                    near plane   far plane    conversion
+//   view distance                             near         far          depth_from_distance
+//   orthographic, or linear                   0            1            depth_from_unit
+//   orthographic, or linear, reversed         1            0            depth_from_reversed
+//   perspective                               0            1            depth_from_perspective
+//   perspective, reversed                     1            0            depth_from_reversed_perspective
+//   perspective, infinite far plane           0            (1)          depth_from_infinite
+//   perspective, infinite, reversed           1            (0)          depth_from_reversed_infinite
+//
+// A buffer in [-1, 1], as in OpenGL, first becomes 0.5 z + 0.5.
+
+/// Signed depth from a linear buffer: z is 0 at the near plane and 1 at the far plane. For an orthographic projection
+/// or a stored linear depth alone: the buffer of a perspective projection needs depth_from_perspective.
+/// Domain: z in [0, 1].
+/// NaN: NaN.
+/// Error: one rounding.
+fn depth_from_unit(z: f32) -> f32 { return z * 2.0 - 1.0; }
+
+/// Signed depth from a reversed linear buffer: z is 1 at the near plane and 0 at the far plane. The buffer of a
+/// perspective projection needs depth_from_reversed_perspective.
+/// Domain: z in [0, 1].
+/// NaN: NaN.
+/// Error: one rounding.
+fn depth_from_reversed(z: f32) -> f32 { return 1.0 - z * 2.0; }
+
+/// Signed depth of a view distance: -1 at near_distance, +1 at far_distance, in any unit.
+/// Domain: near_distance < far_distance. Equal planes give infinities before and behind them, NaN on them, which
+/// encoders store as the near and the far plane.
+/// NaN: NaN.
+/// Error: 5 2^-p for distances between the planes.
+fn depth_from_distance(distance_: f32, near_distance: f32, far_distance: f32) -> f32
+{
+    return ((distance_ - near_distance) - (far_distance - distance_)) / (far_distance - near_distance);
+}
+
+/// The signed depth (n - f) / (n + f) of a point whose distances to the planes are as n to f, near to far.
+fn gnomon_depth_between(n: f32, f: f32) -> f32 { return (n - f) / (n + f); }
+
+/// Signed depth from the buffer of a perspective projection: z is 0 at near_distance and 1 at far_distance.
+/// Domain: any z, limited to [0, 1]; 0 < near_distance < far_distance < infinity. Elsewhere a finite number, infinity
+/// or NaN, which encoders limit.
+/// NaN: NaN.
+/// Error: 4 2^-p, where the buffer itself is exact.
+fn depth_from_perspective(z: f32, near_distance: f32, far_distance: f32) -> f32
+{
+    let x = clamp_or_nan(z, 0.0, 1.0);
+    return gnomon_depth_between(near_distance * x, far_distance * (1.0 - x));
+}
+
+/// Signed depth from the reversed buffer of a perspective projection: z is 1 at near_distance and 0 at far_distance.
+/// Domain: any z, limited to [0, 1]; 0 < near_distance < far_distance < infinity. Elsewhere a finite number, infinity
+/// or NaN, which encoders limit.
+/// NaN: NaN.
+/// Error: 4 2^-p, where the buffer itself is exact.
+fn depth_from_reversed_perspective(z: f32, near_distance: f32, far_distance: f32) -> f32
+{
+    let x = clamp_or_nan(z, 0.0, 1.0);
+    return gnomon_depth_between(near_distance * (1.0 - x), far_distance * x);
+}
+
+/// Signed depth from the reversed buffer of a perspective projection without far plane: z = near_distance / distance.
+/// Of signed depth far_distance is the far plane. Farther points are on it.
+/// Domain: any z, limited to [0, 1]; 0 < near_distance, 2 near_distance <= far_distance < infinity. Elsewhere a
+/// number in [-1, 1] or NaN.
+/// NaN: NaN.
+/// Error: 8 2^-p, where the buffer itself is exact.
+fn depth_from_reversed_infinite(z: f32, near_distance: f32, far_distance: f32) -> f32
+{
+    let x = gnomon_abs(clamp_or_nan(z, 0.0, 1.0)); // -0 is the far plane, too
+    let depth = (near_distance * (1.0 - x) - (far_distance * x - near_distance)) / (x * (far_distance - near_distance));
+    return clamp_or_nan(depth, -1.0, 1.0);
+}
+
+/// Signed depth from the buffer of a perspective projection without far plane: z = 1 - near_distance / distance. Of
+/// signed depth far_distance is the far plane. Farther points are on it.
+/// Domain: any z, limited to [0, 1]; 0 < near_distance, 2 near_distance <= far_distance < infinity. Elsewhere a
+/// number in [-1, 1] or NaN.
+/// NaN: NaN.
+/// Error: 8 2^-p, where 1 - z is exact.
+fn depth_from_infinite(z: f32, near_distance: f32, far_distance: f32) -> f32
+{
+    return depth_from_reversed_infinite(1.0 - z, near_distance, far_distance);
+}
+
+// moments/moments.h, four moments -------------------------------------------------------------------------------------
+// Depth to moments: the values of a moment shadow map before any storage format.
+// b_j = E[z^j] over the depths in a filter region, j = 1..4 or 1..6; b_0 = 1 is not stored (Peters et al.
+// 2017, 2.1, 2.2.1). Filtering, blending and resolving are linear combinations of such vectors with weights that sum
+// to 1.
+
+struct moments4_ { b1_: f32, b2_: f32, b3_: f32, b4_: f32 }
+
+/// The four moments of a single depth z.
+/// Domain: z in [-1, 1].
+/// NaN: NaN.
+/// Source: Peters 2017, App. D.1
+fn moments4_from_depth(z: f32) -> moments4_
+{
+    var b: moments4_;
+    b.b1_ = z;
+    b.b2_ = z * z;
+    b.b3_ = b.b2_ * z;
+    b.b4_ = b.b2_ * b.b2_;
+    return b;
+}
+
+/// b times weight: the first term of a linear combination.
+fn moments4_scale(given_b: moments4_, weight: f32) -> moments4_
+{
+    var b = given_b;
+    b.b1_ = b.b1_ * weight;
+    b.b2_ = b.b2_ * weight;
+    b.b3_ = b.b3_ * weight;
+    b.b4_ = b.b4_ * weight;
+    return b;
+}
+
+/// sum + weight b: a further term of a linear combination.
+fn moments4_add(given_sum: moments4_, b: moments4_, weight: f32) -> moments4_
+{
+    var sum = given_sum;
+    sum.b1_ = sum.b1_ + b.b1_ * weight;
+    sum.b2_ = sum.b2_ + b.b2_ * weight;
+    sum.b3_ = sum.b3_ + b.b3_ * weight;
+    sum.b4_ = sum.b4_ + b.b4_ * weight;
+    return sum;
+}
+
+/// The moments of signed depth from moments c of depth in [0, 1], as older maps store them: Equation 2 with x = 2, y =
+/// -1.
+/// Source: Peters 2017, Eq. 2
+fn moments4_from_unit(c: moments4_) -> moments4_
+{
+    var b: moments4_;
+    b.b1_ = 2.0 * c.b1_ - 1.0;
+    b.b2_ = 4.0 * (c.b2_ - c.b1_) + 1.0;
+    b.b3_ = (8.0 * c.b3_ - 12.0 * c.b2_) + (6.0 * c.b1_ - 1.0);
+    b.b4_ = 16.0 * (c.b4_ - 2.0 * c.b3_) + (24.0 * c.b2_ - 8.0 * c.b1_ + 1.0);
+    return b;
+}
+
+// moments/moments.h, six moments --------------------------------------------------------------------------------------
+
+struct moments6_ { b1_: f32, b2_: f32, b3_: f32, b4_: f32, b5_: f32, b6_: f32 }
+
+/// The six moments of a single depth z.
+/// Domain: z in [-1, 1].
+/// NaN: NaN.
+fn moments6_from_depth(z: f32) -> moments6_
+{
+    var b: moments6_;
+    b.b1_ = z;
+    b.b2_ = z * z;
+    b.b3_ = b.b2_ * z;
+    b.b4_ = b.b2_ * b.b2_;
+    b.b5_ = b.b4_ * z;
+    b.b6_ = b.b3_ * b.b3_;
+    return b;
+}
+
+/// b times weight: the first term of a linear combination.
+fn moments6_scale(given_b: moments6_, weight: f32) -> moments6_
+{
+    var b = given_b;
+    b.b1_ = b.b1_ * weight;
+    b.b2_ = b.b2_ * weight;
+    b.b3_ = b.b3_ * weight;
+    b.b4_ = b.b4_ * weight;
+    b.b5_ = b.b5_ * weight;
+    b.b6_ = b.b6_ * weight;
+    return b;
+}
+
+/// sum + weight b: a further term of a linear combination.
+fn moments6_add(given_sum: moments6_, b: moments6_, weight: f32) -> moments6_
+{
+    var sum = given_sum;
+    sum.b1_ = sum.b1_ + b.b1_ * weight;
+    sum.b2_ = sum.b2_ + b.b2_ * weight;
+    sum.b3_ = sum.b3_ + b.b3_ * weight;
+    sum.b4_ = sum.b4_ + b.b4_ * weight;
+    sum.b5_ = sum.b5_ + b.b5_ * weight;
+    sum.b6_ = sum.b6_ + b.b6_ * weight;
+    return sum;
+}
+
+// moments/hankel4.h ---------------------------------------------------------------------------------------------------
+// The Hankel matrix of four moments, factored: the part of the work that all receivers of one filter region share
+// (Peters et al. 2017, Alg. 1, steps 1 and 2 without the right-hand side).
+//
+//     B = | 1  b1 b2 |      The factorization L D L^T has the pivots 1, D_1 = E[P_1^2] and D_2 = E[P_2^2], where
+//         | b1 b2 b3 |      P_1 = z - b1 and P_2 = P_1^2 - g P_1 - D_1 are the monic orthogonal polynomials of the
+//         | b2 b3 b4 |      distribution.
+//
+// After the first step of elimination the covariances of (z, z^2) remain: V = var z = D_1, L = cov(z, z^2) and
+// M = var z^2, and D_1 D_2 = V M - L^2. All three cancel, so they are computed from exact products. A bias (bias.h) is
+// added to the covariances, as double words, because added to the moments it would be rounded away. hamburger4.h
+// divides later, and uses G = g V = E[P_1^3] = L - 2 b1 V in place of L.
+
+/// The factored matrix: mean b1, variance D_1, third central moment G, determinant D_1 D_2. Variance and determinant
+/// are positive for any moments in [-2^30, 2^30]; larger moments can overflow.
+/// NaN: a NaN among the moments stays NaN.
+struct hankel4_ { mean: f32, variance: f32, third: f32, determinant: f32 }
+
+/// The factored matrix from the mean, V, L and V M - L^2. Pivots below the floor are raised to the floor, so that
+/// indefinite moments still name a distribution.
+/// NaN: stays NaN, as the second argument of gnomon_max (portable.h).
+fn gnomon_hankel4_make(mean: f32, variance: f32, covariance: f32, determinant: f32) -> hankel4_
+{
+    var h: hankel4_;
+    h.mean = mean;
+    h.variance = gnomon_max(gnomon_pivot_floor, variance);
+    h.third = covariance - (mean + mean) * h.variance;
+    h.determinant = gnomon_max(gnomon_pivot_floor * h.variance, determinant);
+    return h;
+}
+
+/// The factored matrix of moments b, in plain arithmetic: for double, and for biased moments from 16-bit storage, whose
+/// own errors are larger than those of the arithmetic.
+/// NaN: stays NaN.
+/// Source: Peters 2017, Alg. 1
+fn hankel4_from_moments(b: moments4_) -> hankel4_
+{
+    let v = b.b2_ - b.b1_ * b.b1_;
+    let l = b.b3_ - b.b1_ * b.b2_;
+    let m = b.b4_ - b.b2_ * b.b2_;
+    return gnomon_hankel4_make(b.b1_, v, l, v * m - l * l);
+}
+
+/// The covariances V, L and M of (z, z^2).
+struct gnomon_covariances4_ { v: gnomon_double_word, l: gnomon_double_word, m: gnomon_double_word }
+
+/// The covariances without loss by cancellation. Jensen's inequality orders the terms of V and M, but not those of L.
+fn gnomon_covariances4_from_moments(b: moments4_) -> gnomon_covariances4_
+{
+    var c: gnomon_covariances4_;
+    c.v = subtract_product_ordered(b.b2_, b.b1_, b.b1_);
+    c.l = subtract_product(b.b3_, b.b1_, b.b2_);
+    c.m = subtract_product_ordered(b.b4_, b.b2_, b.b2_);
+    return c;
+}
+
+/// The factored matrix of the moments b + e, where e is small: a bias, or what rounding took from b.
+/// NaN: stays NaN.
+fn gnomon_hankel4_with_change(b: moments4_, e: moments4_) -> hankel4_
+{
+    let c = gnomon_covariances4_from_moments(b);
+    let v = gnomon_covariance_add_bias(c.v, b.b1_, b.b1_, e.b2_, e.b1_, e.b1_);
+    let l = gnomon_covariance_add_bias(c.l, b.b1_, b.b2_, e.b3_, e.b1_, e.b2_);
+    let m = gnomon_covariance_add_bias(c.m, b.b2_, b.b2_, e.b4_, e.b2_, e.b2_);
+    return gnomon_hankel4_make(b.b1_ + e.b1_, v.high + v.low, l.high + l.low, gnomon_double_word_determinant(v, l, m));
+}
+
+/// The factored matrix of the mixture (1 - alpha) Z + alpha Z*, where Z has the moments b and Z* is symmetric with
+/// second and fourth moments bias2 and bias4.
+/// Domain: alpha in [0, 1), and at least n delta / (n delta + r) for moments that are off by n roundings (bias.h). With
+/// a smaller alpha pivots may be at the floor, and bounds are not reliable.
+/// NaN: stays NaN.
+/// Source: Peters 2017, Sec. 2.5; Peters 2017, Alg. 1
+fn hankel4_constant_bias(b: moments4_, bias2: f32, bias4: f32, alpha: f32) -> hankel4_
+{
+    var e: moments4_;
+    e.b1_ = -1.0 * alpha * b.b1_;
+    e.b2_ = alpha * (bias2 - b.b2_);
+    e.b3_ = -1.0 * alpha * b.b3_;
+    e.b4_ = alpha * (bias4 - b.b4_);
+    return gnomon_hankel4_with_change(b, e);
+}
+
+// moments/hamburger4.h ------------------------------------------------------------------------------------------------
+// Shadow intensity from four moments: sharp bounds on Z(z < z_f) over all depth distributions Z with these moments
+// (the Hamburger moment problem; Peters et al. 2017, Eq. 1 and Alg. 1), without solving for all nodes and weights.
+//
+// The Christoffel-Darboux kernel K(x, y) = sum_k P_k(x) P_k(y) / D_k of the factored Hankel matrix (hankel4.h)
+// gives the canonical distribution with a node at z_f: the other two nodes are the roots of K(z_f, .), and a node
+// at z has the weight w(z) = 1 / K(z, z). The number of nodes above z_f is the number of sign changes in
+// P_0(z_f), P_1(z_f), P_2(z_f):
+//     no node above:      lower = 1 - w_f
+//     both nodes above:   lower = 0
+//     one node above:     lower = w(smaller root)
+// and upper = lower + w_f. Let x = z - mean, u = z_f - mean, V = D_1, N = D_1 D_2, W = V N and
+// Q(x) = V P_2 = (V x - G) x - V^2. Then
+//     w(z) = W / (W + x^2 N + Q(x)^2)
+//     K(z_f, .) = 0:    a x^2 + 2 b x + c = 0,    a = Q V,    2 b = u N - Q G,    c = W - Q V^2,    Q = Q(u)
+// If one root lies on each side, Q < 0, so r^2 = b^2 - a c is a sum of positive terms. The two nodes beside z_f have
+// the weight E / (W + E) together, E = u^2 N + Q^2, and their mean balances z_f about the mean of all, which gives the
+// weight of the smaller one without its root:
+//     w(smaller root) = (E (r + b) - W u a) / (2 r (W + E))
+// The whole takes one division and one square root.
+
+/// The canonical distribution: depth0 at the receiver and depth1 <= depth2. The weights are in [0, 1] and sum to 1.
+struct gnomon_distribution3_ { depth0_: f32, depth1_: f32, depth2_: f32, weight0_: f32, weight1_: f32, weight2_: f32 }
+
+// moments/hamburger4.h ------------------------------------------------------------------------------------------------
+
+const gnomon_hamburger4_scale: f32 = 72057594037927936.0; // 2^56
+const hamburger4_lower_scale: f32 = 281474976710656.0; // 2^48
+
+/// The polynomial Q(x) = V P_2(mean + x).
+fn gnomon_hamburger4_q(h: hankel4_, x: f32) -> f32 { return (h.variance * x - h.third) * x - h.variance * h.variance; }
+
+/// The weight of the node at mean + x, where q = Q(x).
+fn gnomon_hamburger4_weight(h: hankel4_, x: f32, q: f32) -> f32
+{
+    let w = h.variance * h.determinant;
+    return w / (w + (x * x * h.determinant + q * q));
+}
+
+/// The quadratic a x^2 + 2 b x + c.
+struct hamburger4_quadratic { a: f32, b: f32, c: f32 }
+
+/// The quadratic whose roots x are the other two nodes minus the mean, for u = z_f - mean and q = Q(u).
+fn gnomon_hamburger4_other_nodes(h: hankel4_, u: f32, q: f32) -> hamburger4_quadratic
+{
+    // The power of two keeps the discriminant of a single depth, as small as 2^-139, from underflowing.
+    let n = h.determinant * gnomon_hamburger4_scale;
+    let s = q * gnomon_hamburger4_scale;
+    var r: hamburger4_quadratic;
+    r.a = s * h.variance;
+    r.b = 0.5 * (u * n - s * h.third);
+    r.c = h.variance * (n - r.a);
+    return r;
+}
+
+/// Lower bound and weight of the receiver as fractions: lower = share / total, w_f = receiver / whole.
+struct hamburger4_fractions { share: f32, total: f32, receiver: f32, whole: f32 }
+
+/// Lower bound and weight of the receiver at z_f, clamped to [-1, 1], before division and clamping.
+fn gnomon_hamburger4_fractions_at(h: hankel4_, z_f: f32) -> hamburger4_fractions
+{
+    let u = clamp_or_nan(z_f, -1.0, 1.0) - h.mean;
+    let q = gnomon_hamburger4_q(h, u);
+    // The power of two is a factor of every term. The terms of a single depth would underflow otherwise.
+    let s = hamburger4_lower_scale * q;
+    let n = hamburger4_lower_scale * h.determinant;
+    let un = u * n;
+    let a = s * h.variance;
+    let b = 0.5 * (un - s * h.third);
+    let r = gnomon_sqrt(b * b - a * (h.variance * (n - a)));
+    let e = u * un + q * s;
+    var f: hamburger4_fractions;
+    f.receiver = h.variance * n;
+    f.whole = f.receiver + e;
+    let between = q < 0.0;
+    // Elsewhere u is never 0 and the quotient is e / whole with the sign of u: a negative lower bound is clamped to 0.
+    f.share = gnomon_select(between, e * (r + b) - f.receiver * (u * a), e * u);
+    f.total = gnomon_select(between, r + r, gnomon_abs(u)) * f.whole;
+    return f;
+}
+
+/// Lower bound on the shadow intensity at z_f, in [0, 1]. Surfaces should show this bound, since it never darkens
+/// a lit surface.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit, for a NaN in h or z_f.
+/// Error: against the moment problem solved in 120 digits (tests/moments/hamburger_oracle.cpp),
+///     error, double, no bias, three depths and more: p99 1e-13, p99.9 2e-12
+///     error, float, hankel4_constant_bias at 3e-7: p99 3e-5, p99.9 1e-4, max 5e-4
+/// and against the kernel in double, with maxima found by climbing (tests/moments/honest_four.cpp),
+///     error, float, hankel4_from_float: p99 3e-5, p99.9 1e-4, max 5e-4
+///     error, float, hankel4_from_float_filtered: p99 2e-5, p99.9 5e-5, max 1e-4
+///     error, float, hankel4_from_half: p99 3e-5, p99.9 1e-4, max 2e-3
+///     error, float, hankel4_from_half_filtered: p99 1e-5, p99.9 3e-5, max 3e-4
+///     error, float, hankel4_from_unorm16: p99 4e-4, p99.9 2e-3, max 5e-2
+///     error, float, hankel4_from_unorm16_filtered: p99 2e-4, p99.9 6e-4, max 4e-3
+/// Source: Peters 2017, Eq. 1; Peters 2017, Alg. 1
+fn hamburger4_lower(h: hankel4_, z_f: f32) -> f32
+{
+    let f = gnomon_hamburger4_fractions_at(h, z_f);
+    return saturate_or_zero(f.share / f.total);
+}
+
+/// Both bounds on the shadow intensity at z_f and the weight of the receiver, for one division more than
+/// the lower bound.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: 0, lit, for a NaN in h or z_f.
+/// Error: as for hamburger4_lower.
+/// Source: Peters 2017, Alg. 1; Peters 2017, Sec. 5.3
+fn hamburger4_bounds(h: hankel4_, z_f: f32) -> hamburger_bounds
+{
+    let f = gnomon_hamburger4_fractions_at(h, z_f);
+    var r: hamburger_bounds;
+    r.lower = saturate_or_zero(f.share / f.total);
+    r.weight = gnomon_min(saturate_or_zero(f.receiver / f.whole), 1.0 - r.lower);
+    r.upper = r.lower + r.weight;
+    return r;
+}
+
+/// The canonical distribution with a node at z_f. The other two depths are finite, at most 1024 from the mean, where a
+/// node that would be at infinity has no weight.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: a single depth at the far plane.
+/// Source: Peters 2017, Alg. 1
+fn hamburger4_distribution(h: hankel4_, z_f: f32) -> gnomon_distribution3_
+{
+    let z = clamp_or_nan(z_f, -1.0, 1.0);
+    let u = z - h.mean;
+    let q = gnomon_hamburger4_q(h, u);
+    let p = gnomon_hamburger4_other_nodes(h, u, q);
+    let x = quadratic_roots(p.a, p.b, p.c);
+    let x1 = clamp_or_nan(x.first, -1024.0, 1024.0);
+    let x2 = clamp_or_nan(x.second, -1024.0, 1024.0);
+    let w0 = gnomon_hamburger4_weight(h, u, q);
+    let w1 = gnomon_hamburger4_weight(h, x1, gnomon_hamburger4_q(h, x1));
+    let w2 = gnomon_hamburger4_weight(h, x2, gnomon_hamburger4_q(h, x2));
+    let sum = w0 + (w1 + w2);
+    let swapped = x2 < x1;
+    let known = sum > 0.0; // false for NaN
+    var d: gnomon_distribution3_;
+    d.depth0_ = gnomon_select(known, z, 1.0);
+    d.depth1_ = gnomon_select(known, h.mean + gnomon_select(swapped, x2, x1), 1.0);
+    d.depth2_ = gnomon_select(known, h.mean + gnomon_select(swapped, x1, x2), 1.0);
+    d.weight1_ = gnomon_select(known, gnomon_select(swapped, w2, w1) / sum, 0.0);
+    d.weight2_ = gnomon_select(known, gnomon_select(swapped, w1, w2) / sum, 0.0);
+    d.weight0_ = saturate_or_zero(1.0 - (d.weight1_ + d.weight2_));
+    return d;
+}
+
+// soft/blocker.h ------------------------------------------------------------------------------------------------------
+// The mean depth of blockers, the surfaces of a search region that are before the receiver, from moments of the region:
+// the blocker search of percentage-closer soft shadows in one look-up (Peters et al. 2017, Sec. 4.3; Yang et al. 2010).
+//
+// The moments name a canonical distribution with a node at the receiver's depth z_f (hamburger4.h). With A, the sum of
+// w (z_f - x) over its nodes x before z_f, and their weight w, the lower bound on the shadow intensity, the result is
+//     z_f - A / (epsilon + lower),
+// Equation 4 of the paper, in which epsilon makes little of blockers of little weight, and returns z_f where none is.
+// A needs no node: since the mean of (x - z_f) over all nodes is -u, with u = z_f - mean, and with the notation of
+// hamburger4.h,
+//     both nodes before z_f:    A = u
+//     one:                      A = (u (b + r) - V a) / (2 r)
+//     none:                     A = 0
+// so the whole takes one division and one square root. Two moments have the one node mean - V / u beside z_f, and A is
+// u where that is before z_f. The result is exact for a region of one or two surfaces, and of three with one at z_f.
+
+const blocker_epsilon: f32 = 0x1.0624dep-10; // 1e-3
+
+/// The depth z_f - distance_ in [-1, z_f], for z_f in [-1, 1].
+/// NaN: z_f.
+fn gnomon_blocker_depth_before(z_f: f32, distance_: f32) -> f32
+{
+    return gnomon_max(z_f - gnomon_max(distance_, 0.0), -1.0);
+}
+
+/// Mean blocker depth in [-1, z_f] from the mean and the variance of the depths: the formula of variance soft shadow
+/// maps.
+/// Domain: z_f in [-1, 1], clamped; variance at least 0.
+/// NaN: no blocker, z_f; a z_f of NaN is the far plane.
+/// Source: Yang 2010; Peters 2017, Eq. 4
+fn blocker2_depth(mean: f32, variance: f32, z_f: f32) -> f32
+{
+    let z = clamp_or_high(z_f, -1.0, 1.0);
+    let u = z - mean;
+    let whole = variance + u * u;
+    let below = u * whole;
+    let total = blocker_epsilon * whole + u * u;
+    return gnomon_blocker_depth_before(z, below / total);
+}
+
+// soft/blocker.h ------------------------------------------------------------------------------------------------------
+
+/// Mean blocker depth in [-1, z_f] from four moments.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: no blocker, z_f, for a NaN in h; a z_f of NaN is the far plane.
+/// Source: Peters 2017, Eq. 4
+fn blocker4_depth(h: hankel4_, z_f: f32) -> f32
+{
+    let z = clamp_or_high(z_f, -1.0, 1.0);
+    let u = z - h.mean;
+    let q = gnomon_hamburger4_q(h, u);
+    // The power of two is a factor of every term. The terms of a single depth would underflow otherwise.
+    let s = hamburger4_lower_scale * q;
+    let n = hamburger4_lower_scale * h.determinant;
+    let un = u * n;
+    let a = s * h.variance;
+    let b = 0.5 * (un - s * h.third);
+    let r = gnomon_sqrt(b * b - a * (h.variance * (n - a)));
+    let e = u * un + q * s;
+    let w = h.variance * n;
+    let whole = w + e;
+    let between = q < 0.0;
+    let rest = whole * gnomon_select(between, u * (b + r) - h.variance * a, u);
+    let share = gnomon_select(between, e * (r + b) - w * (u * a), e);
+    let total = blocker_epsilon * (whole * gnomon_select(between, r + r, 1.0)) + share;
+    return gnomon_blocker_depth_before(z, rest / total);
+}
+
+// numerics/round.h ----------------------------------------------------------------------------------------------------
+// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
+// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
+
+/// The whole number nearest to x, ties to even.
+/// Domain: |x| <= 2^22 in float, 2^51 in double.
+/// NaN: stays NaN.
+fn nearest_integer(x: f32) -> f32
+{
+    let rounder = -12582912.0;
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
+}
+
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+fn nearest_natural(x: f32) -> f32
+{
+    let rounder = 8388608.0;
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
+// numerics/texel_filter.h ---------------------------------------------------------------------------------------------
+// Texels of a shadow map along one axis: the texel that holds a position, and the weights of the K + 1 texels that K
+// adjacent bilinear look-ups read, which are those of a filter K texels wide with linear ends.
+
+const gnomon_texel_limit: f32 = 65536.0; // no map is larger: all positions beyond share one texel
+
+/// The texel that holds position x: the largest whole number not above x, clamped to [-65536, 65536].
+/// NaN: 65536.
+fn texel_below(x: f32) -> f32
+{
+    let limit = gnomon_texel_limit;
+    let inside = gnomon_max(gnomon_min(x, limit), -1.0 * limit);
+    let whole = nearest_integer(inside);
+    return whole - gnomon_select(inside < whole, 1.0, 0.0);
+}
+
+/// The weight of texel i, 0 to K, in the mean of K = look_ups adjacent bilinear look-ups along one axis. u is the
+/// distance of the first look-up from the centre of texel 0. In [0, 1].
+/// Domain: u in [0, 1], clamped; look_ups at least 1. Elsewhere a number in [0, 1].
+/// NaN: u counts as 0; 0 for look_ups.
+/// Error: the K + 1 weights sum to 1 within K + 2 roundings.
+fn texel_weight(u: f32, i: f32, look_ups: f32) -> f32
+{
+    var share = saturate_or_zero(u);
+    share = gnomon_select(i < 1.0, 1.0 - share, gnomon_select(i < look_ups, 1.0, share));
+    return saturate_or_zero(share / look_ups);
+}
+
+// soft/summed_area.h --------------------------------------------------------------------------------------------------
+// Summed-area tables of the channels of a shadow map, and look-ups of any rectangle in them (Crow 1984; Peters et al.
+// 2017, Sec. 4.2 to 4.4).
+//
+// Let P(x, y) be the sum of the channels over all texels (i, j) with i < x and j < y. The table holds P(x + 1, y + 1)
+// at texel (x, y), in 32-bit unsigned integers that wrap around; P is 0 where x or y is 0. The sum over the texels from
+// (x0, y0) to before (x1, y1) is a difference of four such integers, of which none that wraps does harm:
+//
+//     rectangle = summed_area_clip(summed_area_around(x, y, width_x, width_y), map_width, map_height, most_texels);
+//
+//     on the grid, 4 texels:       r = summed_area_grow(rectangle);
+//                                  s = P(r.x1, r.y1) - P(r.x0, r.y1) - P(r.x1, r.y0) + P(r.x0, r.y0);    in integers
+//                                  area = (r.x1 - r.x0) * (r.y1 - r.y0);
+//
+//     interpolated, 16 texels:     a = summed_area_split(rectangle.x0, rectangle.x1), b = the same of y0 and y1
+//                                  s = the sum over both axes of width_i width_j times the sum of rectangle (i, j)
+//                                  area = summed_area_width(a) * summed_area_width(b);
+//
+//     channel = s / (area * scale)                                        storage/moments4_summed.h and its siblings
+//
+// A code is the nearest whole number to scale times a channel in [0, 1]. most_texels is the most texels that a look-up
+// on the grid may cover: (ceil(w_x) + 1) (ceil(w_y) + 1) for the largest rectangle. Positions are in texels, with
+// centres at +0.5.
+
+/// A rectangle of a map, from (x0, y0) to (x1, y1) in texels.
+struct summed_area_rectangle { x0_: f32, y0_: f32, x1_: f32, y1_: f32 }
+
+const summed_area_range: f32 = 4294967296.0; // 2^32
+const summed_area_most_texels: f32 = 1048576.0; // 2^20
+const summed_area_step: f32 = 5.9604644775390625e-8; // 2^-24
+const summed_area_slack: f32 = 0.0009765625; // 2^-10
+
+const summed_area_code_noise: f32 = 0x1.p-33; // 1.1641532182693481e-10, 2^-33
+const summed_area_float_noise: f32 = 0x1.8p-25; // 4.4703483581542969e-8, 1.5 times 2^-25
+const summed_area_least_noise: f32 = 0x1.6p-24; // 8.1956386566162109e-8, 2.75 times 2^-25, in small tables
+
+/// The largest error of a channel of a rectangle, for a table by summed_area_scale(most_texels): half a code,
+/// most_texels 2^-33, and what float arithmetic rounds on the way from the depth to the mean, in the channel, the
+/// resolve of four samples, the sum and the mean. Errors of float arithmetic do not all come together; a search by
+/// climbing found these.
+/// Domain: most_texels at least 0.
+/// NaN: the noise of a small table.
+fn summed_area_noise(most_texels: f32) -> f32
+{
+    let noise = summed_area_code_noise * most_texels + summed_area_float_noise;
+    return gnomon_max(noise, summed_area_least_noise);
+}
+
+/// The number that channels are multiplied by: the largest whole number S of the precision of float for which sums over
+/// most_texels texels do not wrap around, most_texels S <= 2^32 - 1. S is whole because the codes are: the nearest
+/// whole number to a fraction may be above it, as in the paper's own example of 784 texels.
+/// Domain: most_texels a whole number in [1, 2^20], clamped.
+/// NaN: as 2^20.
+/// Source: Peters 2017, Sec. 4.2
+fn summed_area_scale(most_texels: f32) -> f32
+{
+    let n = clamp_or_high(most_texels, 1.0, summed_area_most_texels);
+    let range = summed_area_range;
+    let s = range / n;
+    var whole = nearest_natural(s);
+    whole = whole - gnomon_select(s < whole, 1.0, 0.0);
+    let sum = two_product(whole, n);
+    let wraps = 0.0 <= (sum.high - range) + sum.low;
+    return whole - gnomon_select(wraps, gnomon_max(1.0, summed_area_step * whole), 0.0);
+}
+
+/// The code of a channel: the whole number nearest to scale times the channel, which conversion to an unsigned integer
+/// leaves as it is.
+/// Domain: any channel, clamped to [0, 1]; scale by summed_area_scale.
+/// NaN: 0.
+/// Error: half a code for scales up to 2^24, beyond which codes are floats.
+/// Source: Peters 2017, Sec. 4.2
+fn summed_area_code(channel: f32, scale: f32) -> f32
+{
+    let p = two_product(saturate_or_zero(channel), scale);
+    var code = nearest_natural(p.high);
+    let rest = (p.high - code) + p.low; // more than half a code where p.high was rounded
+    code = code + gnomon_select(0.5 < rest, 1.0, 0.0);
+    return code - gnomon_select(rest < -0.5, 1.0, 0.0);
+}
+
+/// The rectangle of the given widths about (x, y).
+/// NaN: NaN, which summed_area_clip makes empty.
+fn summed_area_around(x: f32, y: f32, width_x: f32, width_y: f32) -> summed_area_rectangle
+{
+    var r: summed_area_rectangle;
+    r.x0_ = x - 0.5 * width_x;
+    r.y0_ = y - 0.5 * width_y;
+    r.x1_ = x + 0.5 * width_x;
+    r.y1_ = y + 0.5 * width_y;
+    return r;
+}
+
+/// The smallest whole number not below x.
+/// Domain: |x| <= 65536, clamped.
+fn gnomon_summed_area_above(x: f32) -> f32 { return -1.0 * texel_below(-1.0 * x); }
+
+/// The begin and the end of a rectangle along one axis.
+struct summed_area_interval { begin: f32, end: f32 }
+
+/// The interval from begin to end if texels <= most, else the one about the same centre that covers no more than most
+/// texels wherever it is.
+fn gnomon_summed_area_shrink(begin: f32, end: f32, texels: f32, most: f32) -> summed_area_interval
+{
+    let width = most - 1.0;
+    let low = 0.5 * (begin + end) - 0.5 * width;
+    let large = most < texels;
+    var r: summed_area_interval;
+    r.begin = gnomon_select(large, low, begin);
+    r.end = gnomon_select(large, low + width, end);
+    return r;
+}
+
+/// The part of a rectangle that a look-up may read: clipped to the map, and if the texels that it touches are more than
+/// most_texels, shrunk along both axes about its centre. A rectangle without a part in the map, or with its ends in the
+/// wrong order, becomes the empty one, all 0, and look-ups in it are lit.
+/// Domain: width and height whole numbers in [1, 65536]; most_texels in [4, 2^20], clamped.
+/// NaN: empty.
+/// Error: the ends are exact unless the rectangle shrinks.
+fn summed_area_clip(rectangle: summed_area_rectangle, width: f32, height: f32,
+                    most_texels: f32) -> summed_area_rectangle
+{
+    let limit = gnomon_texel_limit;
+    let right = clamp_or_high(width, 1.0, limit);
+    let bottom = clamp_or_high(height, 1.0, limit);
+    let x0 = clamp_or_nan(rectangle.x0_, 0.0, right);
+    let y0 = clamp_or_nan(rectangle.y0_, 0.0, bottom);
+    let x1 = clamp_or_nan(rectangle.x1_, 0.0, right);
+    let y1 = clamp_or_nan(rectangle.y1_, 0.0, bottom);
+    let columns = gnomon_summed_area_above(x1) - texel_below(x0);
+    let rows = gnomon_summed_area_above(y1) - texel_below(y0);
+    let most = clamp_or_high(most_texels, 4.0, summed_area_most_texels);
+    let share = gnomon_sqrt(gnomon_min(most / (columns * rows), 1.0));
+    let least_columns = gnomon_min(columns, 2.0);
+    let least_rows = gnomon_min(rows, 2.0);
+    let most_columns = gnomon_min(gnomon_max(texel_below(share * columns + summed_area_slack), least_columns),
+                                  texel_below(most / least_rows));
+    let most_rows = gnomon_min(gnomon_max(texel_below(share * rows + summed_area_slack), least_rows),
+                               texel_below(most / most_columns));
+    let x = gnomon_summed_area_shrink(x0, x1, columns, most_columns);
+    let y = gnomon_summed_area_shrink(y0, y1, rows, most_rows);
+    let some = x0 < x1 && y0 < y1; // false for NaN
+    var r: summed_area_rectangle;
+    r.x0_ = gnomon_select(some, x.begin, 0.0);
+    r.y0_ = gnomon_select(some, y.begin, 0.0);
+    r.x1_ = gnomon_select(some, x.end, 0.0);
+    r.y1_ = gnomon_select(some, y.end, 0.0);
+    return r;
+}
+
+/// The smallest rectangle of whole texels that holds the given one: between these lines of the grid a look-up reads
+/// four texels. Empty for the empty rectangle.
+/// Domain: a rectangle by summed_area_clip.
+/// NaN: positions of NaN become 65536 or -65536.
+/// Source: Peters 2017, Sec. 4.3
+fn summed_area_grow(rectangle: summed_area_rectangle) -> summed_area_rectangle
+{
+    var r: summed_area_rectangle;
+    r.x0_ = texel_below(rectangle.x0_);
+    r.y0_ = texel_below(rectangle.y0_);
+    r.x1_ = gnomon_summed_area_above(rectangle.x1_);
+    r.y1_ = gnomon_summed_area_above(rectangle.y1_);
+    return r;
+}
+
+/// An interval in three parts: in its first texel, in its last one, and the whole texels between. Part i is between
+/// lines i and i + 1 of the grid, and the interval covers each of its texels by width i, in [0, 1].
+struct summed_area_parts { line0_: f32, line1_: f32, line2_: f32, line3_: f32, width0_: f32, width1_: f32,
+    width2_: f32 }
+
+/// The parts of the interval from begin to end. In a single texel, the first part is the whole interval and the others
+/// have no texels and no width.
+/// Domain: 0 <= begin < end <= 65536, and the empty interval from 0 to 0, for which line3 is 1 and all widths are 0.
+/// NaN: lines are whole numbers in [-65537, 65537].
+/// Error: of a width, one rounding.
+/// Source: Peters 2017, Sec. 4.4
+fn summed_area_split(begin: f32, end: f32) -> summed_area_parts
+{
+    let first = texel_below(begin);
+    let last = gnomon_max(gnomon_summed_area_above(end) - 1.0, first);
+    let single = last <= first;
+    var r: summed_area_parts;
+    r.line0_ = first;
+    r.line1_ = first + 1.0;
+    r.line2_ = gnomon_max(last, r.line1_);
+    r.line3_ = last + 1.0;
+    r.width0_ = saturate_or_zero(gnomon_select(single, end, r.line1_) - begin);
+    r.width1_ = gnomon_select(single, 0.0, 1.0);
+    r.width2_ = gnomon_select(single, 0.0, saturate_or_zero(end - last));
+    return r;
+}
+
+/// The width of an interval, in texels: the sum of the widths of its parts.
+fn summed_area_width(parts: summed_area_parts) -> f32
+{
+    return (parts.width0_ + parts.width1_ * (parts.line2_ - parts.line1_)) + parts.width2_;
+}
+
+/// The mean of a channel over a rectangle: sum / (area scale), in [0, 1].
+/// Domain: a sum of codes, weighted by widths, over a rectangle of that area; scale by summed_area_scale. 0 for an area
+/// of 0 without a sum.
+/// NaN: 0.
+/// Error: relative, 2^-p, for the sum as it is given.
+fn summed_area_mean(sum: f32, area: f32, scale: f32) -> f32
+{
+    let whole = two_product(area, scale);
+    let mean = saturate_or_zero(sum / whole.high);
+    let p = two_product(mean, whole.high);
+    let rest = (sum - p.high) - (p.low + mean * whole.low);
+    return saturate_or_zero(mean + rest / whole.high);
+}
+
+// storage/variance_summed.h -------------------------------------------------------------------------------------------
+// The mean and the mean square of depths in a summed-area table (soft/summed_area.h; Lauritzen 2007), in 8 bytes a
+// texel: what variance soft shadow mapping reads (Yang et al. 2010).
+//
+//   a texel:        c = variance_summed_encode(z)               (1 + z) / 2 and z^2; a resolve averages them
+//                   codes = variance_summed_codes(c, scale)     whole numbers, to be converted to 32-bit unsigned
+// integers
+//   a rectangle:    c = variance_summed_channels(sums, area, scale)
+//                   z_b = variance_summed_blocker(c, most_texels, z_f)
+//                   shadow = variance_summed_intensity(c, most_texels, z_f - bias)
+//
+// With channels that are off by noise, the mean is off by 2 noise and the variance by (1 + 4 |mean|) noise at most.
+// Cantelli's bound from the largest variance and the least distance never darkens.
+
+const variance_summed_darkening: f32 = 0x1.0c6f7ap-20; // 1e-6
+
+/// The two channels of the texel of a depth z, each in [0, 1].
+/// Domain: any z, limited to [-1, 1].
+/// NaN: the far plane, which shadows nothing.
+fn variance_summed_encode(z: f32) -> channels2_
+{
+    let x = clamp_or_high(z, -1.0, 1.0);
+    var c: channels2_;
+    c.c1_ = 0.5 * x + 0.5;
+    c.c2_ = x * x;
+    return c;
+}
+
+/// The codes of a texel with these channels: whole numbers in [0, 2^32 - 1].
+/// Domain: any channels, each limited to [0, 1]; scale by summed_area_scale.
+/// NaN: the codes of the far plane.
+fn variance_summed_codes(c: channels2_, scale: f32) -> channels2_
+{
+    let any = clamp_or_nan(c.c1_, 0.0, 1.0) + clamp_or_nan(c.c2_, 0.0, 1.0);
+    let known = any == any;
+    var r: channels2_;
+    r.c1_ = summed_area_code(gnomon_select(known, c.c1_, 1.0), scale);
+    r.c2_ = summed_area_code(gnomon_select(known, c.c2_, 1.0), scale);
+    return r;
+}
+
+/// The mean channels of a rectangle, from the sums of its codes and its area.
+/// Domain: sums and area as for summed_area_mean; the border, which is lit, for an area of 0.
+/// NaN: channels of 0 for sums; the border for an area.
+fn variance_summed_channels(sums: channels2_, area: f32, scale: f32) -> channels2_
+{
+    let some = 0.0 < area;
+    var r: channels2_;
+    r.c1_ = gnomon_select(some, summed_area_mean(sums.c1_, area, scale), 1.0);
+    r.c2_ = gnomon_select(some, summed_area_mean(sums.c2_, area, scale), 1.0);
+    return r;
+}
+
+/// The mean and the largest variance that channels may have which are off by noise.
+struct variance_summed_moments { mean: f32, variance: f32 }
+
+fn gnomon_variance_summed_decode(c: channels2_, noise: f32) -> variance_summed_moments
+{
+    var r: variance_summed_moments;
+    r.mean = (c.c1_ - 0.5) * 2.0;
+    let doubt = (1.0 + 4.0 * gnomon_abs(r.mean)) * noise;
+    r.variance = gnomon_max(subtract_product_rounded(c.c2_, r.mean, r.mean), 0.0) + doubt;
+    return r;
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a rectangle.
+/// Domain: any z_f, limited to [-1, 1]; most_texels as of the table's scale.
+/// NaN: 0, lit.
+/// Source: Donnelly & Lauritzen 2006
+fn variance_summed_intensity(c: channels2_, most_texels: f32, z_f: f32) -> f32
+{
+    let noise = summed_area_noise(most_texels);
+    let b = gnomon_variance_summed_decode(c, noise);
+    let distance_ = (clamp_or_nan(z_f, -1.0, 1.0) - b.mean) - 2.0 * noise;
+    let d = gnomon_max(0.0, distance_);
+    let intensity = saturate_or_zero(d * d / (b.variance + d * d));
+    return gnomon_select(c.c2_ == c.c2_, intensity, 0.0);
+}
+
+/// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.
+/// Domain: z_f in [-1, 1], clamped.
+/// NaN: no blocker, z_f, for a NaN in c; a z_f of NaN is the far plane.
+/// Source: Yang 2010
+fn variance_summed_blocker(c: channels2_, most_texels: f32, z_f: f32) -> f32
+{
+    let b = gnomon_variance_summed_decode(c, summed_area_noise(most_texels));
+    let depth = blocker2_depth(b.mean, b.variance, z_f);
+    return gnomon_select(c.c2_ == c.c2_, depth, clamp_or_high(z_f, -1.0, 1.0));
+}
