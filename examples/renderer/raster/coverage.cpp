@@ -105,31 +105,11 @@ void append_setups(const scene& world, triangle_id id, const viewport& view, fac
 
 } // namespace
 
-triangle triangle_of(const scene& world, triangle_id id)
-{
-    const mesh& part = world.meshes[id.mesh];
-    const glm::uvec3 index = part.triangles[id.triangle];
-    return {{part.positions[index.x], part.positions[index.y], part.positions[index.z]}};
-}
-
 viewport::viewport(const camera& from, int width, int height) : eye(from), size(width, height)
 {
     if (width < 1 || height < 1 || width > largest_extent || height > largest_extent)
         throw std::invalid_argument(
             fmt::format("rasterizer: {}x{} pixels, 1 to {} per side are possible", width, height, largest_extent));
-}
-
-// Ray and plane: n.(origin + t direction - corner) = 0, where the ray is affine in the pixel.
-distance_plane viewport::plane_of(const triangle& shape) const
-{
-    const glm::dvec3 n = shape.normal();
-    const auto q = [&](const glm::dvec2& pixel) {
-        const view_ray ray = ray_through(eye, pixel / size);
-        const double along = glm::dot(n, ray.direction), to_corner = glm::dot(n, shape.corners[0] - ray.origin);
-        return eye.perspective() ? along / to_corner : to_corner / along;
-    };
-    const double a = q({0, 0});
-    return {a, (q({size.x, 0}) - a) / size.x, (q({0, size.y}) - a) / size.y};
 }
 
 glm::dvec4 viewport::clip_space(const glm::dvec3& point) const

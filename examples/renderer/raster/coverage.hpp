@@ -5,6 +5,7 @@
 #include "rasterizer.hpp"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 #include <tbb/parallel_for.h>
 
@@ -29,7 +30,12 @@ struct triangle {
     glm::dvec3 normal() const { return glm::cross(corners[1] - corners[0], corners[2] - corners[0]); }
 };
 
-triangle triangle_of(const scene& world, triangle_id id);
+inline triangle triangle_of(const scene& world, triangle_id id)
+{
+    const mesh& part = world.meshes[id.mesh];
+    const glm::uvec3 index = part.triangles[id.triangle];
+    return {{part.positions[index.x], part.positions[index.y], part.positions[index.z]}};
+}
 
 // The plane of a triangle as the view rays meet it: q = a + b x + c y in pixels is the view distance in an orthographic
 // view, and its reciprocal in perspective.
@@ -47,7 +53,19 @@ struct viewport {
 
     double distance(double q) const { return eye.perspective() ? 1 / q : q; }
     float depth(double q) const { return static_cast<float>(linear_depth(eye, distance(q))); }
-    distance_plane plane_of(const triangle& shape) const;
+
+    // Ray and plane: n.(origin + t direction - corner) = 0, where the ray is affine in the pixel.
+    distance_plane plane_of(const triangle& shape) const
+    {
+        const glm::dvec3 n = shape.normal();
+        const auto q = [&](const glm::dvec2& pixel) {
+            const view_ray ray = ray_through(eye, pixel / size);
+            const double along = glm::dot(n, ray.direction), to_corner = glm::dot(n, shape.corners[0] - ray.origin);
+            return eye.perspective() ? along / to_corner : to_corner / along;
+        };
+        const double a = q({0, 0});
+        return {a, (q({size.x, 0}) - a) / size.x, (q({0, size.y}) - a) / size.y};
+    }
 
     // Homogeneous pixel coordinates relative to the picture's centre, view distance, and weight.
     glm::dvec4 clip_space(const glm::dvec3& point) const;

@@ -1,7 +1,7 @@
 #include "fragments.hpp"
 
 #include "coverage.hpp"
-#include "view_point.hpp"
+#include "surface_at.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -48,7 +48,7 @@ crossings translucent_crossings(const scene& world, const viewport& view, faces 
     rasterize<1>(translucent_part(world), view, visible, [&](int x, int y, int, double q, triangle_id id) {
         const float depth = view.depth(q);
         if (!(depth < nearest(x, y)[0])) return;
-        const glm::vec3 opacity = opacity_at(world, view_point_of(world, view, id, centre(x, y)));
+        const glm::vec3 opacity = opacity_at(world, view, id, centre(x, y));
         if (opacity == glm::vec3(0)) return;
         tiles[static_cast<std::size_t>(y / tile_size * columns + x / tile_size)].push_back(
             {static_cast<std::uint32_t>(y * width + x), {depth, id, opacity}});
@@ -94,7 +94,7 @@ surface_layers rasterize_surface_layers(const scene& world, const camera& eye, i
         for (int x = 0; x < width; ++x) {
             const auto pixel = static_cast<std::size_t>(y * width + x);
             for (std::size_t i = found.first[pixel]; i < found.first[pixel + 1]; ++i) {
-                result.layers[i] = surface_at(world, view, view_point_of(world, view, found.all[i].id, centre(x, y)));
+                result.layers[i] = surface_at(world, view, found.all[i].id, centre(x, y));
                 result.opacities[i] = found.all[i].opacity;
             }
         }

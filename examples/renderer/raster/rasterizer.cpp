@@ -1,7 +1,7 @@
 #include "rasterizer.hpp"
 
 #include "coverage.hpp"
-#include "view_point.hpp"
+#include "surface_at.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -55,8 +55,7 @@ image<surface> rasterize_surfaces(const scene& world, const camera& eye, int wid
     image<surface> result(width, height);
     tbb::parallel_for(0, height, [&](int y) {
         for (int x = 0; x < width; ++x)
-            if (seen(x, y).found())
-                result(x, y) = surface_at(world, view, view_point_of(world, view, seen(x, y).id, {x + 0.5, y + 0.5}));
+            if (seen(x, y).found()) result(x, y) = surface_at(world, view, seen(x, y).id, {x + 0.5, y + 0.5});
     });
     return result;
 }

@@ -30,7 +30,9 @@ glm::dvec3 transmitted(const scene& world, std::vector<crossing>& ray)
 {
     const auto triangle = [](const crossing& at) { return std::pair(at.mesh, at.triangle); };
     std::ranges::sort(ray, {}, triangle);
-    ray.erase(std::ranges::unique(ray, {}, triangle).begin(), ray.end());
+    ray.erase(
+        std::unique(ray.begin(), ray.end(), [&](const auto& a, const auto& b) { return triangle(a) == triangle(b); }),
+        ray.end());
     struct shared {
         std::uint32_t mesh;
         glm::uvec3 corners;
