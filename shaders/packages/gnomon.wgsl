@@ -6304,130 +6304,6 @@ fn depth_interval_shadow(least: f32, greatest: f32, z_f: f32, bias: f32) -> gnom
     return r;
 }
 
-// soft/fusion.h -------------------------------------------------------------------------------------------------------
-// Soft shadows of two occluders, one behind the other, of which each has a penumbra of its own. A single mean blocker
-// depth gives both the same width, so that the contact of the one is as soft as that of the other (Peters et al. 2017,
-// Fig. 10).
-//
-// The canonical distribution of the search region with a node at z_f (hamburger4.h) has two other nodes. Where both are
-// before z_f they are the two occluders, first and second:
-//     between  the middle of their depths
-//     k1, k2   filter regions of the penumbrae of the first and of the second occluder (penumbra.h)
-//     I1       intensity of k1 at between: the share of the light that the first occluder blocks
-//     c        intensity of k2 at between: the share of k2 that the first occluder covers
-//     I2       intensity of k2 at z_f: the share that either covers
-// Of the part of k2 that the first occluder leaves, the second covers (I2 - c) / (1 - c). Both block light
-// independently of one another, so the visibility is (1 - I1) (1 - (I2 - c) / (1 - c)). It is 1 - I2 where the
-// occluders coincide, and where the first one is missing.
-//
-// Costs beside those of one occluder: one root for the nodes, a second filter region and two more intensities, only
-// where fusion_occluders found two.
-
-/// The depths of two occluders, first <= second, and the depth between that parts them. A between of -1 says that there
-/// is one occluder, the second, or none.
-struct gnomon_occluder_pair { first: f32, second: f32, between: f32 }
-
-/// The depth of an occluder at depth z with a weight, in [-1, z_f].
-fn gnomon_fusion_depth(z: f32, weight: f32, z_f: f32) -> f32
-{
-    return gnomon_blocker_depth_before(z_f, (z_f - z) * (weight / (weight + blocker_epsilon)));
-}
-
-/// The two occluders before z_f in a search region, from the canonical distribution d with depth0 = z_f. Like the mean
-/// blocker depth of blocker.h, each is near z_f where its weight is not far above blocker_epsilon. One occluder is the
-/// second, and first equals second.
-/// NaN: no occluder, both at the depth of the receiver.
-fn fusion_occluders(d: gnomon_distribution3_) -> gnomon_occluder_pair
-{
-    let z_f = clamp_or_high(d.depth0_, -1.0, 1.0);
-    let z1 = clamp_or_high(d.depth1_, -1.0, z_f);
-    let z2 = clamp_or_high(d.depth2_, -1.0, z_f);
-    let two = d.depth1_ < d.depth2_ && d.depth2_ < z_f;
-    let first = gnomon_fusion_depth(z1, saturate_or_zero(d.weight1_), z_f);
-    let second = gnomon_fusion_depth(z2, saturate_or_zero(d.weight2_), z_f);
-    var r: gnomon_occluder_pair;
-    r.second = gnomon_select(two, second, first);
-    r.first = gnomon_min(first, r.second);
-    r.between = gnomon_select(two, 0.5 * (z1 + z2), -1.0);
-    return r;
-}
-
-/// Shadow intensity in [0, 1] of two occluders: blocked is I1, covered is c and either is I2 of the first comment of
-/// this file. With covered 0 and blocked 0 it is either.
-/// Domain: each in [0, 1], clamped.
-/// NaN: counts as 0, lit.
-fn fusion_intensity(blocked: f32, covered: f32, either: f32) -> f32
-{
-    let one = saturate_or_zero(blocked);
-    let c = saturate_or_zero(covered);
-    let two = saturate_or_zero((saturate_or_zero(either) - c) / (1.0 - c));
-    return saturate_or_zero(one + (1.0 - one) * two);
-}
-
-// soft/penumbra.h -----------------------------------------------------------------------------------------------------
-// Percentage-closer soft shadows (Fernando 2005): from the depth of blockers to the width of the filter that makes
-// their penumbra, for lights that are rectangles aligned with the map, along one axis of the map at a time.
-//
-//     widest search:    width = penumbra_directional(z_f, -1, texels_per_depth, cap)           blockers at the near
-// plane
-//     blockers:         z_b = moments4_summed_blocker(...)                                     of the search rectangle
-//     filter:           width = penumbra_directional(z_f, z_b, texels_per_depth, cap)          at least one texel
-//     bias:             bias = depth_bias_receiver_plane(gradient, width_x / 2, width_y / 2, limit)
-//     shadow:           over_darken(moments4_summed_intensity(..., z_f - bias), 1 - epsilon)
-//
-// and the same by penumbra_local. In the umbra, where the intensity of the search rectangle is above 1 - epsilon, the
-// filter may be skipped: over_darken makes that 1 as well, so no step is seen. The paper's epsilon is 0.01. The bias is
-// that of filters/depth_bias.h: the most that the receiver's plane rises within the half widths of the filter.
-
-/// A width of any size clamped to [1, widest], or 1 if widest is below 1.
-/// NaN: 1; a widest of NaN counts as none.
-fn gnomon_penumbra_width(width: f32, widest: f32) -> f32
-{
-    return gnomon_max(gnomon_min(widest, gnomon_max(width, 1.0)), 1.0);
-}
-
-/// The width of the penumbra of a directional light per unit of signed depth between blocker and receiver, in texels.
-/// tangent is that of half the light's angular size along this axis; depth_range is far - near, and texels_per_length
-/// the number of texels per unit of length in the map.
-/// Domain: at least 0.
-/// NaN: NaN, for which filters are one texel wide.
-/// Error: relative, 2 2^-p.
-fn penumbra_texels_per_depth(tangent: f32, depth_range: f32, texels_per_length: f32) -> f32
-{
-    return tangent * depth_range * texels_per_length;
-}
-
-/// Width of the penumbra of a directional light, at least one texel and at most widest: (z_f - z_b) texels_per_depth
-/// for a receiver at depth z_f and blockers at z_b.
-/// Domain: any depths, clamped to [-1, 1]; texels_per_depth by penumbra_texels_per_depth. Blockers behind the receiver
-/// give 1.
-/// NaN: 1; a widest of NaN counts as none.
-/// Error: relative, 2 2^-p.
-/// Source: Fernando 2005; Peters 2017, Sec. 4.1
-fn penumbra_directional(z_f: f32, z_b: f32, texels_per_depth: f32, widest: f32) -> f32
-{
-    let receiver = clamp_or_nan(z_f, -1.0, 1.0);
-    let blocker = clamp_or_nan(z_b, -1.0, 1.0);
-    return gnomon_penumbra_width((receiver - blocker) * texels_per_depth, widest);
-}
-
-/// Width of the penumbra of a local light, at least one texel and at most widest: light_texels (1 / d_b - 1 / d_f) for
-/// a receiver and blockers at view distances d_f and d_b. light_texels is the size of the light times the number of
-/// texels per unit of length at distance 1 from the light, in the map of that axis.
-/// Domain: any depths, clamped to [-1, 1]; 0 < near_distance < far_distance. Blockers behind the receiver give 1.
-/// NaN: 1; a widest of NaN counts as none.
-/// Error: relative, 8 2^-p, for distances as rounded.
-/// Source: Fernando 2005; Peters 2017, Sec. 4.1
-fn penumbra_local(z_f: f32, z_b: f32, near_distance: f32, far_distance: f32, light_texels: f32, widest: f32) -> f32
-{
-    let receiver = clamp_or_nan(z_f, -1.0, 1.0);
-    let blocker = clamp_or_nan(z_b, -1.0, 1.0);
-    let half_range = 0.5 * (far_distance - near_distance);
-    let d_f = near_distance + half_range * (receiver + 1.0);
-    let d_b = near_distance + half_range * (blocker + 1.0);
-    return gnomon_penumbra_width(light_texels * ((receiver - blocker) * half_range) / (d_b * d_f), widest);
-}
-
 // soft/summed_area.h --------------------------------------------------------------------------------------------------
 // Summed-area tables of the channels of a shadow map, and look-ups of any rectangle in them (Crow 1984; Peters et al.
 // 2017, Sec. 4.2 to 4.4).
@@ -6638,6 +6514,219 @@ fn summed_area_mean(sum: f32, area: f32, scale: f32) -> f32
     let p = two_product(mean, whole.high);
     let rest = (sum - p.high) - (p.low + mean * whole.low);
     return saturate_or_zero(mean + rest / whole.high);
+}
+
+// soft/disc.h ---------------------------------------------------------------------------------------------------------
+// Round lights and round filters from look-ups of rectangles: a disc, or an ellipse along the axes of the map, as the
+// union of three rectangles that touch, in the shape of a cross. Their means, weighted by their areas, make the mean of
+// the union; so moments are averaged first, and one intensity is computed.
+//
+// A straight edge at any angle then has a penumbra that differs from that of the disc by disc_error at most, where a
+// single square of the disc's area differs by disc_square_error. Two rectangles crosswise, with twice the loads of
+// the square, still differ by 0.0177, so there is no form for them.
+
+const disc_long: f32 = 0x1.e8f5c2p-1; // 0.955, extents of the cross, as shares of the diameter
+const disc_short: f32 = 0x1.31eb86p-1; // 0.5975        //
+const disc_square: f32 = 0x1.c5bf8ap-1; // 0.8862269255, the square of the same area, sqrt(pi) / 2
+const disc_error: f32 = 0x1.eb851ep-8; // 0.0075
+const disc_square_error: f32 = 0x1.810624p-6; // 0.0235
+
+/// Rectangle 0, 1 or 2 of the disc that the given rectangle bounds: the middle of the cross, and its ends towards y0
+/// and towards y1.
+/// Domain: any rectangle; of its parts, those at the index as rounded to the nearest of 0, 1 and 2.
+/// NaN: NaN, which summed_area_clip makes empty; index 0 for an index of NaN.
+/// Error: against a disc (tests/soft/disc.cpp), of the visibility in the penumbra of a straight edge, disc_error.
+fn disc_rectangle(bounds: summed_area_rectangle, index: f32) -> summed_area_rectangle
+{
+    let x = 0.5 * (bounds.x0_ + bounds.x1_);
+    let y = 0.5 * (bounds.y0_ + bounds.y1_);
+    let half_x = 0.5 * (bounds.x1_ - bounds.x0_);
+    let half_y = 0.5 * (bounds.y1_ - bounds.y0_);
+    let first = 0.5 < index && index < 1.5;
+    let second = 1.5 <= index;
+    let across = half_x * gnomon_select(first || second, disc_short, disc_long);
+    let inner = half_y * disc_short;
+    let outer = half_y * disc_long;
+    var r: summed_area_rectangle;
+    r.x0_ = x - across;
+    r.x1_ = x + across;
+    r.y0_ = gnomon_select(first, y - outer, gnomon_select(second, y + inner, y - inner));
+    r.y1_ = gnomon_select(first, y - inner, gnomon_select(second, y + outer, y + inner));
+    return r;
+}
+
+// soft/fusion.h -------------------------------------------------------------------------------------------------------
+// Soft shadows of two occluders, one behind the other, of which each has a penumbra of its own. A single mean blocker
+// depth gives both the same width, so that the contact of the one is as soft as that of the other (Peters et al. 2017,
+// Fig. 10).
+//
+// The canonical distribution of the search region with a node at z_f (hamburger4.h) has two other nodes. Where both are
+// before z_f they are the two occluders, first and second:
+//     between  the middle of their depths
+//     k1, k2   filter regions of the penumbrae of the first and of the second occluder (penumbra.h)
+//     I1       intensity of k1 at between: the share of the light that the first occluder blocks
+//     c        intensity of k2 at between: the share of k2 that the first occluder covers
+//     I2       intensity of k2 at z_f: the share that either covers
+// Of the part of k2 that the first occluder leaves, the second covers (I2 - c) / (1 - c). Both block light
+// independently of one another, so the visibility is (1 - I1) (1 - (I2 - c) / (1 - c)). It is 1 - I2 where the
+// occluders coincide, and where the first one is missing.
+//
+// Costs beside those of one occluder: one root for the nodes, a second filter region and two more intensities, only
+// where fusion_occluders found two.
+
+/// The depths of two occluders, first <= second, and the depth between that parts them. A between of -1 says that there
+/// is one occluder, the second, or none.
+struct gnomon_occluder_pair { first: f32, second: f32, between: f32 }
+
+/// The depth of an occluder at depth z with a weight, in [-1, z_f].
+fn gnomon_fusion_depth(z: f32, weight: f32, z_f: f32) -> f32
+{
+    return gnomon_blocker_depth_before(z_f, (z_f - z) * (weight / (weight + blocker_epsilon)));
+}
+
+/// The two occluders before z_f in a search region, from the canonical distribution d with depth0 = z_f. Like the mean
+/// blocker depth of blocker.h, each is near z_f where its weight is not far above blocker_epsilon. One occluder is the
+/// second, and first equals second.
+/// NaN: no occluder, both at the depth of the receiver.
+fn fusion_occluders(d: gnomon_distribution3_) -> gnomon_occluder_pair
+{
+    let z_f = clamp_or_high(d.depth0_, -1.0, 1.0);
+    let z1 = clamp_or_high(d.depth1_, -1.0, z_f);
+    let z2 = clamp_or_high(d.depth2_, -1.0, z_f);
+    let two = d.depth1_ < d.depth2_ && d.depth2_ < z_f;
+    let first = gnomon_fusion_depth(z1, saturate_or_zero(d.weight1_), z_f);
+    let second = gnomon_fusion_depth(z2, saturate_or_zero(d.weight2_), z_f);
+    var r: gnomon_occluder_pair;
+    r.second = gnomon_select(two, second, first);
+    r.first = gnomon_min(first, r.second);
+    r.between = gnomon_select(two, 0.5 * (z1 + z2), -1.0);
+    return r;
+}
+
+/// Shadow intensity in [0, 1] of two occluders: blocked is I1, covered is c and either is I2 of the first comment of
+/// this file. With covered 0 and blocked 0 it is either.
+/// Domain: each in [0, 1], clamped.
+/// NaN: counts as 0, lit.
+fn fusion_intensity(blocked: f32, covered: f32, either: f32) -> f32
+{
+    let one = saturate_or_zero(blocked);
+    let c = saturate_or_zero(covered);
+    let two = saturate_or_zero((saturate_or_zero(either) - c) / (1.0 - c));
+    return saturate_or_zero(one + (1.0 - one) * two);
+}
+
+// soft/mip_filter.h ---------------------------------------------------------------------------------------------------
+// Filters of any width from a mip chain, round ones in place of the boxes of summed-area tables: a cubic B-spline over
+// the texels of a level, by four bilinear look-ups (Sigg & Hadwiger 2005), mixed between two levels.
+//
+// The texels of level l are means over boxes of s = 2^l texels of the map, so that the spline at that level has the
+// variance (1/3 + 1/12) s^2 along each axis. A box of a width w has w^2 / 12. Levels below and above mix so that both
+// variances are equal:
+//     w^2 / 12 = 5/12 4^l (1 + 3 f),    level = l + f,    f in [0, 1)
+// Weights are not negative and sum to 1, so filtered moments are moments.
+
+const mip_filter_per_octave: f32 = 0x1.715476p-1; // 0.72134752044448170, 1 / ln 4
+
+/// The level of a mip chain whose cubic B-spline has the variance of a box of this width in texels of the map; its
+/// fraction is the share of the level above. At least 0, the level for widths up to sqrt 5.
+/// Domain: any width, limited to [sqrt 5, 65536].
+/// NaN: 0.
+fn mip_filter_level(width: f32) -> f32
+{
+    let w = gnomon_max(gnomon_min(gnomon_texel_limit, width), 1.0);
+    let squares = gnomon_max(0.2 * (w * w), 1.0);
+    let whole = texel_below(polynomial_log(squares) * mip_filter_per_octave);
+    let power = gnomon_power_of_two(whole);
+    let share = (squares / (power * power) - 1.0) / 3.0;
+    return whole + saturate_or_zero(share);
+}
+
+/// Two bilinear look-ups along one axis that make a cubic B-spline: at the distances first and second from the centre
+/// of the texel, the second with a weight and the first with the rest. first is in [-1, 0], second in [1, 2].
+struct mip_filter_taps { first: f32, second: f32, weight: f32 }
+
+/// The look-ups for a place at a share of the way from the centre of its texel to the next.
+/// Domain: share in [0, 1], clamped.
+/// NaN: as 0.
+/// Source: Sigg & Hadwiger 2005
+fn mip_filter_taps_at(share: f32) -> mip_filter_taps
+{
+    let u = saturate_or_zero(share);
+    let v = 1.0 - u;
+    // Six times the weights of the four texels.
+    let w0 = v * v * v;
+    let w1 = (3.0 * u - 6.0) * (u * u) + 4.0;
+    let w2 = (3.0 * v - 6.0) * (v * v) + 4.0;
+    let w3 = u * u * u;
+    var r: mip_filter_taps;
+    r.first = w1 / (w0 + w1) - 1.0;
+    r.second = w3 / (w2 + w3) + 1.0;
+    r.weight = (w2 + w3) / 6.0;
+    return r;
+}
+
+// soft/penumbra.h -----------------------------------------------------------------------------------------------------
+// Percentage-closer soft shadows (Fernando 2005): from the depth of blockers to the width of the filter that makes
+// their penumbra, for lights that are rectangles aligned with the map, along one axis of the map at a time.
+//
+//     widest search:    width = penumbra_directional(z_f, -1, texels_per_depth, cap)           blockers at the near
+// plane
+//     blockers:         z_b = moments4_summed_blocker(...)                                     of the search rectangle
+//     filter:           width = penumbra_directional(z_f, z_b, texels_per_depth, cap)          at least one texel
+//     bias:             bias = depth_bias_receiver_plane(gradient, width_x / 2, width_y / 2, limit)
+//     shadow:           over_darken(moments4_summed_intensity(..., z_f - bias), 1 - epsilon)
+//
+// and the same by penumbra_local. In the umbra, where the intensity of the search rectangle is above 1 - epsilon, the
+// filter may be skipped: over_darken makes that 1 as well, so no step is seen. The paper's epsilon is 0.01. The bias is
+// that of filters/depth_bias.h: the most that the receiver's plane rises within the half widths of the filter.
+
+/// A width of any size clamped to [1, widest], or 1 if widest is below 1.
+/// NaN: 1; a widest of NaN counts as none.
+fn gnomon_penumbra_width(width: f32, widest: f32) -> f32
+{
+    return gnomon_max(gnomon_min(widest, gnomon_max(width, 1.0)), 1.0);
+}
+
+/// The width of the penumbra of a directional light per unit of signed depth between blocker and receiver, in texels.
+/// tangent is that of half the light's angular size along this axis; depth_range is far - near, and texels_per_length
+/// the number of texels per unit of length in the map.
+/// Domain: at least 0.
+/// NaN: NaN, for which filters are one texel wide.
+/// Error: relative, 2 2^-p.
+fn penumbra_texels_per_depth(tangent: f32, depth_range: f32, texels_per_length: f32) -> f32
+{
+    return tangent * depth_range * texels_per_length;
+}
+
+/// Width of the penumbra of a directional light, at least one texel and at most widest: (z_f - z_b) texels_per_depth
+/// for a receiver at depth z_f and blockers at z_b.
+/// Domain: any depths, clamped to [-1, 1]; texels_per_depth by penumbra_texels_per_depth. Blockers behind the receiver
+/// give 1.
+/// NaN: 1; a widest of NaN counts as none.
+/// Error: relative, 2 2^-p.
+/// Source: Fernando 2005; Peters 2017, Sec. 4.1
+fn penumbra_directional(z_f: f32, z_b: f32, texels_per_depth: f32, widest: f32) -> f32
+{
+    let receiver = clamp_or_nan(z_f, -1.0, 1.0);
+    let blocker = clamp_or_nan(z_b, -1.0, 1.0);
+    return gnomon_penumbra_width((receiver - blocker) * texels_per_depth, widest);
+}
+
+/// Width of the penumbra of a local light, at least one texel and at most widest: light_texels (1 / d_b - 1 / d_f) for
+/// a receiver and blockers at view distances d_f and d_b. light_texels is the size of the light times the number of
+/// texels per unit of length at distance 1 from the light, in the map of that axis.
+/// Domain: any depths, clamped to [-1, 1]; 0 < near_distance < far_distance. Blockers behind the receiver give 1.
+/// NaN: 1; a widest of NaN counts as none.
+/// Error: relative, 8 2^-p, for distances as rounded.
+/// Source: Fernando 2005; Peters 2017, Sec. 4.1
+fn penumbra_local(z_f: f32, z_b: f32, near_distance: f32, far_distance: f32, light_texels: f32, widest: f32) -> f32
+{
+    let receiver = clamp_or_nan(z_f, -1.0, 1.0);
+    let blocker = clamp_or_nan(z_b, -1.0, 1.0);
+    let half_range = 0.5 * (far_distance - near_distance);
+    let d_f = near_distance + half_range * (receiver + 1.0);
+    let d_b = near_distance + half_range * (blocker + 1.0);
+    return gnomon_penumbra_width(light_texels * ((receiver - blocker) * half_range) / (d_b * d_f), widest);
 }
 
 // storage/moments4.h --------------------------------------------------------------------------------------------------

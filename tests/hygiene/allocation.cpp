@@ -109,7 +109,9 @@ TEST_CASE_TEMPLATE("no pass allocates", Format, gnomon::exponential_variance_hal
     blur<Format>(mips.level(0), {scratch, 12, 9}, mips.level(0), weights);
     build_mips<Format>(mips);
     const float shadow = Format::intensity(trilinear<Format>(mips, 3.0f, 4.0f, 1.5f), 0.5f);
+    const float smooth = Format::intensity(bicubic<Format>(mips, 3.0f, 4.0f, 1.5f), 0.5f);
     CHECK(allocations == before);
+    CHECK(smooth >= 0);
     CHECK(shadow >= 0);
     CHECK(behind >= 0);
 }
@@ -119,12 +121,18 @@ TEST_CASE("no pass of soft shadows allocates")
     using namespace gnomon;
     std::array<float, 40 * 9> depths{};
     std::array<depth_interval, depth_pyramid_blocks(40, 9)> blocks{};
+    std::array<std::array<float, 1>, 40 * 9> samples{};
+    std::array<moments4_summed::texel, 40 * 9> sums{};
+    const map_view<moments4_summed::texel> table{sums, 40, 9};
     const depth_pyramid_view<depth_interval> pyramid{blocks, 40, 9};
     const long before = allocations;
     build_depth_pyramid<float>({depths, 40, 9}, pyramid);
     const depth_interval interval = depth_interval_in(pyramid, 1, 2, 33, 4);
+    build_summed_area<moments4_summed>(map_view<const std::array<float, 1>>{samples, 40, 9}, table, 784);
+    const auto channels = disc_average<moments4_summed>(table, 784, {1, 2, 33, 4});
     CHECK(allocations == before);
     CHECK(interval.greatest == 0);
+    CHECK(moments4_summed::intensity(channels, 784.0f, 0.5f) > 0.9f);
 }
 
 TEST_CASE("no pass over ranges allocates")

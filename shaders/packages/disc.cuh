@@ -1,0 +1,943 @@
+// Gnomon 0.1.0, disc.cuh: shadow filtering in CUDA and C++20, this file alone.
+// Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
+// Written by shaders/package.py from the kernels in include/gnomon: change them there.
+#ifndef GNOMON_DISC_CUH
+#define GNOMON_DISC_CUH
+
+// Begins a function whose operations clang must not fuse with others. Versions that fuse nevertheless, under
+// -ffp-contract=fast, spare products that are read twice, but for PowerPC.
+#if defined(__clang__)
+#define GNOMON_UNFUSED _Pragma("clang fp contract(off)")
+#else
+#define GNOMON_UNFUSED
+#endif
+
+// True where products may be fused with sums.
+#if defined(__FMA__) || defined(__CUDA_ARCH__) || defined(__aarch64__) || defined(__powerpc64__) || \
+    defined(__s390x__) || (defined(__ARM_FEATURE_FMA) && __ARM_FP & 8) ||                           \
+    (defined(__riscv_flen) && __riscv_flen >= 64) || (defined(__FP_FAST_FMA) && defined(__FP_FAST_FMAF))
+#define GNOMON_HAS_FMA true
+#else
+#define GNOMON_HAS_FMA false
+#endif
+
+// True where std::fma is an instruction, whose result with -0 is left alone.
+#if defined(__clang__) && defined(__powerpc64__)
+#define GNOMON_SCALAR_FMA false
+#else
+#define GNOMON_SCALAR_FMA GNOMON_HAS_FMA
+#endif
+
+// With plain inline, compilers leave calls in pack kernels.
+#if defined(__CUDACC__)
+#define GNOMON_INLINE __host__ __device__ __forceinline__
+#elif defined(_MSC_VER)
+#define GNOMON_INLINE __forceinline
+#else
+#define GNOMON_INLINE __attribute__((always_inline)) inline
+#endif
+// Between a name and its bracket: a macro of that name, of whatever header, is not meant.
+#define GNOMON_NO_MACRO
+
+// Warnings of compilers that a user may have turned on, and that the dialect cannot avoid: comparisons of a Real with 0 or
+// with itself, types of variables that are deduced, and for GCC the length of an array that is a template's argument.
+#if defined(__clang__) && !defined(__CUDACC__)
+#define GNOMON_WARNINGS_OFF                                                                \
+    _Pragma("clang diagnostic push") _Pragma("clang diagnostic ignored \"-Wfloat-equal\"") \
+        _Pragma("clang diagnostic ignored \"-Wctad-maybe-unsupported\"")
+#define GNOMON_WARNINGS_ON _Pragma("clang diagnostic pop")
+#elif defined(__GNUC__) && !defined(__CUDACC__)
+#define GNOMON_WARNINGS_OFF                                                            \
+    _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wfloat-equal\"") \
+        _Pragma("GCC diagnostic ignored \"-Wsign-conversion\"")
+#define GNOMON_WARNINGS_ON _Pragma("GCC diagnostic pop")
+#else
+#define GNOMON_WARNINGS_OFF
+#define GNOMON_WARNINGS_ON
+#endif
+
+// the language --------------------------------------------------------------------------------------------------------
+// C++20, also CUDA: kernels are templates over Real, which is float, double or any pack of them.
+#if !defined(__cplusplus) || defined(__METAL_VERSION__)
+#error "gnomon: disc.cuh is CUDA and C++20; another language's compiler reads it"
+#elif defined(GNOMON_PORTABLE_H)
+#error "gnomon: disc.cuh and the headers of include/gnomon exclude one another"
+#elif defined(GNOMON_PACKAGE) && GNOMON_PACKAGE != 100
+#error "gnomon: disc.cuh is not of the same version as a package before it"
+#endif
+#define GNOMON_PACKAGE 100 // major, minor and patch, two digits each
+
+#ifndef GNOMON_PORTABLE_CPP_H
+#define GNOMON_PORTABLE_CPP_H
+
+#if !defined(__cpp_concepts)
+#error "gnomon: C++20 needed (-std=c++20)"
+#elif defined(Real)
+#error "gnomon: a macro named Real is in the way; include this before it, or undefine it"
+#endif
+
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST) ||        \
+    defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || (defined(__CUDA_PREC_DIV) && !__CUDA_PREC_DIV) || \
+    (defined(__CUDA_PREC_SQRT) && !__CUDA_PREC_SQRT) || (defined(__clang__) && __FLT_EVAL_METHOD__ == -1)
+#error "gnomon: fast mathematics voids exact products, rounding and NaN: compile without -ffast-math or parts of it"
+#elif (defined(__FLT_EVAL_METHOD__) && (__FLT_EVAL_METHOD__ < 0 || __FLT_EVAL_METHOD__ % 16 != 0)) || \
+    (defined(_M_IX86_FP) && _M_IX86_FP < 2)
+#error "gnomon: x87 rounds twice: compile with -msse2 -mfpmath=sse, or /arch:SSE2"
+#elif defined(__clang__) && __clang_major__ < 15
+// These versions have no macro for -funsafe-math-optimizations and its parts. Where they know the first of these pragmas,
+// the first is an error there; elsewhere the last keeps the operations of all that follows.
+#if defined(__x86_64__) || defined(__i386__) || defined(__powerpc__) || defined(__s390x__)
+#pragma float_control(except, on, push) // gnomon: compile without -ffast-math or parts of it
+#pragma float_control(pop)
+#else
+#pragma clang fp reassociate(off)
+#endif
+#elif defined(_MSC_VER) && !defined(__clang__)
+#pragma fp_contract(off)
+#elif defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
+// #pragma GCC optimize changes no macro, but the value of this.
+static_assert(__builtin_isunordered(__builtin_nanf(""), 1.0f),
+              "gnomon: fast mathematics voids NaN: compile without -ffast-math or parts of it");
+#endif
+
+static_assert(0.1 < double(0.1f), "gnomon: compile without -fsingle-precision-constant");
+
+#if defined(__CUDACC_RTC__)
+namespace gnomon::std {
+
+using uint32_t = unsigned int;
+using uint64_t = unsigned long long;
+
+template <class A, class B> inline constexpr bool is_same_v = false;
+template <class A> inline constexpr bool is_same_v<A, A> = true;
+template <class A, class B>
+concept same_as = is_same_v<A, B>;
+
+template <class T> inline constexpr bool is_floating_point_v = is_same_v<T, float> || is_same_v<T, double>;
+template <class T> inline constexpr bool is_integral_v = false;
+template <class T>
+requires requires(T x) { x % x; }
+inline constexpr bool is_integral_v<T> = true;
+template <class T> inline constexpr bool is_arithmetic_v = is_floating_point_v<T> || is_integral_v<T>;
+
+template <class T> struct type_identity {
+    using type = T;
+};
+template <class T> using type_identity_t = typename type_identity<T>::type;
+template <class T> struct remove_cvref : type_identity<T> {};
+template <class T> struct remove_cvref<const T> : type_identity<T> {};
+template <class T> struct remove_cvref<T&> : remove_cvref<T> {};
+template <class T> struct remove_cvref<T&&> : remove_cvref<T> {};
+template <class T> using remove_cvref_t = typename remove_cvref<T>::type;
+template <bool condition, class A, class B> struct conditional : type_identity<A> {};
+template <class A, class B> struct conditional<false, A, B> : type_identity<B> {};
+template <bool condition, class A, class B> using conditional_t = typename conditional<condition, A, B>::type;
+
+template <class T> __device__ T&& declval() noexcept;
+template <class T, class... Arguments>
+concept constructible_from = requires
+{
+    T(declval<Arguments>()...);
+};
+
+template <class T> struct numeric_limits;
+template <> struct numeric_limits<float> {
+    static constexpr int digits = 24, min_exponent = -125, max_exponent = 128;
+};
+template <> struct numeric_limits<double> {
+    static constexpr int digits = 53, min_exponent = -1021, max_exponent = 1024;
+};
+
+using ::abs;
+using ::fma;
+using ::ldexp;
+using ::sqrt;
+
+} // namespace gnomon::std
+#else
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+#include <utility>
+#endif
+
+namespace gnomon {
+
+/// The scalar in one lane of a pack, or the scalar itself.
+template <class T> struct lane {
+    using type = T;
+};
+template <class T>
+requires(!std::is_arithmetic_v<T>) && requires { typename T::value_type; }
+struct lane<T> {
+    using type = typename T::value_type;
+};
+template <class T> using lane_t = typename lane<T>::type;
+
+/// The type of a comparison: bool for a scalar, the pack's own mask for a pack.
+template <class T> using mask_t = std::remove_cvref_t<decltype(std::declval<T>() < std::declval<T>())>;
+
+template <class T>
+using arithmetic_result =
+    decltype((-std::declval<T>() + std::declval<T>()) * std::declval<T>() / (std::declval<T>() - std::declval<T>()));
+
+/// True for the types whose digits and exponents the kernels are made for. Others round elsewhere, as long double,
+/// _Float16 and numbers of many digits do.
+template <class T> inline constexpr bool is_lane = std::is_same_v<T, float> || std::is_same_v<T, double>;
+
+/// Operations of a pack that are faster than the generic code below: a specialization provides them (simd/xsimd.hpp).
+template <class T> struct pack_operations {};
+
+/// False for a pack of another library that is no Real by itself, since its operators lack something or round otherwise:
+/// gnomon::pack of it is (simd/pack.hpp). The library's adapter knows, so without it no pack of xsimd or of the standard
+/// library is one.
+template <class T> GNOMON_INLINE constexpr bool is_native_real()
+{
+    constexpr bool is_of_xsimd = requires { typename T::arch_type; };
+    constexpr bool is_of_std = requires { typename T::abi_type; };
+    if constexpr (requires { pack_operations<T>::native; }) return pack_operations<T>::native;
+    else return !is_of_xsimd && !is_of_std;
+}
+template <class T> inline constexpr bool is_native = is_native_real<T>();
+
+/// A type that can be Real: closed under its own arithmetic, so that one type holds every intermediate value, with
+/// lanes of float or double. Expression templates are excluded: evaluate them into a value first.
+template <class T>
+concept real_number = std::same_as<arithmetic_result<T>, T> && is_lane<lane_t<T>> && is_native<T> &&
+    std::constructible_from<T, lane_t<T>> && requires
+{
+    typename mask_t<T>;
+};
+
+template <class T> struct require_real_of {
+    static_assert(
+        real_number<T>,
+        "gnomon: Real must be float, double or a pack of them, closed under + - * / "
+        "(no other precision, no integer; no expression template: evaluate it first; no foreign pack without its "
+        "adapter: include gnomon/simd/xsimd.hpp or std_simd.hpp, and let Real be gnomon::pack of it)");
+    using type = T;
+};
+template <class T> using require_real = typename require_real_of<T>::type;
+
+/// The value as a Real, rounded once from double to the type of a lane.
+template <class T> GNOMON_INLINE constexpr T literal(double value) { return T(static_cast<lane_t<T>>(value)); }
+
+template <class T>
+inline constexpr double splitter = double(std::uint64_t{1} << (std::numeric_limits<T>::digits + 1) / 2) + 1.0;
+template <class T>
+inline constexpr double pivot_floor = std::numeric_limits<T>::min_exponent < -1000 ? 0x1p-66 : 0x1p-30;
+
+// Without an instruction for it, a scalar fma is a library call, which is correct but slower than splitting.
+template <class T> GNOMON_INLINE constexpr bool fma_is_fused()
+{
+    if constexpr (requires { pack_operations<T>::fused; }) return pack_operations<T>::fused;
+    else return GNOMON_SCALAR_FMA && is_lane<T>;
+}
+template <class T> inline constexpr bool is_fused = fma_is_fused<T>();
+
+/// The value of type To with the bits of `from`: std::bit_cast, which libc++ lacks before version 14.
+template <class To, class From> GNOMON_INLINE constexpr To gnomon_bit_cast(const From& from)
+{
+    return __builtin_bit_cast(To, from);
+}
+
+template <class T, class Bits> GNOMON_INLINE constexpr T select_by_bits(bool mask, T a, T b)
+{
+    const Bits ones = Bits(0) - Bits(mask);
+    return gnomon_bit_cast<T>(Bits((gnomon_bit_cast<Bits>(a) & ones) | (gnomon_bit_cast<Bits>(b) & ~ones)));
+}
+
+// GCC compiles a conditional operator to a branch, to skip work that only one side needs. For receivers that differ
+// from their neighbours, half the time of a kernel is then lost to mispredictions. Bit operations stay free of
+// branches, and GCC vectorises them.
+template <class M, class T> GNOMON_INLINE constexpr T gnomon_select(M mask, T a, T b)
+{
+    if constexpr (!std::is_same_v<M, bool>) return select GNOMON_NO_MACRO(mask, a, b);
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
+    else if constexpr (std::is_same_v<T, float>) return select_by_bits<T, std::uint32_t>(mask, a, b);
+    else if constexpr (std::is_same_v<T, double>) return select_by_bits<T, std::uint64_t>(mask, a, b);
+#endif
+    else return mask ? a : b;
+}
+
+template <class M> GNOMON_INLINE constexpr bool gnomon_any(M mask)
+{
+    if constexpr (std::is_same_v<M, bool>) return mask;
+    else if constexpr (requires { any_of(mask); }) return any_of(mask);
+    else return any GNOMON_NO_MACRO(mask);
+}
+
+/// x, of which the optimizer knows nothing.
+template <class T> GNOMON_INLINE constexpr T opaque(T x)
+{
+#if defined(__GNUC__) && !defined(__CUDA_ARCH__)
+    if (!__builtin_is_constant_evaluated()) {
+        auto bits = __builtin_bit_cast(std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>, x);
+        __asm__("" : "+r"(bits));
+        return __builtin_bit_cast(T, bits);
+    }
+#endif
+    return x;
+}
+
+// The second operand of a minimum or a maximum, through a sum that clang does not see through. Otherwise, when clang knows
+// this operand to be no NaN, it takes an instruction of Arm or PowerPC that returns a NaN for a signalling one.
+template <class T> GNOMON_INLINE constexpr T second_operand(T x)
+{
+#if defined(__clang__) && (defined(__aarch64__) || defined(__powerpc__))
+    return x + opaque(T(-0.0));
+#else
+    return x;
+#endif
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_min(T a, T b)
+{
+    if constexpr (requires { pack_operations<T>::min GNOMON_NO_MACRO(a, b); })
+        return pack_operations<T>::min GNOMON_NO_MACRO(a, b);
+    else if constexpr (std::is_floating_point_v<T>) {
+        const T second = second_operand(b); // above, or clang would make a branch of the choice
+        return a < b ? a : second;
+    } else return gnomon_select(a < b, a, b);
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_max(T a, T b)
+{
+    if constexpr (requires { pack_operations<T>::max GNOMON_NO_MACRO(a, b); })
+        return pack_operations<T>::max GNOMON_NO_MACRO(a, b);
+    else if constexpr (std::is_floating_point_v<T>) {
+        const T second = second_operand(b);
+        return b < a ? a : second;
+    } else return gnomon_select(b < a, a, b);
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_saturate(T x)
+{
+    return gnomon_min(T(lane_t<T>(1)), gnomon_max(x, T(lane_t<T>(0))));
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_abs(T a)
+{
+    using std::abs;
+    return abs GNOMON_NO_MACRO(a);
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_sqrt(T a)
+{
+#if defined(__CUDA_ARCH__)
+    // Correctly rounded under nvcc --use_fast_math, too.
+    if constexpr (std::is_same_v<T, float>) return __fsqrt_rn(a);
+    else if constexpr (std::is_same_v<T, double>) return __dsqrt_rn(a);
+    else
+#elif defined(__GNUC__)
+    // std::sqrt compiles to a call as well, which sets errno.
+    if constexpr (std::is_same_v<T, float>) return __builtin_sqrtf(a);
+    else if constexpr (std::is_same_v<T, double>) return __builtin_sqrt(a);
+    else
+#endif
+    {
+        using std::sqrt;
+        return sqrt(a);
+    }
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_fma(T a, T b, T c)
+{
+    GNOMON_UNFUSED
+    if constexpr (std::is_floating_point_v<T>) return std::fma(a, b, c);
+    else if constexpr (requires { pack_operations<T>::fma(a, b, c); }) return pack_operations<T>::fma(a, b, c);
+    else return a * b + c;
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_sum(T a, T b) { return a + b; }
+template <class T> GNOMON_INLINE constexpr T gnomon_difference(T a, T b) { return a - b; }
+
+template <class T> GNOMON_INLINE constexpr T gnomon_power_of_two(T n)
+{
+    if constexpr (std::is_same_v<T, float>) {
+        // The sum has n in its low bits, and the shift moves n into the exponent.
+        return gnomon_bit_cast<float>((gnomon_bit_cast<std::uint32_t>(n + 0x1.8p23f) << 23) +
+                                      (std::uint32_t{127} << 23));
+    } else if constexpr (std::is_same_v<T, double>) {
+        return gnomon_bit_cast<double>((gnomon_bit_cast<std::uint64_t>(n + 0x1.8p52) << 52) +
+                                       (std::uint64_t{1023} << 52));
+    } else if constexpr (requires { pack_operations<T>::power_of_two(n); }) {
+        return pack_operations<T>::power_of_two(n);
+    } else {
+        T power = T(lane_t<T>(1));
+        for (int k = std::numeric_limits<lane_t<T>>::max_exponent / 2; k > 0; k /= 2) {
+            const T step = T(static_cast<lane_t<T>>(k));
+            const T up = T(static_cast<lane_t<T>>(std::ldexp(1.0, k)));
+            const T down = T(static_cast<lane_t<T>>(std::ldexp(1.0, -k)));
+            power = gnomon_select(step <= n, power * up, gnomon_select(n <= -step, power * down, power));
+            n = gnomon_select(step <= n, n - step, gnomon_select(n <= -step, n + step, n));
+        }
+        return power;
+    }
+}
+
+// Contraction would fold a plain product into a later sum, and the error of the product, which two_product returns, would
+// be subtracted twice. A fused product cannot be folded, and adding -0 to the product changes no value; clang must not
+// know that. Where no fma is known for T, what a compiler folds is the product by 1, which rounds nothing.
+template <class T> GNOMON_INLINE constexpr T gnomon_product(T a, T b)
+{
+    GNOMON_UNFUSED
+#if defined(__CUDA_ARCH__)
+    if constexpr (std::is_same_v<T, float>) return __fmul_rn(a, b);
+    else if constexpr (std::is_same_v<T, double>) return __dmul_rn(a, b);
+#elif defined(__clang__)
+    if constexpr (is_fused<T>) return gnomon_fma(a, b, T(opaque(lane_t<T>(-0.0))));
+#else
+    if constexpr (is_fused<T>) return gnomon_fma(a, b, T(lane_t<T>(-0.0)));
+#endif
+    else if constexpr (GNOMON_HAS_FMA) return (a * b) * T(opaque(lane_t<T>(1)));
+    else return a * b;
+}
+
+// A float loses its low bits. Half of 53 bits is no whole number: a double, and whatever has no bits at hand, is rounded to 26
+// bits (Dekker 1971).
+template <class T> GNOMON_INLINE constexpr T gnomon_high_part(T a)
+{
+    if constexpr (requires { pack_operations<T>::high_part(a); }) return pack_operations<T>::high_part(a);
+    else if constexpr (std::is_same_v<T, float>) {
+        return gnomon_bit_cast<float>(gnomon_bit_cast<std::uint32_t>(a) & std::uint32_t{0xFFFFF000});
+    } else {
+        const T scaled = gnomon_product(literal<T>(splitter<lane_t<T>>), a); // contraction would leave no halves
+        return scaled - gnomon_difference(scaled, a);
+    }
+}
+
+} // namespace gnomon
+
+#endif
+
+// numerics/round.h ----------------------------------------------------------------------------------------------------
+// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
+// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
+#ifndef GNOMON_NUMERICS_ROUND_H
+#define GNOMON_NUMERICS_ROUND_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The whole number nearest to x, ties to even.
+/// Domain: |x| <= 2^22 in float, 2^51 in double.
+/// NaN: stays NaN.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real nearest_integer(Real x)
+{
+    Real rounder = Real(-12582912);
+    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
+        rounder = Real(-6755399441055744.0);
+    }
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
+}
+
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real nearest_natural(Real x)
+{
+    Real rounder = Real(8388608);
+    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
+        rounder = Real(4503599627370496.0);
+    }
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// numerics/select.h ---------------------------------------------------------------------------------------------------
+// Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
+#ifndef GNOMON_NUMERICS_SELECT_H
+#define GNOMON_NUMERICS_SELECT_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// x clamped to [low, high].
+/// NaN: stays NaN, so that the last step of a kernel can answer it.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real clamp_or_nan(Real x, std::type_identity_t<Real> low, std::type_identity_t<Real> high)
+{
+    return gnomon_min(high, gnomon_max(low, x));
+}
+
+/// x clamped to [low, high].
+/// NaN: high.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real clamp_or_high(Real x, std::type_identity_t<Real> low, std::type_identity_t<Real> high)
+{
+    return gnomon_max(low, gnomon_min(x, high));
+}
+
+/// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real saturate_or_zero(Real x) { return gnomon_saturate(x); }
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// numerics/texel_filter.h ---------------------------------------------------------------------------------------------
+// Texels of a shadow map along one axis: the texel that holds a position, and the weights of the K + 1 texels that K
+// adjacent bilinear look-ups read, which are those of a filter K texels wide with linear ends.
+#ifndef GNOMON_NUMERICS_TEXEL_FILTER_H
+#define GNOMON_NUMERICS_TEXEL_FILTER_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+inline constexpr double texel_limit = 65536.0; // no map is larger: all positions beyond share one texel
+
+/// The texel that holds position x: the largest whole number not above x, clamped to [-65536, 65536].
+/// NaN: 65536.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real texel_below(Real x)
+{
+    Real limit = literal<Real>(texel_limit);
+    Real inside = gnomon_max(gnomon_min(x, limit), Real(-1) * limit);
+    Real whole = nearest_integer(inside);
+    return whole - gnomon_select(inside < whole, Real(1), Real(0));
+}
+
+/// The weight of texel i, 0 to K, in the mean of K = look_ups adjacent bilinear look-ups along one axis. u is the
+/// distance of the first look-up from the centre of texel 0. In [0, 1].
+/// Domain: u in [0, 1], clamped; look_ups at least 1. Elsewhere a number in [0, 1].
+/// NaN: u counts as 0; 0 for look_ups.
+/// Error: the K + 1 weights sum to 1 within K + 2 roundings.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real texel_weight(Real u, std::type_identity_t<Real> i, std::type_identity_t<Real> look_ups)
+{
+    Real share = saturate_or_zero(u);
+    share = gnomon_select(i < Real(1), Real(1) - share, gnomon_select(i < look_ups, Real(1), share));
+    return saturate_or_zero(share / look_ups);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// numerics/two_product.h ----------------------------------------------------------------------------------------------
+// Error-free transformations: the difference or product of two numbers as the rounded result and its exact error
+// (Dekker 1971; Knuth 1997; Ogita, Rump & Oishi 2005). A double word, the unevaluated sum of such a pair, carries both
+// through further operations, so that differences of products keep the digits that cancellation would lose.
+#ifndef GNOMON_NUMERICS_TWO_PRODUCT_H
+#define GNOMON_NUMERICS_TWO_PRODUCT_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The unevaluated sum high + low.
+template <class Real, class = require_real<Real>> struct double_word { Real high, low; };
+
+/// The error a b - p of the rounded product p, without a fused multiply-add: both factors are split into halves whose
+/// products are exact. In this order of summation all sums are exact, and an error of zero is +0, as by a fused
+/// multiply-add.
+/// Domain: as for two_product.
+/// Source: Dekker 1971
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real dekker_product_error(Real a, Real b, Real p)
+{
+    Real ah = gnomon_high_part(a);
+    Real bh = gnomon_high_part(b);
+    Real al = gnomon_difference(a, ah);
+    Real bl = gnomon_difference(b, bh);
+    Real e = gnomon_difference(ah * bh, p);
+    return gnomon_sum(gnomon_sum(gnomon_sum(e, al * bh), ah * bl), al * bl);
+}
+
+/// a b exactly, as the rounded product and its error. Fused multiply-add and splitting give the same bits.
+/// Domain: |a|, |b| <= 2^100 and |a b| = 0 or >= 2^-100 in float; 2^900 and 2^-900 in double.
+/// Error: none; for smaller products low is off by at most two of the smallest denormals, since each of the four
+/// products of the split route rounds by half of one.
+/// Source: Dekker 1971; Ogita, Rump & Oishi 2005
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr double_word<Real> two_product(Real a, Real b)
+{
+    double_word<Real> r;
+    if (is_fused<Real>) {
+        r.high = gnomon_fma(a, b, Real(-0.0)); // kept, as gnomon_product is: two fused products read it
+        r.low = gnomon_fma(a, b, -r.high);
+    } else {
+        r.high = gnomon_product(a, b);
+        r.low = dekker_product_error(a, b, r.high);
+    }
+    return r;
+}
+
+/// a - b exactly, as the rounded difference and its error, for magnitudes in any order.
+/// Source: Knuth 1997, Sec. 4.2.2
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr double_word<Real> two_difference(Real a, Real b)
+{
+    double_word<Real> r;
+    r.high = gnomon_difference(a, b);
+    Real bv = gnomon_difference(r.high, a);
+    Real av = gnomon_difference(r.high, bv);
+    r.low = gnomon_difference(gnomon_difference(a, av), gnomon_sum(b, bv));
+    return r;
+}
+
+/// a - b exactly, as the rounded difference and its error.
+/// Domain: |a| >= |b| or a = 0; elsewhere low is off by up to a rounding of b.
+/// Source: Dekker 1971
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr double_word<Real> two_difference_ordered(Real a, Real b)
+{
+    double_word<Real> r;
+    r.high = gnomon_difference(a, b);
+    r.low = gnomon_difference(gnomon_difference(a, r.high), b);
+    return r;
+}
+
+/// c - a b as a double word, for magnitudes in any order.
+/// Domain: as for two_product.
+/// Error: 2 u^2 (|c| + |a b|), u = 2^-p.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr double_word<Real> subtract_product(Real c, Real a, Real b)
+{
+    double_word p = two_product(a, b);
+    double_word r = two_difference(c, p.high);
+    r.low = gnomon_difference(r.low, p.low);
+    return r;
+}
+
+/// c - a b as a double word.
+/// Domain: |c| >= |a b|, elsewhere low is off by up to a rounding of a b; as for two_product.
+/// Error: 2 u^2 (|c| + |a b|), u = 2^-p.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr double_word<Real> subtract_product_ordered(Real c, Real a, Real b)
+{
+    double_word p = two_product(a, b);
+    double_word r = two_difference_ordered(c, p.high);
+    r.low = gnomon_difference(r.low, p.low);
+    return r;
+}
+
+/// c - a b, rounded. Where c and a b cancel, their difference is exact.
+/// Domain: as for two_product.
+/// Error: 2 roundings of the result, also under cancellation.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real subtract_product_rounded(Real c, Real a, Real b)
+{
+    double_word p = two_product(a, b);
+    return gnomon_difference(c, p.high) - p.low;
+}
+
+/// a b - c d for double words, as a double word.
+/// Domain: each low is at most 2^-20 of its high in float, 2^-49 in double.
+/// Error: 2^-40 (|a b| + |c d|) in float, 2^-98 (|a b| + |c d|) in double.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr double_word<Real> double_word_minor(double_word<Real> a, double_word<Real> b,
+                                                            double_word<Real> c, double_word<Real> d)
+{
+    double_word p = two_product(a.high, b.high);
+    double_word q = two_product(c.high, d.high);
+    double_word r = two_difference(p.high, q.high);
+    Real cross = (a.high * b.low + a.low * b.high) - (c.high * d.low + c.low * d.high);
+    r.low = r.low + ((p.low - q.low) + (cross + (a.low * b.low - c.low * d.low)));
+    return r;
+}
+
+/// a c - b^2 for double words, rounded.
+/// Domain: as for double_word_minor.
+/// Error: 2 roundings of the result beside that of double_word_minor.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real double_word_determinant(double_word<Real> a, double_word<Real> b, double_word<Real> c)
+{
+    double_word p = two_product(a.high, c.high);
+    double_word q = two_product(b.high, b.high);
+    Real cross = (a.high * c.low + a.low * (c.high + c.low)) - b.low * ((b.high + b.high) + b.low);
+    return gnomon_difference(p.high, q.high) + ((p.low - q.low) + cross);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// soft/summed_area.h --------------------------------------------------------------------------------------------------
+// Summed-area tables of the channels of a shadow map, and look-ups of any rectangle in them (Crow 1984; Peters et al.
+// 2017, Sec. 4.2 to 4.4).
+//
+// Let P(x, y) be the sum of the channels over all texels (i, j) with i < x and j < y. The table holds P(x + 1, y + 1)
+// at texel (x, y), in 32-bit unsigned integers that wrap around; P is 0 where x or y is 0. The sum over the texels from
+// (x0, y0) to before (x1, y1) is a difference of four such integers, of which none that wraps does harm:
+//
+//     rectangle = summed_area_clip(summed_area_around(x, y, width_x, width_y), map_width, map_height, most_texels);
+//
+//     on the grid, 4 texels:       r = summed_area_grow(rectangle);
+//                                  s = P(r.x1, r.y1) - P(r.x0, r.y1) - P(r.x1, r.y0) + P(r.x0, r.y0);    in integers
+//                                  area = (r.x1 - r.x0) * (r.y1 - r.y0);
+//
+//     interpolated, 16 texels:     a = summed_area_split(rectangle.x0, rectangle.x1), b = the same of y0 and y1
+//                                  s = the sum over both axes of width_i width_j times the sum of rectangle (i, j)
+//                                  area = summed_area_width(a) * summed_area_width(b);
+//
+//     channel = s / (area * scale)                                        storage/moments4_summed.h and its siblings
+//
+// A code is the nearest whole number to scale times a channel in [0, 1]. most_texels is the most texels that a look-up
+// on the grid may cover: (ceil(w_x) + 1) (ceil(w_y) + 1) for the largest rectangle. Positions are in texels, with
+// centres at +0.5.
+#ifndef GNOMON_SOFT_SUMMED_AREA_H
+#define GNOMON_SOFT_SUMMED_AREA_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// A rectangle of a map, from (x0, y0) to (x1, y1) in texels.
+template <class Real, class = require_real<Real>> struct summed_area_rectangle { Real x0, y0, x1, y1; };
+
+inline constexpr double summed_area_range = 4294967296.0;         // 2^32
+inline constexpr double summed_area_most_texels = 1048576.0;      // 2^20
+inline constexpr double summed_area_step = 5.9604644775390625e-8; // 2^-24
+inline constexpr double summed_area_slack = 0.0009765625;         // 2^-10
+
+inline constexpr double summed_area_code_noise = 1.1641532182693481e-10; // 2^-33
+inline constexpr double summed_area_float_noise = 4.4703483581542969e-8; // 1.5 times 2^-25
+inline constexpr double summed_area_least_noise = 8.1956386566162109e-8; // 2.75 times 2^-25, in small tables
+
+/// The largest error of a channel of a rectangle, for a table by summed_area_scale(most_texels): half a code,
+/// most_texels 2^-33, and what float arithmetic rounds on the way from the depth to the mean, in the channel, the
+/// resolve of four samples, the sum and the mean. Errors of float arithmetic do not all come together; a search by
+/// climbing found these.
+/// Domain: most_texels at least 0.
+/// NaN: the noise of a small table.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real summed_area_noise(Real most_texels)
+{
+    Real noise = literal<Real>(summed_area_code_noise) * most_texels + literal<Real>(summed_area_float_noise);
+    return gnomon_max(noise, literal<Real>(summed_area_least_noise));
+}
+
+/// The number that channels are multiplied by: the largest whole number S of the precision of Real for which sums over
+/// most_texels texels do not wrap around, most_texels S <= 2^32 - 1. S is whole because the codes are: the nearest
+/// whole number to a fraction may be above it, as in the paper's own example of 784 texels.
+/// Domain: most_texels a whole number in [1, 2^20], clamped.
+/// NaN: as 2^20.
+/// Source: Peters 2017, Sec. 4.2
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real summed_area_scale(Real most_texels)
+{
+    Real n = clamp_or_high(most_texels, Real(1), literal<Real>(summed_area_most_texels));
+    Real range = literal<Real>(summed_area_range);
+    Real s = range / n;
+    Real whole = nearest_natural(s);
+    whole = whole - gnomon_select(s < whole, Real(1), Real(0));
+    double_word sum = two_product(whole, n);
+    mask_t<Real> wraps = Real(0) <= (sum.high - range) + sum.low;
+    return whole - gnomon_select(wraps, gnomon_max(Real(1), literal<Real>(summed_area_step) * whole), Real(0));
+}
+
+/// The code of a channel: the whole number nearest to scale times the channel, which conversion to an unsigned integer
+/// leaves as it is.
+/// Domain: any channel, clamped to [0, 1]; scale by summed_area_scale.
+/// NaN: 0.
+/// Error: half a code for scales up to 2^24, beyond which codes are floats.
+/// Source: Peters 2017, Sec. 4.2
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real summed_area_code(Real channel, std::type_identity_t<Real> scale)
+{
+    double_word p = two_product(saturate_or_zero(channel), scale);
+    Real code = nearest_natural(p.high);
+    Real rest = (p.high - code) + p.low; // more than half a code where p.high was rounded
+    code = code + gnomon_select(Real(0.5) < rest, Real(1), Real(0));
+    return code - gnomon_select(rest < Real(-0.5), Real(1), Real(0));
+}
+
+/// The rectangle of the given widths about (x, y).
+/// NaN: NaN, which summed_area_clip makes empty.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr summed_area_rectangle<Real> summed_area_around(Real x, Real y, Real width_x, Real width_y)
+{
+    summed_area_rectangle<Real> r;
+    r.x0 = x - Real(0.5) * width_x;
+    r.y0 = y - Real(0.5) * width_y;
+    r.x1 = x + Real(0.5) * width_x;
+    r.y1 = y + Real(0.5) * width_y;
+    return r;
+}
+
+/// The smallest whole number not below x.
+/// Domain: |x| <= 65536, clamped.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real summed_area_above(Real x) { return Real(-1) * texel_below(Real(-1) * x); }
+
+/// The begin and the end of a rectangle along one axis.
+template <class Real, class = require_real<Real>> struct summed_area_interval { Real begin, end; };
+
+/// The interval from begin to end if texels <= most, else the one about the same centre that covers no more than most
+/// texels wherever it is.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr summed_area_interval<Real> summed_area_shrink(Real begin, Real end, Real texels, Real most)
+{
+    Real width = most - Real(1);
+    Real low = Real(0.5) * (begin + end) - Real(0.5) * width;
+    mask_t<Real> large = most < texels;
+    summed_area_interval<Real> r;
+    r.begin = gnomon_select(large, low, begin);
+    r.end = gnomon_select(large, low + width, end);
+    return r;
+}
+
+/// The part of a rectangle that a look-up may read: clipped to the map, and if the texels that it touches are more than
+/// most_texels, shrunk along both axes about its centre. A rectangle without a part in the map, or with its ends in the
+/// wrong order, becomes the empty one, all 0, and look-ups in it are lit.
+/// Domain: width and height whole numbers in [1, 65536]; most_texels in [4, 2^20], clamped.
+/// NaN: empty.
+/// Error: the ends are exact unless the rectangle shrinks.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr summed_area_rectangle<Real> summed_area_clip(summed_area_rectangle<Real> rectangle,
+                                                                     std::type_identity_t<Real> width,
+                                                                     std::type_identity_t<Real> height,
+                                                                     std::type_identity_t<Real> most_texels)
+{
+    Real limit = literal<Real>(texel_limit);
+    Real right = clamp_or_high(width, Real(1), limit);
+    Real bottom = clamp_or_high(height, Real(1), limit);
+    Real x0 = clamp_or_nan(rectangle.x0, Real(0), right);
+    Real y0 = clamp_or_nan(rectangle.y0, Real(0), bottom);
+    Real x1 = clamp_or_nan(rectangle.x1, Real(0), right);
+    Real y1 = clamp_or_nan(rectangle.y1, Real(0), bottom);
+    Real columns = summed_area_above(x1) - texel_below(x0);
+    Real rows = summed_area_above(y1) - texel_below(y0);
+    Real most = clamp_or_high(most_texels, Real(4), literal<Real>(summed_area_most_texels));
+    Real share = gnomon_sqrt(gnomon_min(most / (columns * rows), Real(1)));
+    Real least_columns = gnomon_min(columns, Real(2));
+    Real least_rows = gnomon_min(rows, Real(2));
+    Real most_columns = gnomon_min(gnomon_max(texel_below(share * columns + literal<Real>(summed_area_slack)),
+                                              least_columns), texel_below(most / least_rows));
+    Real most_rows = gnomon_min(gnomon_max(texel_below(share * rows + literal<Real>(summed_area_slack)), least_rows),
+                                texel_below(most / most_columns));
+    summed_area_interval x = summed_area_shrink(x0, x1, columns, most_columns);
+    summed_area_interval y = summed_area_shrink(y0, y1, rows, most_rows);
+    mask_t<Real> some = x0 < x1 && y0 < y1; // false for NaN
+    summed_area_rectangle<Real> r;
+    r.x0 = gnomon_select(some, x.begin, Real(0));
+    r.y0 = gnomon_select(some, y.begin, Real(0));
+    r.x1 = gnomon_select(some, x.end, Real(0));
+    r.y1 = gnomon_select(some, y.end, Real(0));
+    return r;
+}
+
+/// The smallest rectangle of whole texels that holds the given one: between these lines of the grid a look-up reads
+/// four texels. Empty for the empty rectangle.
+/// Domain: a rectangle by summed_area_clip.
+/// NaN: positions of NaN become 65536 or -65536.
+/// Source: Peters 2017, Sec. 4.3
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr summed_area_rectangle<Real> summed_area_grow(summed_area_rectangle<Real> rectangle)
+{
+    summed_area_rectangle<Real> r;
+    r.x0 = texel_below(rectangle.x0);
+    r.y0 = texel_below(rectangle.y0);
+    r.x1 = summed_area_above(rectangle.x1);
+    r.y1 = summed_area_above(rectangle.y1);
+    return r;
+}
+
+/// An interval in three parts: in its first texel, in its last one, and the whole texels between. Part i is between
+/// lines i and i + 1 of the grid, and the interval covers each of its texels by width i, in [0, 1].
+template <class Real, class = require_real<Real>>
+struct summed_area_parts { Real line0, line1, line2, line3, width0, width1, width2; };
+
+/// The parts of the interval from begin to end. In a single texel, the first part is the whole interval and the others
+/// have no texels and no width.
+/// Domain: 0 <= begin < end <= 65536, and the empty interval from 0 to 0, for which line3 is 1 and all widths are 0.
+/// NaN: lines are whole numbers in [-65537, 65537].
+/// Error: of a width, one rounding.
+/// Source: Peters 2017, Sec. 4.4
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr summed_area_parts<Real> summed_area_split(Real begin, Real end)
+{
+    Real first = texel_below(begin);
+    Real last = gnomon_max(summed_area_above(end) - Real(1), first);
+    mask_t<Real> single = last <= first;
+    summed_area_parts<Real> r;
+    r.line0 = first;
+    r.line1 = first + Real(1);
+    r.line2 = gnomon_max(last, r.line1);
+    r.line3 = last + Real(1);
+    r.width0 = saturate_or_zero(gnomon_select(single, end, r.line1) - begin);
+    r.width1 = gnomon_select(single, Real(0), Real(1));
+    r.width2 = gnomon_select(single, Real(0), saturate_or_zero(end - last));
+    return r;
+}
+
+/// The width of an interval, in texels: the sum of the widths of its parts.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real summed_area_width(summed_area_parts<Real> parts)
+{
+    return (parts.width0 + parts.width1 * (parts.line2 - parts.line1)) + parts.width2;
+}
+
+/// The mean of a channel over a rectangle: sum / (area scale), in [0, 1].
+/// Domain: a sum of codes, weighted by widths, over a rectangle of that area; scale by summed_area_scale. 0 for an area
+/// of 0 without a sum.
+/// NaN: 0.
+/// Error: relative, 2^-p, for the sum as it is given.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real summed_area_mean(Real sum, Real area, std::type_identity_t<Real> scale)
+{
+    double_word whole = two_product(area, scale);
+    Real mean = saturate_or_zero(sum / whole.high);
+    double_word p = two_product(mean, whole.high);
+    Real rest = (sum - p.high) - (p.low + mean * whole.low);
+    return saturate_or_zero(mean + rest / whole.high);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// soft/disc.h ---------------------------------------------------------------------------------------------------------
+// Round lights and round filters from look-ups of rectangles: a disc, or an ellipse along the axes of the map, as the
+// union of three rectangles that touch, in the shape of a cross. Their means, weighted by their areas, make the mean of
+// the union; so moments are averaged first, and one intensity is computed.
+//
+// A straight edge at any angle then has a penumbra that differs from that of the disc by disc_error at most, where a
+// single square of the disc's area differs by disc_square_error. Two rectangles crosswise, with twice the loads of
+// the square, still differ by 0.0177, so there is no form for them.
+#ifndef GNOMON_SOFT_DISC_H
+#define GNOMON_SOFT_DISC_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+inline constexpr double disc_long = 0.955;          // extents of the cross, as shares of the diameter
+inline constexpr double disc_short = 0.5975;        //
+inline constexpr double disc_square = 0.8862269255; // the square of the same area, sqrt(pi) / 2
+inline constexpr double disc_error = 0.0075;
+inline constexpr double disc_square_error = 0.0235;
+
+/// Rectangle 0, 1 or 2 of the disc that the given rectangle bounds: the middle of the cross, and its ends towards y0
+/// and towards y1.
+/// Domain: any rectangle; of its parts, those at the index as rounded to the nearest of 0, 1 and 2.
+/// NaN: NaN, which summed_area_clip makes empty; index 0 for an index of NaN.
+/// Error: against a disc (tests/soft/disc.cpp), of the visibility in the penumbra of a straight edge, disc_error.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr summed_area_rectangle<Real> disc_rectangle(summed_area_rectangle<Real> bounds, Real index)
+{
+    Real x = Real(0.5) * (bounds.x0 + bounds.x1);
+    Real y = Real(0.5) * (bounds.y0 + bounds.y1);
+    Real half_x = Real(0.5) * (bounds.x1 - bounds.x0);
+    Real half_y = Real(0.5) * (bounds.y1 - bounds.y0);
+    mask_t<Real> first = Real(0.5) < index && index < Real(1.5);
+    mask_t<Real> second = Real(1.5) <= index;
+    Real across = half_x * gnomon_select(first || second, literal<Real>(disc_short), literal<Real>(disc_long));
+    Real inner = half_y * literal<Real>(disc_short);
+    Real outer = half_y * literal<Real>(disc_long);
+    summed_area_rectangle<Real> r;
+    r.x0 = x - across;
+    r.x1 = x + across;
+    r.y0 = gnomon_select(first, y - outer, gnomon_select(second, y + inner, y - inner));
+    r.y1 = gnomon_select(first, y - inner, gnomon_select(second, y + outer, y + inner));
+    return r;
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+#undef GNOMON_UNFUSED
+#undef GNOMON_HAS_FMA
+#undef GNOMON_SCALAR_FMA
+#undef GNOMON_INLINE
+#undef GNOMON_NO_MACRO
+#undef GNOMON_WARNINGS_OFF
+#undef GNOMON_WARNINGS_ON
+#endif

@@ -1,0 +1,293 @@
+// Gnomon 0.1.0, mip_filter.glsl: shadow filtering in GLSL, this file alone.
+// Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
+// Written by shaders/package.py from the kernels in include/gnomon: change them there.
+#ifndef GNOMON_MIP_FILTER_GLSL
+#define GNOMON_MIP_FILTER_GLSL
+
+// the language --------------------------------------------------------------------------------------------------------
+// GLSL from version 330, ESSL from version 300.
+// Compile without contraction for the same bits as on the CPU (docs/shaders.md). Exact products are exact in any case.
+#if defined(__cplusplus) || defined(__HLSL_VERSION) || defined(__OPENCL_C_VERSION__)
+#error "gnomon: mip_filter.glsl is GLSL; another language's compiler reads it"
+#elif defined(GNOMON_PORTABLE_H)
+#error "gnomon: mip_filter.glsl and the headers of include/gnomon exclude one another"
+#elif defined(GNOMON_PACKAGE) && GNOMON_PACKAGE != 100
+#error "gnomon: mip_filter.glsl is not of the same version as a package before it"
+#endif
+#define GNOMON_PACKAGE 100 // major, minor and patch, two digits each
+
+#ifndef GNOMON_PORTABLE_GLSL_H
+#define GNOMON_PORTABLE_GLSL_H
+
+#if defined(GL_ES) && __VERSION__ < 300
+#error "gnomon: #version 300 es or later needed"
+#elif !defined(GL_ES) && __VERSION__ < 330
+#error "gnomon: #version 330 or later needed"
+#endif
+
+#if defined(GL_ES)
+// Kernels need high precision. Declare a lower one after this line if your own code uses it.
+precision highp float;
+precision highp int;
+#endif
+
+const float gnomon_pivot_floor = 9.31322574615478515625e-10; // 2^-30
+
+float gnomon_select(bool mask, float a, float b) { return mask ? a : b; }
+bool gnomon_any(bool mask) { return mask; }
+float gnomon_abs(float a) { return abs(a); }
+float gnomon_sqrt(float a) { return sqrt(a); }
+
+// x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
+// bits of NaN are above the bound, which is one.
+float gnomon_kept(float x) { return intBitsToFloat(min(floatBitsToInt(x), 0x7FC00000)); }
+float gnomon_apart(float x) { return uintBitsToFloat(min(floatBitsToUint(x), 0xFFC00000u)); }
+// A compiler that knew both operands would write min() and max(), which lose a NaN. gnomon_kept would not hide an operand
+// that is kept already, since two minima of integers become one; gnomon_apart is another one.
+float gnomon_min(float a, float b) { return gnomon_select(a < b, a, gnomon_apart(b)); }
+float gnomon_max(float a, float b) { return gnomon_select(b < a, a, gnomon_apart(b)); }
+float gnomon_product(float a, float b) { return gnomon_kept(a * b); }
+float gnomon_sum(float a, float b) { return gnomon_kept(a + b); }
+float gnomon_difference(float a, float b) { return gnomon_kept(a - b); }
+// By integers, so that a NaN becomes 0 where a compiler assumes that there is none.
+float gnomon_saturate(float x)
+{
+    int bits = floatBitsToInt(x);
+    return gnomon_select(bits > 0x7F800000, 0.0, intBitsToFloat(min(max(bits, 0), 0x3F800000)));
+}
+// a without the low half of its significand.
+float gnomon_high_part(float a) { return uintBitsToFloat(floatBitsToUint(a) & 0xFFFFF000u); }
+// The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
+float gnomon_power_of_two(float n) { return uintBitsToFloat((floatBitsToUint(n + 12582912.0) << 23u) + 0x3F800000u); }
+
+#endif
+
+// numerics/round.h ----------------------------------------------------------------------------------------------------
+// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
+// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
+#ifndef GNOMON_NUMERICS_ROUND_H
+#define GNOMON_NUMERICS_ROUND_H
+
+/// The whole number nearest to x, ties to even.
+/// Domain: |x| <= 2^22 in float, 2^51 in double.
+/// NaN: stays NaN.
+float nearest_integer(float x)
+{
+    float rounder = -12582912.0;
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
+}
+
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+float nearest_natural(float x)
+{
+    float rounder = 8388608.0;
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
+#endif
+
+// numerics/select.h ---------------------------------------------------------------------------------------------------
+// Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
+#ifndef GNOMON_NUMERICS_SELECT_H
+#define GNOMON_NUMERICS_SELECT_H
+
+/// x clamped to [low, high].
+/// NaN: stays NaN, so that the last step of a kernel can answer it.
+float clamp_or_nan(float x, float low, float high) { return gnomon_min(high, gnomon_max(low, x)); }
+
+/// x clamped to [low, high].
+/// NaN: high.
+float clamp_or_high(float x, float low, float high) { return gnomon_max(low, gnomon_min(x, high)); }
+
+/// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
+/// NaN: 0, lit.
+float saturate_or_zero(float x) { return gnomon_saturate(x); }
+
+#endif
+
+// numerics/exp.h ------------------------------------------------------------------------------------------------------
+// Exponential function and natural logarithm with the same bits in every language.
+//
+// The argument is reduced by a power of two (Cody & Waite 1980). ln 2 has two parts, the first of 10 bits, so that its
+// multiples are exact. A minimax polynomial approximates the function on the reduced range: a short one for float, a
+// long one for double. tests/derivations/minimax.cpp prints the coefficients of both.
+#ifndef GNOMON_NUMERICS_EXP_H
+#define GNOMON_NUMERICS_EXP_H
+
+const float gnomon_exp_log2_e = 1.4426950408889634;
+const float gnomon_exp_ln2_low = -2.1219444005469058e-4;
+const float gnomon_exp_sqrt_2 = 1.4142135623730951;
+const float gnomon_exp_sqrt_half = 0.70710678118654752;
+
+// exp x = 1 + x + x^2 p(x), |x| <= ln 2 / 2: relative error 2^-28.0 and 2^-57.4, coefficients rounded.
+const float gnomon_exp_float_0 = 0.49999993561656014;
+const float gnomon_exp_float_1 = 0.16666518908321371;
+const float gnomon_exp_float_2 = 0.041668318723256166;
+const float gnomon_exp_float_3 = 0.0083689258101569408;
+const float gnomon_exp_float_4 = 0.00138210541669496;
+
+// 2 artanh y = 2 y + y^3 p(y^2), |y| <= (sqrt 2 - 1) / (sqrt 2 + 1): relative error 2^-30.2 and 2^-59.3.
+const float gnomon_log_float_0 = 0.66666776085218282;
+const float gnomon_log_float_1 = 0.39977574040563962;
+const float gnomon_log_float_2 = 0.29870936689734456;
+
+/// e^x, always a finite, normal number.
+/// Domain: [-87, 88] in float, [-708, 709] in double; x is clamped.
+/// NaN: stays NaN.
+/// Error: 1 ulp in float, 1.2 ulp in double, where subtracting up to 1023 ln 2 from x costs 3 2^-56 of the result,
+/// nearly 0.4 ulp.
+/// Source: Cody & Waite 1980
+float polynomial_exp(float x)
+{
+    float low = -87.0;
+    float high = 88.0;
+    x = clamp_or_nan(x, low, high);
+    float n = nearest_integer(x * gnomon_exp_log2_e);
+    float r = gnomon_difference(x, n * 0.693359375) - n * gnomon_exp_ln2_low;
+    float p = gnomon_exp_float_0 + r *
+              (gnomon_exp_float_1 + r * (gnomon_exp_float_2 + r * (gnomon_exp_float_3 + r * gnomon_exp_float_4)));
+    return (1.0 + (r + r * r * p)) * gnomon_power_of_two(n);
+}
+
+/// The number significand 2^exponent.
+struct gnomon_scaled_number { float significand, exponent; };
+
+/// s with a factor of 2^k moved from the significand to the exponent if the significand is at least 2^k, with a factor
+/// of 2^-k if it is at most 2^-k.
+gnomon_scaled_number gnomon_scaled_number_step(gnomon_scaled_number s, float k)
+{
+    float up = gnomon_power_of_two(k);
+    float down = gnomon_power_of_two(-k);
+    bool large = up <= s.significand;
+    bool tiny = s.significand <= down;
+    gnomon_scaled_number r;
+    r.significand = gnomon_select(large, s.significand * down, gnomon_select(tiny, s.significand * up, s.significand));
+    r.exponent = gnomon_select(large, s.exponent + k, gnomon_select(tiny, s.exponent - k, s.exponent));
+    return r;
+}
+
+/// The natural logarithm of x.
+/// Domain: [2^-126, 2^127] in float, [2^-1022, 2^1023] in double; x is clamped, so that 0 and negative numbers give the
+/// value at the lower end.
+/// NaN: stays NaN.
+/// Error: 0.9 ulp in float and in double.
+/// Source: Cody & Waite 1980
+float polynomial_log(float x)
+{
+    gnomon_scaled_number s;
+    s.exponent = 0.0;
+    s.significand = clamp_or_nan(x, gnomon_power_of_two(-126.0), gnomon_power_of_two(127.0));
+    s = gnomon_scaled_number_step(s, 64.0);
+    s = gnomon_scaled_number_step(s, 32.0);
+    s = gnomon_scaled_number_step(s, 16.0);
+    s = gnomon_scaled_number_step(s, 8.0);
+    s = gnomon_scaled_number_step(s, 4.0);
+    s = gnomon_scaled_number_step(s, 2.0);
+    s = gnomon_scaled_number_step(s, 1.0);
+    bool large = gnomon_exp_sqrt_2 < s.significand;
+    bool tiny = s.significand < gnomon_exp_sqrt_half;
+    float m = gnomon_select(large, s.significand * 0.5, gnomon_select(tiny, s.significand * 2.0, s.significand));
+    float n = gnomon_select(large, s.exponent + 1.0, gnomon_select(tiny, s.exponent - 1.0, s.exponent));
+
+    // As in fdlibm, with exact f and y = f / (2 + f):
+    // log(1 + f) = 2 artanh y = f - (f^2 / 2 - y (f^2 / 2 + y^2 p(y^2))).
+    float f = m - 1.0;
+    float y = f / (2.0 + f);
+    float z = y * y;
+    float p = gnomon_log_float_0 + z * (gnomon_log_float_1 + z * gnomon_log_float_2);
+    float square = 0.5 * f * f;
+    float rest = y * (square + z * p) + n * gnomon_exp_ln2_low;
+    return n * 0.693359375 - ((square - rest) - f);
+}
+
+#endif
+
+// numerics/texel_filter.h ---------------------------------------------------------------------------------------------
+// Texels of a shadow map along one axis: the texel that holds a position, and the weights of the K + 1 texels that K
+// adjacent bilinear look-ups read, which are those of a filter K texels wide with linear ends.
+#ifndef GNOMON_NUMERICS_TEXEL_FILTER_H
+#define GNOMON_NUMERICS_TEXEL_FILTER_H
+
+const float gnomon_texel_limit = 65536.0; // no map is larger: all positions beyond share one texel
+
+/// The texel that holds position x: the largest whole number not above x, clamped to [-65536, 65536].
+/// NaN: 65536.
+float texel_below(float x)
+{
+    float limit = gnomon_texel_limit;
+    float inside = gnomon_max(gnomon_min(x, limit), -1.0 * limit);
+    float whole = nearest_integer(inside);
+    return whole - gnomon_select(inside < whole, 1.0, 0.0);
+}
+
+/// The weight of texel i, 0 to K, in the mean of K = look_ups adjacent bilinear look-ups along one axis. u is the
+/// distance of the first look-up from the centre of texel 0. In [0, 1].
+/// Domain: u in [0, 1], clamped; look_ups at least 1. Elsewhere a number in [0, 1].
+/// NaN: u counts as 0; 0 for look_ups.
+/// Error: the K + 1 weights sum to 1 within K + 2 roundings.
+float texel_weight(float u, float i, float look_ups)
+{
+    float share = saturate_or_zero(u);
+    share = gnomon_select(i < 1.0, 1.0 - share, gnomon_select(i < look_ups, 1.0, share));
+    return saturate_or_zero(share / look_ups);
+}
+
+#endif
+
+// soft/mip_filter.h ---------------------------------------------------------------------------------------------------
+// Filters of any width from a mip chain, round ones in place of the boxes of summed-area tables: a cubic B-spline over
+// the texels of a level, by four bilinear look-ups (Sigg & Hadwiger 2005), mixed between two levels.
+//
+// The texels of level l are means over boxes of s = 2^l texels of the map, so that the spline at that level has the
+// variance (1/3 + 1/12) s^2 along each axis. A box of a width w has w^2 / 12. Levels below and above mix so that both
+// variances are equal:
+//     w^2 / 12 = 5/12 4^l (1 + 3 f),    level = l + f,    f in [0, 1)
+// Weights are not negative and sum to 1, so filtered moments are moments.
+#ifndef GNOMON_SOFT_MIP_FILTER_H
+#define GNOMON_SOFT_MIP_FILTER_H
+
+const float mip_filter_per_octave = 0.72134752044448170; // 1 / ln 4
+
+/// The level of a mip chain whose cubic B-spline has the variance of a box of this width in texels of the map; its
+/// fraction is the share of the level above. At least 0, the level for widths up to sqrt 5.
+/// Domain: any width, limited to [sqrt 5, 65536].
+/// NaN: 0.
+float mip_filter_level(float width)
+{
+    float w = gnomon_max(gnomon_min(gnomon_texel_limit, width), 1.0);
+    float squares = gnomon_max(0.2 * (w * w), 1.0);
+    float whole = texel_below(polynomial_log(squares) * mip_filter_per_octave);
+    float power = gnomon_power_of_two(whole);
+    float share = (squares / (power * power) - 1.0) / 3.0;
+    return whole + saturate_or_zero(share);
+}
+
+/// Two bilinear look-ups along one axis that make a cubic B-spline: at the distances first and second from the centre
+/// of the texel, the second with a weight and the first with the rest. first is in [-1, 0], second in [1, 2].
+struct mip_filter_taps { float first, second, weight; };
+
+/// The look-ups for a place at a share of the way from the centre of its texel to the next.
+/// Domain: share in [0, 1], clamped.
+/// NaN: as 0.
+/// Source: Sigg & Hadwiger 2005
+mip_filter_taps mip_filter_taps_at(float share)
+{
+    float u = saturate_or_zero(share);
+    float v = 1.0 - u;
+    // Six times the weights of the four texels.
+    float w0 = v * v * v;
+    float w1 = (3.0 * u - 6.0) * (u * u) + 4.0;
+    float w2 = (3.0 * v - 6.0) * (v * v) + 4.0;
+    float w3 = u * u * u;
+    mip_filter_taps r;
+    r.first = w1 / (w0 + w1) - 1.0;
+    r.second = w3 / (w2 + w3) + 1.0;
+    r.weight = (w2 + w3) / 6.0;
+    return r;
+}
+
+#endif
+
+#endif
