@@ -120,13 +120,14 @@ TEST_CASE("a crash in an importer ends the program with one line and exit code 2
     CHECK(WEXITSTATUS(status) == 2);
 }
 
-TEST_CASE("a model's stage has ground below, and camera and light see the model")
+TEST_CASE("a model's stage has ground below and an area light, and camera and light see the model")
 {
     const temporary_folder folder;
     const scene model = load_text(folder, "tent.obj", tent);
     const stage all = model_stage(model, 1.5);
     REQUIRE(all.world.meshes.size() == 2);
     CHECK(all.world.meshes.back().positions[0].y == 0);
+    CHECK(all.area().size.x > 0);
     for (const glm::vec3& p : model.meshes[0].positions) {
         CHECK(within_view(project(all.eye, p)));
         CHECK(within_view(project(all.light, p)));

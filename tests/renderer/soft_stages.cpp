@@ -20,13 +20,15 @@ using namespace gnomon::renderer;
 
 namespace {
 
-const std::array stages{models_stage, long_range_stage, pillar_stage, grazing_stage};
+const std::array stages{models_stage, lamp_stage, long_range_stage, pillar_stage, grazing_stage};
 
 // The width in texels of the penumbra that a caster at the near plane casts on a receiver at the far plane.
 double largest_penumbra(const stage& of, int resolution)
 {
-    const double range = of.light.far_distance - of.light.near_distance;
-    return range * 2 * std::tan(0.5 * of.light_size.x) * resolution / (2 * of.light.half_extent.x);
+    const camera& map = of.light;
+    const double texels = resolution / (2 * map.half_extent.x);
+    if (map.perspective()) return of.light_size.x * (1 / map.near_distance - 1 / map.far_distance) * texels;
+    return (map.far_distance - map.near_distance) * 2 * std::tan(0.5 * of.light_size.x) * texels;
 }
 
 // The names of the meshes in the square of 27 texels around a point.

@@ -91,6 +91,18 @@ stage models_stage(double aspect)
     return result;
 }
 
+stage lamp_stage(double aspect)
+{
+    stage result = models_stage(aspect);
+    result.world.name = "lamp";
+    const glm::dvec3 lamp(-1.6, 3.2, 2.0);
+    // The casters and their shadows, as far as the lamp's cone reaches.
+    const bounds lit{{-2, 0, -2.2f}, {2.4f, 1.9f, 1.1f}};
+    result.light = perspective_view_from(lamp, {0.15, 0.42, -0.1}, lit.corners(), glm::radians(46.0), 1);
+    result.light_size = glm::dvec2(0.12);
+    return result;
+}
+
 stage long_range_stage(double aspect)
 {
     mesh gantry = painted("gantry", {0.36f, 0.37f, 0.39f}), signs = painted("signs", {0.02f, 0.13f, 0.42f});

@@ -8,6 +8,9 @@ namespace gnomon::renderer {
 // Figure 8: two models over a plane, one of a thick knot, one a chair of thin parts.
 stage models_stage(double aspect);
 
+// The same under a lamp, a local light.
+stage lamp_stage(double aspect);
+
 // Figure 9: signs and cables high above the ground cast shadows over a long range, a bench casts them over a short one.
 stage long_range_stage(double aspect);
 
