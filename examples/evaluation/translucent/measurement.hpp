@@ -21,9 +21,9 @@ struct showing {
     evaluation::parameters parameters() const;
 };
 inline constexpr std::array<showing, 4> showings{{{"lower", "lower bound", bound::lower, 1},
-                                                  {"divided", "lower bound, divided", bound::lower, 0.95f},
+                                                  {"divided", "lower bound, divided by 95%", bound::lower, 0.95f},
                                                   {"middle", "middle in smoke", bound::middle, 1},
-                                                  {"both", "middle in smoke, divided", bound::middle, 0.95f}}};
+                                                  {"both", "middle in smoke, divided by 95%", bound::middle, 0.95f}}};
 
 // The colours of light that a method knows.
 std::span<const colour> colours_of(const translucent_method& m);

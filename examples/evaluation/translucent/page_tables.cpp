@@ -28,8 +28,8 @@ table_block mending_table(const translucent_comparison& all)
         .title = "What mends the leaks",
         .text =
             "Errors of visibility in thousandths against <i>filtered</i>, beside those of the paper's method. The "
-            "library's formats allow for the roundings of all blends, so that they never darken a lit surface, which "
-            "costs leaks where there are few bits. The best of each column is marked.",
+            "library's formats allow for the roundings of all blends, so that none darkens a surface by more than it "
+            "states, which costs leaks where there are few bits. The best of each column is marked.",
         .columns = {{.key = "method", .label = "method"}},
         .rows = {}};
     const auto column_of = [&](const char* key, const char* label, const char* hint) {
