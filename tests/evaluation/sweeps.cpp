@@ -2,6 +2,7 @@
 // layer of each sweep, SWEEP LAYER ROW..., a row for each value of y: runs of points that pass (.) and fail (#) along x,
 // such as .20#12. With GNOMON_WRITE_SWEEPS=1 the test writes the file anew.
 #include "evaluation/atlas/fog.hpp"
+#include "evaluation/atlas/rectangles.hpp"
 #include "evaluation/atlas/region.hpp"
 #include "evaluation/atlas/sweep.hpp"
 #include "support/documented.hpp"
@@ -158,6 +159,9 @@ TEST_CASE("the exact intensity of a region is the weight in front of the receive
     CHECK(exact_intensity(region, -0.5f) == 0); // a surface does not shadow itself
     CHECK(exact_intensity(region, 0.f) == 0.25);
     CHECK(exact_intensity(region, 1.f) == 1);
+    CHECK(exact_blocker(region, -0.5f) == -0.5);
+    CHECK(exact_blocker(region, 0.f) == -0.5);
+    CHECK(exact_blocker(region, 1.f) == 0.125);
 }
 
 TEST_CASE("the exact intensity of fog is what the layers before the receiver take of the light")

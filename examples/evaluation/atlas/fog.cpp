@@ -47,13 +47,13 @@ template <storage_format Format> fog_map as_blended(const char* label)
             }};
 }
 
-// The opaque surface is in a map of its own.
-intensity_at_depth absorbance_kept(std::span<const pane> panes, float back, float)
+template <absorbance_format Format> fog_map as_absorbance(const char* label)
 {
-    const absorbance4<float> sum = absorbance_of_panes(panes);
-    return [=, h = absorbance_factor(sum, panes.size())](float z_f) {
-        return back < z_f ? 1 : 1 - absorbance_transmittance(sum.b0, hamburger4_lower(h, z_f));
-    };
+    return {std::string(Format::id), label, [](std::span<const pane> panes, float back, float) -> intensity_at_depth {
+                return [=, c = accumulated<Format>(panes), additions = float(panes.size())](float z_f) {
+                    return back < z_f ? 1 : 1 - Format::transmittance(c, additions, 1, z_f);
+                };
+            }};
 }
 
 } // namespace
@@ -77,16 +77,11 @@ filterable_method::channels blended(const filterable_method& m, std::span<const 
     return below;
 }
 
-absorbance4<float> absorbance_of_panes(std::span<const pane> panes)
+std::vector<translucent_fragment> fragments_of(std::span<const pane> panes)
 {
-    absorbance4<float> sum{};
-    for (const pane& p : panes) sum = absorbance4_add(sum, absorbance4_of_fragment(p.depth, p.opacity));
-    return sum;
-}
-
-hankel4<float> absorbance_factor(const absorbance4<float>& sum, std::size_t count)
-{
-    return absorbance4_factor(sum, bias_weight_of_roundings(float(stored4_float_weight), float(count)));
+    std::vector<translucent_fragment> result;
+    for (const pane& p : panes) result.push_back({0, 0, p.depth, p.opacity});
+    return result;
 }
 
 std::vector<fog_map> fog_maps()
@@ -101,7 +96,8 @@ std::vector<fog_map> fog_maps()
     result.push_back(as_blended<moments6_unorm10>("MSM6 60 bit, for blends"));
     result.push_back(as_blended<moments6_unorm16>("MSM6 96 bit, for blends"));
     result.push_back(as_blended<moments6_float>("MSM6 192 bit, for blends"));
-    result.push_back({"absorbance4_float", "absorbance, 160 bit", absorbance_kept});
+    result.push_back(as_absorbance<absorbance4_half>("absorbance, 80 bit"));
+    result.push_back(as_absorbance<absorbance4_float>("absorbance, 160 bit"));
     return result;
 }
 

@@ -4,10 +4,8 @@
 #include "evaluation/core/method.hpp"
 #include "sweep.hpp"
 
-#include <gnomon/moments/absorbance.h>
 #include <gnomon/passes/blend.hpp>
 
-#include <cstddef>
 #include <functional>
 #include <span>
 #include <string>
@@ -35,19 +33,24 @@ struct fog_map {
 // Channels of the panes blended one by one over the opaque surface, every result stored.
 filterable_method::channels blended(const filterable_method& m, std::span<const pane> panes, float back);
 
-// The same by the pass of the library, on a map of one texel.
+// The fragments of panes in a map of one texel.
+std::vector<translucent_fragment> fragments_of(std::span<const pane> panes);
+
+// Channels of the panes blended by the library's pass, in a map of one texel.
 template <storage_format Format> format_channels<Format> blended(std::span<const pane> panes, float back)
 {
     format_texel<Format> texel = Format::encode(Format::from_depth(back));
-    std::vector<translucent_fragment> fragments;
-    for (const pane& p : panes) fragments.push_back({0, 0, p.depth, p.opacity});
-    blend<Format>({{&texel, 1}, 1, 1}, fragments);
+    blend<Format>({{&texel, 1}, 1, 1}, fragments_of(panes));
     return Format::decode(texel);
 }
 
-// Sums of floats over the panes, without the opaque surface, and their matrix, which allows for as many roundings.
-absorbance4<float> absorbance_of_panes(std::span<const pane> panes);
-hankel4<float> absorbance_factor(const absorbance4<float>& sum, std::size_t count);
+// Channels of the panes' absorbance. The opaque surface is in a map of its own.
+template <absorbance_format Format> format_channels<Format> accumulated(std::span<const pane> panes)
+{
+    format_texel<Format> texel = Format::clear();
+    accumulate<Format>({{&texel, 1}, 1, 1}, fragments_of(panes));
+    return Format::decode(texel);
+}
 
 // Every filterable method as it is, every format of moments by its function for blended maps, and sums of absorbance.
 std::vector<fog_map> fog_maps();

@@ -3,7 +3,7 @@
 #include "fog.hpp"
 #include "sweep.hpp"
 
-#include <gnomon/moments/absorbance.h>
+#include <gnomon/moments/bounds.h>
 #include <gnomon/storage/formats.hpp>
 
 #include <cmath>
@@ -26,36 +26,31 @@ std::vector<pane> fog(double opacity)
     return result;
 }
 
-// Overestimation is 1 for the lower bound, 1/2 for the middle.
-template <class Bounds> intensity_at_depth bounded(Bounds bounds, float overestimation)
-{
-    return [=](float z_f) { return bounds_intensity(bounds(z_f), overestimation); };
-}
-
 template <storage_format Format> hamburger_bounds<float> bounds_of(const auto& factor, float z_f)
 {
     if constexpr (channel_count<Format> == 4) return hamburger4_bounds(factor, z_f);
     else return hamburger6_bounds(factor, z_f);
 }
 
+// Overestimation is 1 for the lower bound, 1/2 for the middle.
 template <storage_format Format> intensity_at_depth moments_of(const std::vector<pane>& panes, float overestimation)
 {
     const auto factor =
         Format::blended_factor(blended<Format>(panes, back), blend_roundings_of_layers(panes[0].opacity, float(count)));
-    return bounded([=](float z_f) { return bounds_of<Format>(factor, z_f); }, overestimation);
+    return [=](float z_f) { return bounds_intensity(bounds_of<Format>(factor, z_f), overestimation); };
+}
+
+template <absorbance_format Format>
+intensity_at_depth absorbance_of(const std::vector<pane>& panes, float overestimation)
+{
+    return [=, c = accumulated<Format>(panes)](float z_f) {
+        return 1 - Format::transmittance(c, float(count), overestimation, z_f);
+    };
 }
 
 intensity_at_depth variance_of(const std::vector<pane>& panes, float)
 {
     return [c = blended<variance_unorm16>(panes, back)](float z_f) { return variance_unorm16::intensity(c, z_f); };
-}
-
-intensity_at_depth absorbance_of(const std::vector<pane>& panes, float overestimation)
-{
-    const absorbance4<float> sum = absorbance_of_panes(panes);
-    const auto share =
-        bounded([h = absorbance_factor(sum, count)](float z_f) { return hamburger4_bounds(h, z_f); }, overestimation);
-    return [=](float z_f) { return 1 - absorbance_transmittance(sum.b0, share(z_f)); };
 }
 
 sweep_layer shown(const char* id, const char* label, float overestimation,
@@ -75,8 +70,8 @@ std::vector<sweep_layer> layers()
             shown("moments4_middle", "MSM 64 bit, middle of the bounds", 0.5f, moments_of<moments4_unorm16>),
             shown("moments6_lower", "MSM6 96 bit, lower bound", 1, moments_of<moments6_unorm16>),
             shown("moments6_middle", "MSM6 96 bit, middle of the bounds", 0.5f, moments_of<moments6_unorm16>),
-            shown("absorbance4_lower", "absorbance, lower bound", 1, absorbance_of),
-            shown("absorbance4_middle", "absorbance, middle of the bounds", 0.5f, absorbance_of)};
+            shown("absorbance4_lower", "absorbance, lower bound", 1, absorbance_of<absorbance4_float>),
+            shown("absorbance4_middle", "absorbance, middle of the bounds", 0.5f, absorbance_of<absorbance4_float>)};
 }
 
 const registered<sweep> entry{sweep{
