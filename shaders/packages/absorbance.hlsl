@@ -1055,7 +1055,7 @@ hankel4 absorbance4_factor(absorbance4 b, float alpha)
 float absorbance_transmittance(float b0, float intensity)
 {
     float t = polynomial_exp(-1.0 * (gnomon_max(0.0, b0) * saturate_or_zero(intensity)));
-    return gnomon_select(t < 1.0, t, 1.0);
+    return gnomon_min(t, 1.0);
 }
 
 /// The share of the absorbance in front of z_f by the bounds on it, less what the bias of weight alpha has put there.

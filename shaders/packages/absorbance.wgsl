@@ -978,7 +978,7 @@ fn absorbance4_factor(b: absorbance4_, alpha: f32) -> hankel4_
 fn absorbance_transmittance(b0: f32, intensity: f32) -> f32
 {
     let t = polynomial_exp(-1.0 * (gnomon_max(0.0, b0) * saturate_or_zero(intensity)));
-    return gnomon_select(t < 1.0, t, 1.0);
+    return gnomon_min(t, 1.0);
 }
 
 /// The share of the absorbance in front of z_f by the bounds on it, less what the bias of weight alpha has put there.

@@ -4172,7 +4172,7 @@ template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real absorbance_transmittance(Real b0, Real intensity)
 {
     Real t = polynomial_exp(Real(-1) * (gnomon_max(Real(0), b0) * saturate_or_zero(intensity)));
-    return gnomon_select(t < Real(1), t, Real(1));
+    return gnomon_min(t, Real(1));
 }
 
 /// The share of the absorbance in front of z_f by the bounds on it, less what the bias of weight alpha has put there.

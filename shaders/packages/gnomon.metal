@@ -3464,7 +3464,7 @@ inline hankel4 absorbance4_factor(absorbance4 b, float alpha)
 inline float absorbance_transmittance(float b0, float intensity)
 {
     float t = polynomial_exp(-1.0f * (gnomon_max(0.0f, b0) * saturate_or_zero(intensity)));
-    return gnomon_select(t < 1.0f, t, 1.0f);
+    return gnomon_min(t, 1.0f);
 }
 
 /// The share of the absorbance in front of z_f by the bounds on it, less what the bias of weight alpha has put there.

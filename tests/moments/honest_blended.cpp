@@ -166,6 +166,19 @@ TEST_CASE_TEMPLATE("the climber finds that intensities for few roundings darken 
     CHECK(darkness > 0.05);
 }
 
+// Channels that blends leave behind are too far, not too near, so the minimum variance for three roundings suffices.
+TEST_CASE("variance darkens no lit surface by more than 1% after blends")
+{
+    using format = variance_unorm16;
+    const summit top = climb(blended_dimensions, 5 * evaluations, 5, [](const std::vector<double>& place) {
+        const blended_sight s = sight_of_stacks(place);
+        if (s.stacks[0].transmittance(s.receiver) < 1) return -1.0; // no bound within its roundings elsewhere
+        return double(format::intensity(seen<format>(s, false), float(s.receiver)));
+    });
+    std::printf("%s: darkness %.3g\n", std::string(format::id).c_str(), top.score);
+    CHECK(top.score <= double(format::darkening));
+}
+
 TEST_CASE("without blends the intensities are those of one rounding")
 {
     bit_source bits(4);

@@ -87,7 +87,7 @@ GNOMON_KERNEL GNOMON_T(hankel4) absorbance4_factor(GNOMON_T(absorbance4) b, GNOM
 GNOMON_KERNEL Real absorbance_transmittance(Real b0, Real intensity)
 {
     Real t = polynomial_exp(Real(-1) * (gnomon_max(Real(0), b0) * saturate_or_zero(intensity)));
-    return gnomon_select(t < Real(1), t, Real(1));
+    return gnomon_min(t, Real(1));
 }
 
 /// The share of the absorbance in front of z_f by the bounds on it, less what the bias of weight alpha has put there.
