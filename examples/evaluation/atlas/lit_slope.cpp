@@ -26,7 +26,7 @@ std::vector<sweep_layer> layers()
             return double(m.intensity(filtered(m, plane(slope, half_width)), biased_receiver(slope)));
         });
     for (const method* m : methods_in_order())
-        if (m->family == "pcf")
+        if (m->id == "pcf")
             result.insert(result.begin(), {m->id, m->label, [](double slope, double half_width) {
                                                return exact_intensity(plane(slope, half_width), biased_receiver(slope));
                                            }});
