@@ -72,16 +72,19 @@ std::array<double, channel_count<Table>> sums_between(const sums<Table>& low, co
     return r;
 }
 
-/// The mean channels, from the sums over a rectangle of that area.
+/// The number of a line of the grid, at most 65536. Signed integers are the fastest to convert to.
+inline std::size_t line_of(float line) { return std::size_t(std::int32_t(line)); }
+
+/// The mean channels, from the sums over a rectangle of that area in a table of that scale; the border for no area. As
+/// Table::mean, but for one rounding of a float.
 template <summed_table Table>
-format_channels<Table> mean_of(const std::array<double, channel_count<Table>>& sum, double area,
-                               std::size_t most_texels)
+format_channels<Table> mean_of(const std::array<double, channel_count<Table>>& sum, double area, double scale)
 {
-    const auto mean = gnomon_bit_cast<std::array<double, channel_count<Table>>>(
-        Table::mean(gnomon_bit_cast<format_channels<Table, double>>(sum), area, table_scale(most_texels)));
-    std::array<float, channel_count<Table>> r{};
-    for (std::size_t k = 0; k < r.size(); ++k) r[k] = float(mean[k]);
-    return gnomon_bit_cast<format_channels<Table>>(r);
+    if (!(area > 0)) return Table::from_depth(1.0f);
+    const double share = 1 / (area * scale);
+    std::array<float, channel_count<Table>> mean{};
+    for (std::size_t k = 0; k < mean.size(); ++k) mean[k] = float((std::min)(share * sum[k], 1.0));
+    return gnomon_bit_cast<format_channels<Table>>(mean);
 }
 
 } // namespace detail
@@ -151,37 +154,37 @@ template <summed_table Table> void summed_area_along_y(map_view<format_texel<Tab
         for (std::size_t x = 0; x < table.width; ++x) detail::add_to<Table>(table(x, y), table(x, y - 1));
 }
 
-/// The mean channels of a table over the texels that a rectangle touches: clipped to the map, and shrunk where these are more
-/// than most_texels. Reads four texels. The border where nothing is left.
+/// The mean channels of a table of that scale over the texels between lines of the grid, a rectangle by summed_area_grow
+/// within the map. Reads four texels. The border for no texels.
 template <summed_table Table>
-format_channels<Table> grid_average(map_view<const format_texel<Table>> table, std::size_t most_texels,
-                                    const summed_area_rectangle<float>& rectangle)
+format_channels<Table> grid_mean(map_view<const format_texel<Table>> table, double scale,
+                                 const summed_area_rectangle<float>& lines)
 {
-    const summed_area_rectangle<float> r =
-        summed_area_grow(summed_area_clip(rectangle, float(table.width), float(table.height), float(most_texels)));
-    const auto x0 = std::size_t(r.x0), y0 = std::size_t(r.y0), x1 = std::size_t(r.x1), y1 = std::size_t(r.y1);
+    const std::size_t x0 = detail::line_of(lines.x0), y0 = detail::line_of(lines.y0);
+    const std::size_t x1 = detail::line_of(lines.x1), y1 = detail::line_of(lines.y1);
     const auto sum = detail::sums_between<Table>(
         detail::sums_before<Table>(table, x0, y0), detail::sums_before<Table>(table, x0, y1),
         detail::sums_before<Table>(table, x1, y0), detail::sums_before<Table>(table, x1, y1));
-    return detail::mean_of<Table>(sum, double(r.x1 - r.x0) * double(r.y1 - r.y0), most_texels);
+    return detail::mean_of<Table>(sum, double(lines.x1 - lines.x0) * double(lines.y1 - lines.y0), scale);
 }
 
-/// The mean channels of a table over a rectangle: clipped to the map, and shrunk where it touches more than most_texels.
-/// Reads sixteen texels. The border where nothing is left.
+/// The mean channels of a table of that scale over a rectangle within the map, of which a texel counts by the area that the
+/// rectangle has of it: parts along x and along y, by summed_area_split. Reads sixteen texels. The border for no area.
 template <summed_table Table>
-format_channels<Table> rectangle_average(map_view<const format_texel<Table>> table, std::size_t most_texels,
-                                         const summed_area_rectangle<float>& rectangle)
+format_channels<Table> rectangle_mean(map_view<const format_texel<Table>> table, double scale,
+                                      const summed_area_parts<float>& a, const summed_area_parts<float>& b)
 {
-    const summed_area_rectangle<float> r =
-        summed_area_clip(rectangle, float(table.width), float(table.height), float(most_texels));
-    const summed_area_parts<float> a = summed_area_split(r.x0, r.x1), b = summed_area_split(r.y0, r.y1);
-    const std::array columns{std::size_t(a.line0), std::size_t(a.line1), std::size_t(a.line2), std::size_t(a.line3)};
-    const std::array rows{std::size_t(b.line0), std::size_t(b.line1), std::size_t(b.line2), std::size_t(b.line3)};
+    const std::array columns{detail::line_of(a.line0), detail::line_of(a.line1), detail::line_of(a.line2),
+                             detail::line_of(a.line3)};
+    const std::array rows{detail::line_of(b.line0), detail::line_of(b.line1), detail::line_of(b.line2),
+                          detail::line_of(b.line3)};
     const std::array across{double(a.width0), double(a.width1), double(a.width2)};
     const std::array along{double(b.width0), double(b.width1), double(b.width2)};
-    std::array<std::array<format_texel<Table>, 4>, 4> corners;
+    const bool left = columns[0] > 0, above = rows[0] > 0; // of all lines only the first may be an edge
+    std::array<std::array<format_texel<Table>, 4>, 4> corners{};
     for (std::size_t j = 0; j < 4; ++j)
-        for (std::size_t i = 0; i < 4; ++i) corners[j][i] = detail::sums_before<Table>(table, columns[i], rows[j]);
+        for (std::size_t i = 0; i < 4; ++i)
+            if ((i > 0 || left) && (j > 0 || above)) corners[j][i] = table(columns[i] - 1, rows[j] - 1);
     std::array<double, channel_count<Table>> sum{};
     for (std::size_t j = 0; j < 3; ++j)
         for (std::size_t i = 0; i < 3; ++i) {
@@ -189,7 +192,30 @@ format_channels<Table> rectangle_average(map_view<const format_texel<Table>> tab
                 detail::sums_between<Table>(corners[j][i], corners[j + 1][i], corners[j][i + 1], corners[j + 1][i + 1]);
             for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += across[i] * along[j] * part[k];
         }
-    return detail::mean_of<Table>(sum, double(summed_area_width(a)) * double(summed_area_width(b)), most_texels);
+    return detail::mean_of<Table>(sum, double(summed_area_width(a)) * double(summed_area_width(b)), scale);
+}
+
+/// The mean channels of a table over the texels that a rectangle touches: clipped to the map, and shrunk where these are more
+/// than most_texels. The border where nothing is left.
+template <summed_table Table>
+format_channels<Table> grid_average(map_view<const format_texel<Table>> table, std::size_t most_texels,
+                                    const summed_area_rectangle<float>& rectangle)
+{
+    return grid_mean<Table>(
+        table, detail::table_scale(most_texels),
+        summed_area_grow(summed_area_clip(rectangle, float(table.width), float(table.height), float(most_texels))));
+}
+
+/// The mean channels of a table over a rectangle: clipped to the map, and shrunk where it touches more than most_texels. The
+/// border where nothing is left.
+template <summed_table Table>
+format_channels<Table> rectangle_average(map_view<const format_texel<Table>> table, std::size_t most_texels,
+                                         const summed_area_rectangle<float>& rectangle)
+{
+    const summed_area_rectangle<float> r =
+        summed_area_clip(rectangle, float(table.width), float(table.height), float(most_texels));
+    return rectangle_mean<Table>(table, detail::table_scale(most_texels), summed_area_split(r.x0, r.x1),
+                                 summed_area_split(r.y0, r.y1));
 }
 
 GNOMON_NAMESPACE_END

@@ -103,6 +103,15 @@ GNOMON_DETAIL_KERNEL Real summed_area_above(Real x) { return Real(-1) * texel_be
 /// The begin and the end of a rectangle along one axis.
 GNOMON_STRUCT(summed_area_interval) { Real begin, end; };
 
+/// The interval from begin to end.
+GNOMON_DETAIL_KERNEL GNOMON_T(summed_area_interval) summed_area_interval_from(Real begin, Real end)
+{
+    GNOMON_T(summed_area_interval) r;
+    r.begin = begin;
+    r.end = end;
+    return r;
+}
+
 /// The interval from begin to end if texels <= most, else the one about the same centre that covers no more than most
 /// texels wherever it is.
 GNOMON_DETAIL_KERNEL GNOMON_T(summed_area_interval) summed_area_shrink(Real begin, Real end, Real texels, Real most)
@@ -136,16 +145,22 @@ GNOMON_KERNEL GNOMON_T(summed_area_rectangle) summed_area_clip(GNOMON_T(summed_a
     Real columns = summed_area_above(x1) - texel_below(x0);
     Real rows = summed_area_above(y1) - texel_below(y0);
     Real most = clamp_or_high(most_texels, Real(4), GNOMON_LITERAL(summed_area_most_texels));
-    Real share = gnomon_sqrt(gnomon_min(most / (columns * rows), Real(1)));
-    Real least_columns = gnomon_min(columns, Real(2));
-    Real least_rows = gnomon_min(rows, Real(2));
-    Real most_columns =
-        gnomon_min(gnomon_max(texel_below(share * columns + GNOMON_LITERAL(summed_area_slack)), least_columns),
-                   texel_below(most / least_rows));
-    Real most_rows = gnomon_min(gnomon_max(texel_below(share * rows + GNOMON_LITERAL(summed_area_slack)), least_rows),
-                                texel_below(most / most_columns));
-    summed_area_interval x = summed_area_shrink(x0, x1, columns, most_columns);
-    summed_area_interval y = summed_area_shrink(y0, y1, rows, most_rows);
+    GNOMON_MASK large = most < columns * rows;
+    summed_area_interval x = summed_area_interval_from(x0, x1);
+    summed_area_interval y = summed_area_interval_from(y0, y1);
+    if (gnomon_any(large)) {
+        Real share = gnomon_sqrt(gnomon_min(most / (columns * rows), Real(1)));
+        Real least_columns = gnomon_min(columns, Real(2));
+        Real least_rows = gnomon_min(rows, Real(2));
+        Real most_columns =
+            gnomon_min(gnomon_max(texel_below(share * columns + GNOMON_LITERAL(summed_area_slack)), least_columns),
+                       texel_below(most / least_rows));
+        Real most_rows =
+            gnomon_min(gnomon_max(texel_below(share * rows + GNOMON_LITERAL(summed_area_slack)), least_rows),
+                       texel_below(most / most_columns));
+        x = summed_area_shrink(x0, x1, columns, most_columns);
+        y = summed_area_shrink(y0, y1, rows, most_rows);
+    }
     GNOMON_MASK some = x0 < x1 && y0 < y1; // false for NaN
     GNOMON_T(summed_area_rectangle) r;
     r.x0 = gnomon_select(some, x.begin, Real(0));
