@@ -3,9 +3,10 @@
 //
 //     struct kernels {
 //         using table = moments4_summed;
-//         static auto region(channels, most_texels);      what both steps make of the mean channels of a rectangle
-//         static Real blocker(region, z_f);               the mean blocker depth
-//         static Real intensity(region, z_f);
+//         static auto region(channels, most_texels);            what a search makes of its mean channels
+//         static Real blocker(region, z_f);                     the mean blocker depth
+//         static Real occlusion(region, z_f);                   the shadow intensity of the search region
+//         static Real shadow(channels, most_texels, z_f);       of the filter region
 //     };
 //     const registered<summed_method<kernels, look_up_options{}>> entry{method_facts{...}};
 #pragma once
@@ -122,7 +123,7 @@ template <class Kernels, look_up_options how> class summed_map final : public so
         if (!how.skips_umbra && !how.skips_lit) return {};
         std::size_t umbra = 0, lit = 0;
         for (const soft_receiver& r : where) {
-            const float whole = Kernels::intensity(Kernels::region(search(r), light_.most_texels()), r.depth);
+            const float whole = Kernels::occlusion(Kernels::region(search(r), light_.most_texels()), r.depth);
             umbra += how.skips_umbra && whole > 1 - umbra_epsilon;
             lit += how.skips_lit && whole < umbra_epsilon;
         }
@@ -140,25 +141,37 @@ template <class Kernels, look_up_options how> class summed_map final : public so
         return gathered<soft_place, Real>([&](std::size_t lane) { return where[group * lanes_of<Real> + lane]; });
     }
 
-    // Means over the search region, and over the filter region unless the lane is done.
+    // Means over the search region, and over the filter region unless the lane is done. Lanes are fetched one by one.
     template <class Real> channels<Real> search(const soft_place<Real>& where) const
     {
-        const scattered<summed_area_rectangle, Real> r(light_.search_rectangle(where));
-        return gathered<channels, Real>([&](std::size_t i) { return grid_average<table>(map(), most_texels_, r[i]); });
+        const auto r = summed_area_grow(light_.clipped(light_.search_rectangle(where)));
+        return grid_mean(r);
     }
     template <class Real>
     channels<Real> filter(const soft_place<Real>& where, const soft_widths<Real>& widths, const Real& done) const
     {
-        const scattered<summed_area_rectangle, Real> rectangles(soft_light::filter_rectangle(where, widths));
-        const scattered<soft_place, Real> places(where);
-        const scattered<std::type_identity_t, Real> is_done(done);
-        return gathered<channels, Real>([&](std::size_t i) {
-            if (is_done[i] > 0) return table::from_depth(1.f);
-            if (how.dithers)
-                return grid_average<table>(map(), most_texels_, snapped(rectangles[i], dither_of(places[i])));
-            if (!how.interpolated) return grid_average<table>(map(), most_texels_, snapped(rectangles[i], 0.5f));
-            return rectangle_average<table>(map(), most_texels_, rectangles[i]);
-        });
+        const auto rectangle = soft_light::filter_rectangle(where, widths);
+        if constexpr (how.dithers || !how.interpolated) {
+            const scattered<summed_area_rectangle, Real> smooth(rectangle);
+            const scattered<soft_place, Real> places(where);
+            return grid_mean(summed_area_grow(light_.clipped(gathered<summed_area_rectangle, Real>(
+                [&](std::size_t i) { return snapped(smooth[i], how.dithers ? dither_of(places[i]) : 0.5f); }))));
+        } else {
+            const auto r = light_.clipped(rectangle);
+            const auto a = summed_area_split(r.x0, r.x1), b = summed_area_split(r.y0, r.y1);
+            const scattered<summed_area_parts, Real> columns(a), rows(b);
+            const scattered<std::type_identity_t, Real> is_done(done);
+            const auto sums = gathered<channels, Real>([&](std::size_t i) {
+                return is_done[i] > 0 ? channels<float>{} : rectangle_sum<table>(map(), columns[i], rows[i]);
+            });
+            return table::mean(sums, summed_area_width(a) * summed_area_width(b), Real(scale_));
+        }
+    }
+    template <class Real> channels<Real> grid_mean(const summed_area_rectangle<Real>& r) const
+    {
+        const scattered<summed_area_rectangle, Real> lines(r);
+        const auto sums = gathered<channels, Real>([&](std::size_t i) { return grid_sum<table>(map(), lines[i]); });
+        return table::mean(sums, (r.x1 - r.x0) * (r.y1 - r.y0), Real(scale_));
     }
 
     // Shadow intensity from the channels that search(where) and filter(where, widths, done) return.
@@ -166,21 +179,22 @@ template <class Kernels, look_up_options how> class summed_map final : public so
     {
         const Real most = Real(light_.most_texels()), none = Real(0), all = Real(1);
         const auto around = Kernels::region(search(where), most);
-        const Real whole = Kernels::intensity(around, where.depth);
+        const Real whole = Kernels::occlusion(around, where.depth);
         const auto in_umbra = Real(how.skips_umbra ? 1 - umbra_epsilon : 2) < whole;
         const auto in_light = whole < Real(how.skips_lit ? umbra_epsilon : -1);
         const auto done = in_umbra || in_light;
         Real result = gnomon_select(in_umbra, all, none);
         if (gnomon_any(!done)) {
             const soft_widths<Real> widths = light_.penumbra(where.depth, Kernels::blocker(around, where.depth));
-            const auto within = Kernels::region(filter(where, widths, gnomon_select(done, all, none)), most);
-            const Real found = Kernels::intensity(within, biased_depth(where, widths));
+            const Real found = Kernels::shadow(filter(where, widths, gnomon_select(done, all, none)), most,
+                                               biased_depth(where, widths));
             result = gnomon_select(done, result, over_darken(found, 1 - umbra_epsilon));
         }
         return result;
     }
 
-    template <class Real> Real look_up(const soft_place<Real>& where) const
+    // Flattened, so that the compiler inlines look-ups of every method alike and their times compare.
+    template <class Real> [[gnu::flatten]] Real look_up(const soft_place<Real>& where) const
     {
         return shadow(
             where, [this](const soft_place<Real>& at) { return search(at); },
@@ -236,6 +250,7 @@ template <class Kernels, look_up_options how> class summed_map final : public so
 
     soft_light light_;
     std::size_t most_texels_, width_, height_;
+    float scale_ = summed_area_scale(float(most_texels_));
     std::vector<texel> texels_;
 };
 

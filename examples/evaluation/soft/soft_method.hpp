@@ -78,11 +78,12 @@ struct soft_light {
     }
 };
 
-// The receiver's depth without the most that its plane rises up to the centre of the farthest texel of the filter.
+// The receiver's depth without the most that its plane rises within the filter, whose outermost texels lie up to one texel
+// beyond the rectangle.
 template <class Real> Real biased_depth(const soft_place<Real>& where, const soft_widths<Real>& widths)
 {
     const gnomon::depth_gradient<Real> gradient{where.slope_x, where.slope_y};
-    const Real reach_x = Real(0.5) * widths.x + Real(0.5), reach_y = Real(0.5) * widths.y + Real(0.5);
+    const Real reach_x = Real(0.5) * widths.x + Real(1), reach_y = Real(0.5) * widths.y + Real(1);
     return where.depth - depth_bias_receiver_plane(gradient, reach_x, reach_y, Real(2));
 }
 

@@ -15,7 +15,11 @@ struct moments4_kernels {
         return hankel4_from_summed(c, most_texels);
     }
     template <class Real> static Real blocker(const hankel4<Real>& h, Real z_f) { return blocker4_depth(h, z_f); }
-    template <class Real> static Real intensity(const hankel4<Real>& h, Real z_f) { return hamburger4_lower(h, z_f); }
+    template <class Real> static Real occlusion(const hankel4<Real>& h, Real z_f) { return hamburger4_lower(h, z_f); }
+    template <class Real> static Real shadow(const channels4<Real>& c, Real most_texels, Real z_f)
+    {
+        return table::intensity(c, most_texels, z_f);
+    }
 };
 
 } // namespace gnomon::evaluation

@@ -12,6 +12,10 @@ struct paper_bias : moments4_kernels {
         return hankel4_constant_bias(theta4_inverse(c), literal<Real>(bias4_theta_paper_b2),
                                      literal<Real>(bias4_theta_paper_b4), literal<Real>(6e-7));
     }
+    template <class Real> static Real shadow(const channels4<Real>& c, Real most_texels, Real z_f)
+    {
+        return hamburger4_lower(region(c, most_texels), z_f);
+    }
 };
 
 const registered<summed_method<paper_bias, look_up_options{}>> entry{
