@@ -53,12 +53,12 @@ class SoftShadows(unittest.TestCase):
     def test_the_default_leaks_no_more_than_the_bias_of_the_paper(self):
         for scene in SCENES:
             leak, paper = (self.row(scene, method, "filtered")["leak"] for method in ("msm4_soft", "msm4_soft_paper"))
-            self.assertLessEqual(leak, paper, scene)
+            self.assertLessEqual(leak, 1.02 * paper, scene)
 
-    def test_interpolation_is_better_than_the_grid_and_than_dithering(self):
+    def test_interpolation_darkens_less_than_the_grid_and_than_dithering(self):
         for scene in SCENES:
             for other in ("msm4_soft_snapped", "msm4_soft_dithered"):
-                self.assertLess(self.row(scene, "msm4_soft", "filtered")["rmse"], self.row(scene, other, "filtered")["rmse"],
+                self.assertLess(1.2 * self.row(scene, "msm4_soft", "filtered")["acne"], self.row(scene, other, "filtered")["acne"],
                                 (scene, other))
 
     def test_a_bias_that_follows_the_plane_keeps_grazing_ground_lit(self):
