@@ -145,7 +145,7 @@ template <class Kernels, look_up_options how> class summed_map final : public so
     template <class Real> channels<Real> search(const soft_place<Real>& where) const
     {
         const auto r = summed_area_grow(light_.clipped(light_.search_rectangle(where)));
-        return grid_mean(r);
+        return mean_on_grid(r);
     }
     template <class Real>
     channels<Real> filter(const soft_place<Real>& where, const soft_widths<Real>& widths, const Real& done) const
@@ -154,24 +154,22 @@ template <class Kernels, look_up_options how> class summed_map final : public so
         if constexpr (how.dithers || !how.interpolated) {
             const scattered<summed_area_rectangle, Real> smooth(rectangle);
             const scattered<soft_place, Real> places(where);
-            return grid_mean(summed_area_grow(light_.clipped(gathered<summed_area_rectangle, Real>(
+            return mean_on_grid(summed_area_grow(light_.clipped(gathered<summed_area_rectangle, Real>(
                 [&](std::size_t i) { return snapped(smooth[i], how.dithers ? dither_of(places[i]) : 0.5f); }))));
         } else {
             const auto r = light_.clipped(rectangle);
             const auto a = summed_area_split(r.x0, r.x1), b = summed_area_split(r.y0, r.y1);
             const scattered<summed_area_parts, Real> columns(a), rows(b);
             const scattered<std::type_identity_t, Real> is_done(done);
-            const auto sums = gathered<channels, Real>([&](std::size_t i) {
-                return is_done[i] > 0 ? channels<float>{} : rectangle_sum<table>(map(), columns[i], rows[i]);
+            return gathered<channels, Real>([&](std::size_t i) {
+                return is_done[i] > 0 ? channels<float>{} : rectangle_mean<table>(map(), scale_, columns[i], rows[i]);
             });
-            return table::mean(sums, summed_area_width(a) * summed_area_width(b), Real(scale_));
         }
     }
-    template <class Real> channels<Real> grid_mean(const summed_area_rectangle<Real>& r) const
+    template <class Real> channels<Real> mean_on_grid(const summed_area_rectangle<Real>& r) const
     {
         const scattered<summed_area_rectangle, Real> lines(r);
-        const auto sums = gathered<channels, Real>([&](std::size_t i) { return grid_sum<table>(map(), lines[i]); });
-        return table::mean(sums, (r.x1 - r.x0) * (r.y1 - r.y0), Real(scale_));
+        return gathered<channels, Real>([&](std::size_t i) { return grid_mean<table>(map(), scale_, lines[i]); });
     }
 
     // Shadow intensity from the channels that search(where) and filter(where, widths, done) return.
@@ -250,7 +248,7 @@ template <class Kernels, look_up_options how> class summed_map final : public so
 
     soft_light light_;
     std::size_t most_texels_, width_, height_;
-    float scale_ = summed_area_scale(float(most_texels_));
+    double scale_ = double(summed_area_scale(float(most_texels_)));
     std::vector<texel> texels_;
 };
 

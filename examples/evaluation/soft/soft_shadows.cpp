@@ -80,7 +80,7 @@ void soft_shadows(const settings& given)
     const soft_stage stage(scenery, how);
     all.begin("cost per receiver");
     result.blocks.push_back(
-        cost_of_receivers(stage, {"pcss_27", "msm4_soft", "msm4_soft_snapped"}));
+        cost_of_receivers(stage, {"pcss_27", "msm4_soft", "msm4_soft_snapped", "msm6_soft", "vssm"}));
     all.begin("cost per texel");
     result.blocks.push_back(cost_of_texels(stage, 4 * how.map_resolution));
     write_page(folder, result);

@@ -80,10 +80,11 @@ inline std::size_t line_of(float line) { return std::size_t(std::int32_t(line));
 template <summed_table Table>
 format_channels<Table> mean_of(const std::array<double, channel_count<Table>>& sum, double area, double scale)
 {
-    if (!(area > 0)) return Table::from_depth(1.0f);
-    const double share = 1 / (area * scale);
+    std::array<double, channel_count<Table>> border = gnomon_bit_cast<decltype(border)>(Table::from_depth(1.0));
+    const double whole = area * scale;
     std::array<float, channel_count<Table>> mean{};
-    for (std::size_t k = 0; k < mean.size(); ++k) mean[k] = float((std::min)(share * sum[k], 1.0));
+    for (std::size_t k = 0; k < mean.size(); ++k)
+        mean[k] = float((std::min)(area > 0 ? sum[k] / whole : border[k], 1.0));
     return gnomon_bit_cast<format_channels<Table>>(mean);
 }
 
