@@ -761,6 +761,16 @@ GNOMON_INLINE constexpr Real summed_area_above(Real x) { return Real(-1) * texel
 /// The begin and the end of a rectangle along one axis.
 template <class Real, class = require_real<Real>> struct summed_area_interval { Real begin, end; };
 
+/// The interval from begin to end.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr summed_area_interval<Real> summed_area_interval_from(Real begin, Real end)
+{
+    summed_area_interval<Real> r;
+    r.begin = begin;
+    r.end = end;
+    return r;
+}
+
 /// The interval from begin to end if texels <= most, else the one about the same centre that covers no more than most
 /// texels wherever it is.
 template <class Real, class = require_real<Real>>
@@ -797,15 +807,20 @@ GNOMON_INLINE constexpr summed_area_rectangle<Real> summed_area_clip(summed_area
     Real columns = summed_area_above(x1) - texel_below(x0);
     Real rows = summed_area_above(y1) - texel_below(y0);
     Real most = clamp_or_high(most_texels, Real(4), literal<Real>(summed_area_most_texels));
-    Real share = gnomon_sqrt(gnomon_min(most / (columns * rows), Real(1)));
-    Real least_columns = gnomon_min(columns, Real(2));
-    Real least_rows = gnomon_min(rows, Real(2));
-    Real most_columns = gnomon_min(gnomon_max(texel_below(share * columns + literal<Real>(summed_area_slack)),
-                                              least_columns), texel_below(most / least_rows));
-    Real most_rows = gnomon_min(gnomon_max(texel_below(share * rows + literal<Real>(summed_area_slack)), least_rows),
-                                texel_below(most / most_columns));
-    summed_area_interval x = summed_area_shrink(x0, x1, columns, most_columns);
-    summed_area_interval y = summed_area_shrink(y0, y1, rows, most_rows);
+    mask_t<Real> large = most < columns * rows;
+    summed_area_interval x = summed_area_interval_from(x0, x1);
+    summed_area_interval y = summed_area_interval_from(y0, y1);
+    if (gnomon_any(large)) {
+        Real share = gnomon_sqrt(gnomon_min(most / (columns * rows), Real(1)));
+        Real least_columns = gnomon_min(columns, Real(2));
+        Real least_rows = gnomon_min(rows, Real(2));
+        Real most_columns = gnomon_min(gnomon_max(texel_below(share * columns + literal<Real>(summed_area_slack)),
+                                                  least_columns), texel_below(most / least_rows));
+        Real most_rows = gnomon_min(gnomon_max(texel_below(share * rows + literal<Real>(summed_area_slack)),
+                                               least_rows), texel_below(most / most_columns));
+        x = summed_area_shrink(x0, x1, columns, most_columns);
+        y = summed_area_shrink(y0, y1, rows, most_rows);
+    }
     mask_t<Real> some = x0 < x1 && y0 < y1; // false for NaN
     summed_area_rectangle<Real> r;
     r.x0 = gnomon_select(some, x.begin, Real(0));

@@ -348,6 +348,15 @@ float gnomon_summed_area_above(float x) { return -1.0 * texel_below(-1.0 * x); }
 /// The begin and the end of a rectangle along one axis.
 struct summed_area_interval { float begin, end; };
 
+/// The interval from begin to end.
+summed_area_interval gnomon_summed_area_interval_from(float begin, float end)
+{
+    summed_area_interval r;
+    r.begin = begin;
+    r.end = end;
+    return r;
+}
+
 /// The interval from begin to end if texels <= most, else the one about the same centre that covers no more than most
 /// texels wherever it is.
 summed_area_interval gnomon_summed_area_shrink(float begin, float end, float texels, float most)
@@ -379,15 +388,20 @@ summed_area_rectangle summed_area_clip(summed_area_rectangle rectangle, float wi
     float columns = gnomon_summed_area_above(x1) - texel_below(x0);
     float rows = gnomon_summed_area_above(y1) - texel_below(y0);
     float most = clamp_or_high(most_texels, 4.0, summed_area_most_texels);
-    float share = gnomon_sqrt(gnomon_min(most / (columns * rows), 1.0));
-    float least_columns = gnomon_min(columns, 2.0);
-    float least_rows = gnomon_min(rows, 2.0);
-    float most_columns = gnomon_min(gnomon_max(texel_below(share * columns + summed_area_slack), least_columns),
-                                    texel_below(most / least_rows));
-    float most_rows = gnomon_min(gnomon_max(texel_below(share * rows + summed_area_slack), least_rows),
-                                 texel_below(most / most_columns));
-    summed_area_interval x = gnomon_summed_area_shrink(x0, x1, columns, most_columns);
-    summed_area_interval y = gnomon_summed_area_shrink(y0, y1, rows, most_rows);
+    bool large = most < columns * rows;
+    summed_area_interval x = gnomon_summed_area_interval_from(x0, x1);
+    summed_area_interval y = gnomon_summed_area_interval_from(y0, y1);
+    if (gnomon_any(large)) {
+        float share = gnomon_sqrt(gnomon_min(most / (columns * rows), 1.0));
+        float least_columns = gnomon_min(columns, 2.0);
+        float least_rows = gnomon_min(rows, 2.0);
+        float most_columns = gnomon_min(gnomon_max(texel_below(share * columns + summed_area_slack), least_columns),
+                                        texel_below(most / least_rows));
+        float most_rows = gnomon_min(gnomon_max(texel_below(share * rows + summed_area_slack), least_rows),
+                                     texel_below(most / most_columns));
+        x = gnomon_summed_area_shrink(x0, x1, columns, most_columns);
+        y = gnomon_summed_area_shrink(y0, y1, rows, most_rows);
+    }
     bool some = x0 < x1 && y0 < y1; // false for NaN
     summed_area_rectangle r;
     r.x0 = gnomon_select(some, x.begin, 0.0);

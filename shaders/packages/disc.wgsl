@@ -313,6 +313,15 @@ fn gnomon_summed_area_above(x: f32) -> f32 { return -1.0 * texel_below(-1.0 * x)
 /// The begin and the end of a rectangle along one axis.
 struct summed_area_interval { begin: f32, end: f32 }
 
+/// The interval from begin to end.
+fn gnomon_summed_area_interval_from(begin: f32, end: f32) -> summed_area_interval
+{
+    var r: summed_area_interval;
+    r.begin = begin;
+    r.end = end;
+    return r;
+}
+
 /// The interval from begin to end if texels <= most, else the one about the same centre that covers no more than most
 /// texels wherever it is.
 fn gnomon_summed_area_shrink(begin: f32, end: f32, texels: f32, most: f32) -> summed_area_interval
@@ -345,15 +354,20 @@ fn summed_area_clip(rectangle: summed_area_rectangle, width: f32, height: f32,
     let columns = gnomon_summed_area_above(x1) - texel_below(x0);
     let rows = gnomon_summed_area_above(y1) - texel_below(y0);
     let most = clamp_or_high(most_texels, 4.0, summed_area_most_texels);
-    let share = gnomon_sqrt(gnomon_min(most / (columns * rows), 1.0));
-    let least_columns = gnomon_min(columns, 2.0);
-    let least_rows = gnomon_min(rows, 2.0);
-    let most_columns = gnomon_min(gnomon_max(texel_below(share * columns + summed_area_slack), least_columns),
-                                  texel_below(most / least_rows));
-    let most_rows = gnomon_min(gnomon_max(texel_below(share * rows + summed_area_slack), least_rows),
-                               texel_below(most / most_columns));
-    let x = gnomon_summed_area_shrink(x0, x1, columns, most_columns);
-    let y = gnomon_summed_area_shrink(y0, y1, rows, most_rows);
+    let large = most < columns * rows;
+    var x = gnomon_summed_area_interval_from(x0, x1);
+    var y = gnomon_summed_area_interval_from(y0, y1);
+    if (gnomon_any(large)) {
+        let share = gnomon_sqrt(gnomon_min(most / (columns * rows), 1.0));
+        let least_columns = gnomon_min(columns, 2.0);
+        let least_rows = gnomon_min(rows, 2.0);
+        let most_columns = gnomon_min(gnomon_max(texel_below(share * columns + summed_area_slack), least_columns),
+                                      texel_below(most / least_rows));
+        let most_rows = gnomon_min(gnomon_max(texel_below(share * rows + summed_area_slack), least_rows),
+                                   texel_below(most / most_columns));
+        x = gnomon_summed_area_shrink(x0, x1, columns, most_columns);
+        y = gnomon_summed_area_shrink(y0, y1, rows, most_rows);
+    }
     let some = x0 < x1 && y0 < y1; // false for NaN
     var r: summed_area_rectangle;
     r.x0_ = gnomon_select(some, x.begin, 0.0);
