@@ -1188,6 +1188,10 @@ static inline float blocker2_depth(float mean, float variance, float z_f)
 /// Mean blocker depth in [-1, z_f] from four moments.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: no blocker, z_f, for a NaN in h; a z_f of NaN is the far plane.
+/// Error: against the moment problem solved in 120 digits (tests/soft/blocker.cpp),
+///     error, double, no bias: p99 3e-14, p99.9 1e-12
+/// and against the kernel in double, for a table of 784 texels,
+///     error, float, hankel4_from_summed: p99 3e-5, p99.9 1e-4, max 1e-2
 /// Source: Peters 2017, Eq. 4
 static inline float blocker4_depth(hankel4 h, float z_f)
 {
@@ -1228,6 +1232,10 @@ static inline float blocker4_depth(hankel4 h, float z_f)
 /// Mean blocker depth in [-1, z_f] from six moments.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: no blocker, z_f, for a NaN in h; a z_f of NaN is the far plane.
+/// Error: against the moment problem solved in 120 digits (tests/soft/blocker.cpp),
+///     error, double, no bias: p99 1e-14, p99.9 1e-13
+/// and against the kernel in double, for a table of 784 texels,
+///     error, float, hankel6_from_summed: p99 1e-3, p99.9 5e-3, max 5e-1
 /// Source: Peters 2017, Eq. 4
 static inline float blocker6_depth(hankel6 h, float z_f)
 {

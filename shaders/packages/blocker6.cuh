@@ -1689,6 +1689,10 @@ GNOMON_WARNINGS_OFF namespace gnomon {
 /// Mean blocker depth in [-1, z_f] from four moments.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: no blocker, z_f, for a NaN in h; a z_f of NaN is the far plane.
+/// Error: against the moment problem solved in 120 digits (tests/soft/blocker.cpp),
+///     error, double, no bias: p99 3e-14, p99.9 1e-12
+/// and against the kernel in double, for a table of 784 texels,
+///     error, float, hankel4_from_summed: p99 3e-5, p99.9 1e-4, max 1e-2
 /// Source: Peters 2017, Eq. 4
 template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real blocker4_depth(hankel4<Real> h, Real z_f)
 {
@@ -1733,6 +1737,10 @@ GNOMON_WARNINGS_OFF namespace gnomon {
 /// Mean blocker depth in [-1, z_f] from six moments.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: no blocker, z_f, for a NaN in h; a z_f of NaN is the far plane.
+/// Error: against the moment problem solved in 120 digits (tests/soft/blocker.cpp),
+///     error, double, no bias: p99 1e-14, p99.9 1e-13
+/// and against the kernel in double, for a table of 784 texels,
+///     error, float, hankel6_from_summed: p99 1e-3, p99.9 5e-3, max 5e-1
 /// Source: Peters 2017, Eq. 4
 template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real blocker6_depth(hankel6<Real> h, Real z_f)
 {

@@ -431,12 +431,13 @@ float polynomial_atan2(float y, float x)
 
 const float gnomon_hamburger_cholesky_third = 0.33333333333333333;
 const float gnomon_hamburger_cholesky_sqrt3 = 1.7320508075688773;
+const float hamburger_cholesky_epsilon = 1e-3;
 
-/// Lower bound on the shadow intensity at z_f, in [0, 1], from four biased moments. Takes four divisions and one root.
-/// Domain: the Hankel matrix is positive definite in the precision of float; else the result is not accurate.
-/// NaN: 0, lit.
-/// Source: Peters 2017, Alg. 1
-float hamburger4_cholesky_intensity(moments4 b, float z_f)
+/// The two depths other than z_f, z1 <= z2.
+struct gnomon_quadratic_nodes { float z1, z2; };
+
+/// The two depths of the distribution of three that has one at z_f and four biased moments.
+gnomon_quadratic_nodes gnomon_hamburger4_cholesky_nodes(moments4 b, float z_f)
 {
     // Factor B = L D L^T.
     float inverse1 = 1.0 / (b.b2 - b.b1 * b.b1);
@@ -454,16 +455,48 @@ float hamburger4_cholesky_intensity(moments4 b, float z_f)
     float inverse_q2 = 1.0 / q2;
     float centre = -0.5 * (q1 * inverse_q2);
     float r = gnomon_sqrt(centre * centre - q0 * inverse_q2);
-    float z1 = centre - r;
-    float z2 = centre + r;
+    gnomon_quadratic_nodes n;
+    n.z1 = centre - r;
+    n.z2 = centre + r;
+    return n;
+}
 
-    // Two depths before z_f: 1 minus the weight of z_f. One: its weight. The weight of a depth n with other depths o
-    // and z2 is E[(z - o) (z - z2)] / ((n - o) (n - z2)) by Cramer's rule.
-    bool both = z2 < z_f;
-    float node = gnomon_select(both, z_f, z1);
-    float other = gnomon_select(both, z1, z_f);
-    float w = (b.b2 - b.b1 * (other + z2) + other * z2) / ((node - other) * (node - z2));
-    return saturate_or_zero(gnomon_select(both, 1.0 - w, gnomon_select(z1 < z_f, w, 0.0)));
+/// The weight of depth node beside the depths other and last: E[(z - other) (z - last)] / ((node - other) (node -
+/// last)), by Cramer's rule.
+float gnomon_hamburger4_cholesky_weight(moments4 b, float node, float other, float last)
+{
+    return (b.b2 - b.b1 * (other + last) + other * last) / ((node - other) * (node - last));
+}
+
+/// Lower bound on the shadow intensity at z_f, in [0, 1], from four biased moments. Takes four divisions and one root.
+/// Domain: the Hankel matrix is positive definite in the precision of float; else the result is not accurate.
+/// NaN: 0, lit.
+/// Source: Peters 2017, Alg. 1
+float hamburger4_cholesky_intensity(moments4 b, float z_f)
+{
+    gnomon_quadratic_nodes n = gnomon_hamburger4_cholesky_nodes(b, z_f);
+    // Two depths before z_f: 1 minus the weight of z_f. One: its weight.
+    bool both = n.z2 < z_f;
+    float node = gnomon_select(both, z_f, n.z1);
+    float other = gnomon_select(both, n.z1, z_f);
+    float w = gnomon_hamburger4_cholesky_weight(b, node, other, n.z2);
+    return saturate_or_zero(gnomon_select(both, 1.0 - w, gnomon_select(n.z1 < z_f, w, 0.0)));
+}
+
+/// Mean blocker depth in [-1, z_f] from four biased moments: that of the depths before z_f and, with a weight of 1e-3,
+/// of z_f itself.
+/// Domain: the Hankel matrix is positive definite in the precision of float; else the result is not accurate.
+/// NaN: z_f; a z_f of NaN is the far plane.
+/// Source: Peters 2017, Eq. 4; Peters 2017, Alg. 1
+float hamburger4_cholesky_blocker(moments4 b, float z_f)
+{
+    float z = clamp_or_high(z_f, -1.0, 1.0);
+    gnomon_quadratic_nodes n = gnomon_hamburger4_cholesky_nodes(b, z);
+    float w1 = gnomon_select(n.z1 < z, gnomon_hamburger4_cholesky_weight(b, n.z1, z, n.z2), 0.0);
+    float w2 = gnomon_select(n.z2 < z, gnomon_hamburger4_cholesky_weight(b, n.z2, n.z1, z), 0.0);
+    float epsilon = hamburger_cholesky_epsilon;
+    float depth = (epsilon * z + (w1 * n.z1 + w2 * n.z2)) / (epsilon + (w1 + w2));
+    return gnomon_select(depth == depth, gnomon_min(z, gnomon_max(-1.0, depth)), z);
 }
 
 /// The three real roots of a cubic, in no particular order.

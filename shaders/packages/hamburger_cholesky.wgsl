@@ -380,12 +380,13 @@ fn polynomial_atan2_(y: f32, x: f32) -> f32
 
 const gnomon_hamburger_cholesky_third: f32 = 0x1.555556p-2; // 0.33333333333333333
 const gnomon_hamburger_cholesky_sqrt3_: f32 = 0x1.bb67aep+0; // 1.7320508075688773
+const hamburger_cholesky_epsilon: f32 = 0x1.0624dep-10; // 1e-3
 
-/// Lower bound on the shadow intensity at z_f, in [0, 1], from four biased moments. Takes four divisions and one root.
-/// Domain: the Hankel matrix is positive definite in the precision of float; else the result is not accurate.
-/// NaN: 0, lit.
-/// Source: Peters 2017, Alg. 1
-fn hamburger4_cholesky_intensity(b: moments4_, z_f: f32) -> f32
+/// The two depths other than z_f, z1 <= z2.
+struct gnomon_quadratic_nodes { z1_: f32, z2_: f32 }
+
+/// The two depths of the distribution of three that has one at z_f and four biased moments.
+fn gnomon_hamburger4_cholesky_nodes(b: moments4_, z_f: f32) -> gnomon_quadratic_nodes
 {
     // Factor B = L D L^T.
     let inverse1 = 1.0 / (b.b2_ - b.b1_ * b.b1_);
@@ -403,16 +404,48 @@ fn hamburger4_cholesky_intensity(b: moments4_, z_f: f32) -> f32
     let inverse_q2 = 1.0 / q2;
     let centre = -0.5 * (q1 * inverse_q2);
     let r = gnomon_sqrt(centre * centre - q0 * inverse_q2);
-    let z1 = centre - r;
-    let z2 = centre + r;
+    var n: gnomon_quadratic_nodes;
+    n.z1_ = centre - r;
+    n.z2_ = centre + r;
+    return n;
+}
 
-    // Two depths before z_f: 1 minus the weight of z_f. One: its weight. The weight of a depth n with other depths o
-    // and z2 is E[(z - o) (z - z2)] / ((n - o) (n - z2)) by Cramer's rule.
-    let both = z2 < z_f;
-    let node = gnomon_select(both, z_f, z1);
-    let other = gnomon_select(both, z1, z_f);
-    let w = (b.b2_ - b.b1_ * (other + z2) + other * z2) / ((node - other) * (node - z2));
-    return saturate_or_zero(gnomon_select(both, 1.0 - w, gnomon_select(z1 < z_f, w, 0.0)));
+/// The weight of depth node beside the depths other and last: E[(z - other) (z - last)] / ((node - other) (node -
+/// last)), by Cramer's rule.
+fn gnomon_hamburger4_cholesky_weight(b: moments4_, node: f32, other: f32, last: f32) -> f32
+{
+    return (b.b2_ - b.b1_ * (other + last) + other * last) / ((node - other) * (node - last));
+}
+
+/// Lower bound on the shadow intensity at z_f, in [0, 1], from four biased moments. Takes four divisions and one root.
+/// Domain: the Hankel matrix is positive definite in the precision of float; else the result is not accurate.
+/// NaN: 0, lit.
+/// Source: Peters 2017, Alg. 1
+fn hamburger4_cholesky_intensity(b: moments4_, z_f: f32) -> f32
+{
+    let n = gnomon_hamburger4_cholesky_nodes(b, z_f);
+    // Two depths before z_f: 1 minus the weight of z_f. One: its weight.
+    let both = n.z2_ < z_f;
+    let node = gnomon_select(both, z_f, n.z1_);
+    let other = gnomon_select(both, n.z1_, z_f);
+    let w = gnomon_hamburger4_cholesky_weight(b, node, other, n.z2_);
+    return saturate_or_zero(gnomon_select(both, 1.0 - w, gnomon_select(n.z1_ < z_f, w, 0.0)));
+}
+
+/// Mean blocker depth in [-1, z_f] from four biased moments: that of the depths before z_f and, with a weight of 1e-3,
+/// of z_f itself.
+/// Domain: the Hankel matrix is positive definite in the precision of float; else the result is not accurate.
+/// NaN: z_f; a z_f of NaN is the far plane.
+/// Source: Peters 2017, Eq. 4; Peters 2017, Alg. 1
+fn hamburger4_cholesky_blocker(b: moments4_, z_f: f32) -> f32
+{
+    let z = clamp_or_high(z_f, -1.0, 1.0);
+    let n = gnomon_hamburger4_cholesky_nodes(b, z);
+    let w1 = gnomon_select(n.z1_ < z, gnomon_hamburger4_cholesky_weight(b, n.z1_, z, n.z2_), 0.0);
+    let w2 = gnomon_select(n.z2_ < z, gnomon_hamburger4_cholesky_weight(b, n.z2_, n.z1_, z), 0.0);
+    let epsilon = hamburger_cholesky_epsilon;
+    let depth = (epsilon * z + (w1 * n.z1_ + w2 * n.z2_)) / (epsilon + (w1 + w2));
+    return gnomon_select(depth == depth, gnomon_min(z, gnomon_max(-1.0, depth)), z);
 }
 
 /// The three real roots of a cubic, in no particular order.

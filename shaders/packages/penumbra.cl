@@ -131,7 +131,7 @@ static inline float penumbra_directional(float z_f, float z_b, float texels_per_
 /// texels per unit of length at distance 1 from the light, in the map of that axis.
 /// Domain: any depths, clamped to [-1, 1]; 0 < near_distance < far_distance. Blockers behind the receiver give 1.
 /// NaN: 1; a widest of NaN counts as none.
-/// Error: relative, 8 2^-p, for distances as rounded.
+/// Error: relative, 10 2^-p.
 /// Source: Fernando 2005; Peters 2017, Sec. 4.1
 static inline float penumbra_local(float z_f, float z_b, float near_distance, float far_distance, float light_texels,
                                    float widest)

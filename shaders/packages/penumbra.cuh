@@ -505,7 +505,7 @@ GNOMON_INLINE constexpr Real penumbra_directional(Real z_f, Real z_b, std::type_
 /// texels per unit of length at distance 1 from the light, in the map of that axis.
 /// Domain: any depths, clamped to [-1, 1]; 0 < near_distance < far_distance. Blockers behind the receiver give 1.
 /// NaN: 1; a widest of NaN counts as none.
-/// Error: relative, 8 2^-p, for distances as rounded.
+/// Error: relative, 10 2^-p.
 /// Source: Fernando 2005; Peters 2017, Sec. 4.1
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real penumbra_local(Real z_f, Real z_b, std::type_identity_t<Real> near_distance,

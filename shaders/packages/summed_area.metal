@@ -312,13 +312,13 @@ constant constexpr float summed_area_step = 5.9604644775390625e-8f; // 2^-24
 constant constexpr float summed_area_slack = 0.0009765625f;         // 2^-10
 
 constant constexpr float summed_area_code_noise = 1.1641532182693481e-10f; // 2^-33
-constant constexpr float summed_area_float_noise = 4.4703483581542969e-8f; // 1.5 times 2^-25
-constant constexpr float summed_area_least_noise = 8.1956386566162109e-8f; // 2.75 times 2^-25, in small tables
+constant constexpr float summed_area_float_noise = 5.9604644775390625e-8f; // 2 times 2^-25
+constant constexpr float summed_area_least_noise = 1.3411045074462891e-7f; // 4.5 times 2^-25, in small tables
 
 /// The largest error of a channel of a rectangle, for a table by summed_area_scale(most_texels): half a code,
-/// most_texels 2^-33, and what float arithmetic rounds on the way from the depth to the mean, in the channel, the
-/// resolve of four samples, the sum and the mean. Errors of float arithmetic do not all come together; a search by
-/// climbing found these.
+/// most_texels 2^-33, and what float arithmetic rounds on the way from the depth to the mean: in the channel, the
+/// resolve of four samples, nine sums with their widths, and the mean. These do not all come together: a search by
+/// climbing found what keeps surfaces lit (tests/soft/honest_summed.cpp).
 /// Domain: most_texels at least 0.
 /// NaN: the noise of a small table.
 inline float summed_area_noise(float most_texels)
@@ -429,8 +429,7 @@ inline summed_area_rectangle summed_area_clip(summed_area_rectangle rectangle, f
         float least_rows = gnomon_min(rows, 2.0f);
         float most_columns = gnomon_min(gnomon_max(texel_below(share * columns + summed_area_slack), least_columns),
                                         texel_below(most / least_rows));
-        float most_rows = gnomon_min(gnomon_max(texel_below(share * rows + summed_area_slack), least_rows),
-                                     texel_below(most / most_columns));
+        float most_rows = gnomon_min(texel_below(most / most_columns), rows);
         x = summed_area_shrink(x0, x1, columns, most_columns);
         y = summed_area_shrink(y0, y1, rows, most_rows);
     }

@@ -1276,6 +1276,10 @@ GNOMON_WARNINGS_OFF namespace gnomon {
 /// Mean blocker depth in [-1, z_f] from four moments.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: no blocker, z_f, for a NaN in h; a z_f of NaN is the far plane.
+/// Error: against the moment problem solved in 120 digits (tests/soft/blocker.cpp),
+///     error, double, no bias: p99 3e-14, p99.9 1e-12
+/// and against the kernel in double, for a table of 784 texels,
+///     error, float, hankel4_from_summed: p99 3e-5, p99.9 1e-4, max 1e-2
 /// Source: Peters 2017, Eq. 4
 template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real blocker4_depth(hankel4<Real> h, Real z_f)
 {
@@ -1413,13 +1417,13 @@ inline constexpr double summed_area_step = 5.9604644775390625e-8; // 2^-24
 inline constexpr double summed_area_slack = 0.0009765625;         // 2^-10
 
 inline constexpr double summed_area_code_noise = 1.1641532182693481e-10; // 2^-33
-inline constexpr double summed_area_float_noise = 4.4703483581542969e-8; // 1.5 times 2^-25
-inline constexpr double summed_area_least_noise = 8.1956386566162109e-8; // 2.75 times 2^-25, in small tables
+inline constexpr double summed_area_float_noise = 5.9604644775390625e-8; // 2 times 2^-25
+inline constexpr double summed_area_least_noise = 1.3411045074462891e-7; // 4.5 times 2^-25, in small tables
 
 /// The largest error of a channel of a rectangle, for a table by summed_area_scale(most_texels): half a code,
-/// most_texels 2^-33, and what float arithmetic rounds on the way from the depth to the mean, in the channel, the
-/// resolve of four samples, the sum and the mean. Errors of float arithmetic do not all come together; a search by
-/// climbing found these.
+/// most_texels 2^-33, and what float arithmetic rounds on the way from the depth to the mean: in the channel, the
+/// resolve of four samples, nine sums with their widths, and the mean. These do not all come together: a search by
+/// climbing found what keeps surfaces lit (tests/soft/honest_summed.cpp).
 /// Domain: most_texels at least 0.
 /// NaN: the noise of a small table.
 template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real summed_area_noise(Real most_texels)
@@ -1538,8 +1542,7 @@ GNOMON_INLINE constexpr summed_area_rectangle<Real> summed_area_clip(summed_area
         Real least_rows = gnomon_min(rows, Real(2));
         Real most_columns = gnomon_min(gnomon_max(texel_below(share * columns + literal<Real>(summed_area_slack)),
                                                   least_columns), texel_below(most / least_rows));
-        Real most_rows = gnomon_min(gnomon_max(texel_below(share * rows + literal<Real>(summed_area_slack)),
-                                               least_rows), texel_below(most / most_columns));
+        Real most_rows = gnomon_min(texel_below(most / most_columns), rows);
         x = summed_area_shrink(x0, x1, columns, most_columns);
         y = summed_area_shrink(y0, y1, rows, most_rows);
     }
@@ -1714,6 +1717,8 @@ GNOMON_INLINE constexpr Real variance_summed_intensity(channels2<Real> c, std::t
 /// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: no blocker, z_f, for a NaN in c; a z_f of NaN is the far plane.
+/// Error: against the kernel in double, for a table of 784 texels,
+///     error, float, variance_summed_blocker: p99 1e-6, p99.9 2e-4, max 2e-3
 /// Source: Yang 2010
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real variance_summed_blocker(channels2<Real> c, std::type_identity_t<Real> most_texels,

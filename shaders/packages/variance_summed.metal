@@ -857,6 +857,10 @@ namespace gnomon {
 /// Mean blocker depth in [-1, z_f] from four moments.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: no blocker, z_f, for a NaN in h; a z_f of NaN is the far plane.
+/// Error: against the moment problem solved in 120 digits (tests/soft/blocker.cpp),
+///     error, double, no bias: p99 3e-14, p99.9 1e-12
+/// and against the kernel in double, for a table of 784 texels,
+///     error, float, hankel4_from_summed: p99 3e-5, p99.9 1e-4, max 1e-2
 /// Source: Peters 2017, Eq. 4
 inline float blocker4_depth(hankel4 h, float z_f)
 {
@@ -987,13 +991,13 @@ constant constexpr float summed_area_step = 5.9604644775390625e-8f; // 2^-24
 constant constexpr float summed_area_slack = 0.0009765625f;         // 2^-10
 
 constant constexpr float summed_area_code_noise = 1.1641532182693481e-10f; // 2^-33
-constant constexpr float summed_area_float_noise = 4.4703483581542969e-8f; // 1.5 times 2^-25
-constant constexpr float summed_area_least_noise = 8.1956386566162109e-8f; // 2.75 times 2^-25, in small tables
+constant constexpr float summed_area_float_noise = 5.9604644775390625e-8f; // 2 times 2^-25
+constant constexpr float summed_area_least_noise = 1.3411045074462891e-7f; // 4.5 times 2^-25, in small tables
 
 /// The largest error of a channel of a rectangle, for a table by summed_area_scale(most_texels): half a code,
-/// most_texels 2^-33, and what float arithmetic rounds on the way from the depth to the mean, in the channel, the
-/// resolve of four samples, the sum and the mean. Errors of float arithmetic do not all come together; a search by
-/// climbing found these.
+/// most_texels 2^-33, and what float arithmetic rounds on the way from the depth to the mean: in the channel, the
+/// resolve of four samples, nine sums with their widths, and the mean. These do not all come together: a search by
+/// climbing found what keeps surfaces lit (tests/soft/honest_summed.cpp).
 /// Domain: most_texels at least 0.
 /// NaN: the noise of a small table.
 inline float summed_area_noise(float most_texels)
@@ -1104,8 +1108,7 @@ inline summed_area_rectangle summed_area_clip(summed_area_rectangle rectangle, f
         float least_rows = gnomon_min(rows, 2.0f);
         float most_columns = gnomon_min(gnomon_max(texel_below(share * columns + summed_area_slack), least_columns),
                                         texel_below(most / least_rows));
-        float most_rows = gnomon_min(gnomon_max(texel_below(share * rows + summed_area_slack), least_rows),
-                                     texel_below(most / most_columns));
+        float most_rows = gnomon_min(texel_below(most / most_columns), rows);
         x = summed_area_shrink(x0, x1, columns, most_columns);
         y = summed_area_shrink(y0, y1, rows, most_rows);
     }
@@ -1269,6 +1272,8 @@ inline float variance_summed_intensity(channels2 c, float most_texels, float z_f
 /// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: no blocker, z_f, for a NaN in c; a z_f of NaN is the far plane.
+/// Error: against the kernel in double, for a table of 784 texels,
+///     error, float, variance_summed_blocker: p99 1e-6, p99.9 2e-4, max 2e-3
 /// Source: Yang 2010
 inline float variance_summed_blocker(channels2 c, float most_texels, float z_f)
 {

@@ -708,6 +708,10 @@ fn blocker2_depth(mean: f32, variance: f32, z_f: f32) -> f32
 /// Mean blocker depth in [-1, z_f] from four moments.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: no blocker, z_f, for a NaN in h; a z_f of NaN is the far plane.
+/// Error: against the moment problem solved in 120 digits (tests/soft/blocker.cpp),
+///     error, double, no bias: p99 3e-14, p99.9 1e-12
+/// and against the kernel in double, for a table of 784 texels,
+///     error, float, hankel4_from_summed: p99 3e-5, p99.9 1e-4, max 1e-2
 /// Source: Peters 2017, Eq. 4
 fn blocker4_depth(h: hankel4_, z_f: f32) -> f32
 {
@@ -814,13 +818,13 @@ const summed_area_step: f32 = 5.9604644775390625e-8; // 2^-24
 const summed_area_slack: f32 = 0.0009765625; // 2^-10
 
 const summed_area_code_noise: f32 = 0x1.p-33; // 1.1641532182693481e-10, 2^-33
-const summed_area_float_noise: f32 = 0x1.8p-25; // 4.4703483581542969e-8, 1.5 times 2^-25
-const summed_area_least_noise: f32 = 0x1.6p-24; // 8.1956386566162109e-8, 2.75 times 2^-25, in small tables
+const summed_area_float_noise: f32 = 5.9604644775390625e-8; // 2 times 2^-25
+const summed_area_least_noise: f32 = 0x1.2p-23; // 1.3411045074462891e-7, 4.5 times 2^-25, in small tables
 
 /// The largest error of a channel of a rectangle, for a table by summed_area_scale(most_texels): half a code,
-/// most_texels 2^-33, and what float arithmetic rounds on the way from the depth to the mean, in the channel, the
-/// resolve of four samples, the sum and the mean. Errors of float arithmetic do not all come together; a search by
-/// climbing found these.
+/// most_texels 2^-33, and what float arithmetic rounds on the way from the depth to the mean: in the channel, the
+/// resolve of four samples, nine sums with their widths, and the mean. These do not all come together: a search by
+/// climbing found what keeps surfaces lit (tests/soft/honest_summed.cpp).
 /// Domain: most_texels at least 0.
 /// NaN: the noise of a small table.
 fn summed_area_noise(most_texels: f32) -> f32
@@ -931,8 +935,7 @@ fn summed_area_clip(rectangle: summed_area_rectangle, width: f32, height: f32,
         let least_rows = gnomon_min(rows, 2.0);
         let most_columns = gnomon_min(gnomon_max(texel_below(share * columns + summed_area_slack), least_columns),
                                       texel_below(most / least_rows));
-        let most_rows = gnomon_min(gnomon_max(texel_below(share * rows + summed_area_slack), least_rows),
-                                   texel_below(most / most_columns));
+        let most_rows = gnomon_min(texel_below(most / most_columns), rows);
         x = gnomon_summed_area_shrink(x0, x1, columns, most_columns);
         y = gnomon_summed_area_shrink(y0, y1, rows, most_rows);
     }
@@ -1089,6 +1092,8 @@ fn variance_summed_intensity(c: channels2_, most_texels: f32, z_f: f32) -> f32
 /// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: no blocker, z_f, for a NaN in c; a z_f of NaN is the far plane.
+/// Error: against the kernel in double, for a table of 784 texels,
+///     error, float, variance_summed_blocker: p99 1e-6, p99.9 2e-4, max 2e-3
 /// Source: Yang 2010
 fn variance_summed_blocker(c: channels2_, most_texels: f32, z_f: f32) -> f32
 {

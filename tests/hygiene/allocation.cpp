@@ -135,6 +135,29 @@ TEST_CASE("no pass of soft shadows allocates")
     CHECK(moments4_summed::intensity(channels, 784.0f, 0.5f) > 0.9f);
 }
 
+TEST_CASE_TEMPLATE("no pass over summed-area tables allocates", Table, gnomon::moments4_summed, gnomon::moments6_summed,
+                   gnomon::variance_summed)
+{
+    using namespace gnomon;
+    std::array<std::array<float, 4>, 12 * 9> depths{};
+    std::array<typename Table::texel, 12 * 9> texels{}, again{};
+    std::array<typename Table::texel, 12> total{};
+    const map_view<const std::array<float, 4>> source{depths, 12, 9};
+    const map_view<typename Table::texel> table{texels, 12, 9}, second{again, 12, 9};
+    const long before = allocations;
+    build_summed_area<Table>(source, table, 100);
+    summed_area_total<Table>(source, 100, {0, 9}, std::span(total));
+    summed_area_along_x<Table>(source, second, 100, {0, 9});
+    summed_area_along_y<Table>(second);
+    const auto rectangle = summed_area_around(5.0f, 4.0f, 3.0f, 2.5f);
+    const auto searched = grid_average<Table>(table, 100, rectangle);
+    const float shadow = Table::intensity(rectangle_average<Table>(table, 100, rectangle), 100, 0.5f) +
+                         Table::blocker(searched, 100, 0.5f);
+    CHECK(allocations == before);
+    CHECK(shadow >= 0);
+    CHECK(texels == again);
+}
+
 TEST_CASE("no pass over ranges allocates")
 {
     using namespace gnomon;

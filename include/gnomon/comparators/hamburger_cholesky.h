@@ -18,12 +18,13 @@ GNOMON_NAMESPACE_BEGIN
 
 GNOMON_CONSTANT(hamburger_cholesky_third, 0.33333333333333333);
 GNOMON_CONSTANT(hamburger_cholesky_sqrt3, 1.7320508075688773);
+GNOMON_CONSTANT(hamburger_cholesky_epsilon, 1e-3);
 
-/// Lower bound on the shadow intensity at z_f, in [0, 1], from four biased moments. Takes four divisions and one root.
-/// Domain: the Hankel matrix is positive definite in the precision of Real; else the result is not accurate.
-/// NaN: 0, lit.
-/// Source: Peters 2017, Alg. 1
-GNOMON_KERNEL Real hamburger4_cholesky_intensity(GNOMON_T(moments4) b, Real z_f)
+/// The two depths other than z_f, z1 <= z2.
+GNOMON_STRUCT(quadratic_nodes) { Real z1, z2; };
+
+/// The two depths of the distribution of three that has one at z_f and four biased moments.
+GNOMON_DETAIL_KERNEL GNOMON_T(quadratic_nodes) hamburger4_cholesky_nodes(GNOMON_T(moments4) b, Real z_f)
 {
     // Factor B = L D L^T.
     Real inverse1 = Real(1) / (b.b2 - b.b1 * b.b1);
@@ -41,16 +42,48 @@ GNOMON_KERNEL Real hamburger4_cholesky_intensity(GNOMON_T(moments4) b, Real z_f)
     Real inverse_q2 = Real(1) / q2;
     Real centre = Real(-0.5) * (q1 * inverse_q2);
     Real r = gnomon_sqrt(centre * centre - q0 * inverse_q2);
-    Real z1 = centre - r;
-    Real z2 = centre + r;
+    GNOMON_T(quadratic_nodes) n;
+    n.z1 = centre - r;
+    n.z2 = centre + r;
+    return n;
+}
 
-    // Two depths before z_f: 1 minus the weight of z_f. One: its weight. The weight of a depth n with other depths o
-    // and z2 is E[(z - o) (z - z2)] / ((n - o) (n - z2)) by Cramer's rule.
-    GNOMON_MASK both = z2 < z_f;
-    Real node = gnomon_select(both, z_f, z1);
-    Real other = gnomon_select(both, z1, z_f);
-    Real w = (b.b2 - b.b1 * (other + z2) + other * z2) / ((node - other) * (node - z2));
-    return saturate_or_zero(gnomon_select(both, Real(1) - w, gnomon_select(z1 < z_f, w, Real(0))));
+/// The weight of depth node beside the depths other and last: E[(z - other) (z - last)] / ((node - other) (node - last)), by
+/// Cramer's rule.
+GNOMON_DETAIL_KERNEL Real hamburger4_cholesky_weight(GNOMON_T(moments4) b, Real node, Real other, Real last)
+{
+    return (b.b2 - b.b1 * (other + last) + other * last) / ((node - other) * (node - last));
+}
+
+/// Lower bound on the shadow intensity at z_f, in [0, 1], from four biased moments. Takes four divisions and one root.
+/// Domain: the Hankel matrix is positive definite in the precision of Real; else the result is not accurate.
+/// NaN: 0, lit.
+/// Source: Peters 2017, Alg. 1
+GNOMON_KERNEL Real hamburger4_cholesky_intensity(GNOMON_T(moments4) b, Real z_f)
+{
+    quadratic_nodes n = hamburger4_cholesky_nodes(b, z_f);
+    // Two depths before z_f: 1 minus the weight of z_f. One: its weight.
+    GNOMON_MASK both = n.z2 < z_f;
+    Real node = gnomon_select(both, z_f, n.z1);
+    Real other = gnomon_select(both, n.z1, z_f);
+    Real w = hamburger4_cholesky_weight(b, node, other, n.z2);
+    return saturate_or_zero(gnomon_select(both, Real(1) - w, gnomon_select(n.z1 < z_f, w, Real(0))));
+}
+
+/// Mean blocker depth in [-1, z_f] from four biased moments: that of the depths before z_f and, with a weight of 1e-3, of
+/// z_f itself.
+/// Domain: the Hankel matrix is positive definite in the precision of Real; else the result is not accurate.
+/// NaN: z_f; a z_f of NaN is the far plane.
+/// Source: Peters 2017, Eq. 4; Peters 2017, Alg. 1
+GNOMON_KERNEL Real hamburger4_cholesky_blocker(GNOMON_T(moments4) b, Real z_f)
+{
+    Real z = clamp_or_high(z_f, Real(-1), Real(1));
+    quadratic_nodes n = hamburger4_cholesky_nodes(b, z);
+    Real w1 = gnomon_select(n.z1 < z, hamburger4_cholesky_weight(b, n.z1, z, n.z2), Real(0));
+    Real w2 = gnomon_select(n.z2 < z, hamburger4_cholesky_weight(b, n.z2, n.z1, z), Real(0));
+    Real epsilon = GNOMON_LITERAL(hamburger_cholesky_epsilon);
+    Real depth = (epsilon * z + (w1 * n.z1 + w2 * n.z2)) / (epsilon + (w1 + w2));
+    return gnomon_select(depth == depth, gnomon_min(z, gnomon_max(Real(-1), depth)), z);
 }
 
 /// The three real roots of a cubic, in no particular order.

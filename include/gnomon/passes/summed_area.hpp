@@ -183,14 +183,6 @@ format_channels<Table> rectangle_mean(map_view<const format_texel<Table>> table,
     const std::array along{double(b.width0), double(b.width1), double(b.width2)};
     const bool left = columns[0] > 0, above = rows[0] > 0; // of all lines only the first may be an edge
     std::array<std::array<format_texel<Table>, 4>, 4> corners{};
-    const summed_area_rectangle<float> r =
-        summed_area_clip(rectangle, float(table.width), float(table.height), float(most_texels));
-    const summed_area_parts<double> a = summed_area_split(double(r.x0), double(r.x1));
-    const summed_area_parts<double> b = summed_area_split(double(r.y0), double(r.y1));
-    const std::array columns{std::size_t(a.line0), std::size_t(a.line1), std::size_t(a.line2), std::size_t(a.line3)};
-    const std::array rows{std::size_t(b.line0), std::size_t(b.line1), std::size_t(b.line2), std::size_t(b.line3)};
-    const std::array across{a.width0, a.width1, a.width2}, along{b.width0, b.width1, b.width2};
-    std::array<std::array<format_texel<Table>, 4>, 4> corners;
     for (std::size_t j = 0; j < 4; ++j)
         for (std::size_t i = 0; i < 4; ++i)
             if ((i > 0 || left) && (j > 0 || above)) corners[j][i] = table(columns[i] - 1, rows[j] - 1);
@@ -225,7 +217,6 @@ format_channels<Table> rectangle_average(map_view<const format_texel<Table>> tab
         summed_area_clip(rectangle, float(table.width), float(table.height), float(most_texels));
     return rectangle_mean<Table>(table, detail::table_scale(most_texels), summed_area_split(r.x0, r.x1),
                                  summed_area_split(r.y0, r.y1));
-    return detail::mean_of<Table>(sum, summed_area_width(a) * summed_area_width(b), most_texels);
 }
 
 GNOMON_NAMESPACE_END

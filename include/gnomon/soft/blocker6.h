@@ -15,6 +15,10 @@ GNOMON_NAMESPACE_BEGIN
 /// Mean blocker depth in [-1, z_f] from six moments.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: no blocker, z_f, for a NaN in h; a z_f of NaN is the far plane.
+/// Error: against the moment problem solved in 120 digits (tests/soft/blocker.cpp),
+///     error, double, no bias: p99 1e-14, p99.9 1e-13
+/// and against the kernel in double, for a table of 784 texels,
+///     error, float, hankel6_from_summed: p99 1e-3, p99.9 5e-3, max 5e-1
 /// Source: Peters 2017, Eq. 4
 GNOMON_KERNEL Real blocker6_depth(GNOMON_T(hankel6) h, Real z_f)
 {

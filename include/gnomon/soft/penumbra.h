@@ -52,7 +52,7 @@ GNOMON_KERNEL Real penumbra_directional(Real z_f, Real z_b, GNOMON_SETTING texel
 /// unit of length at distance 1 from the light, in the map of that axis.
 /// Domain: any depths, clamped to [-1, 1]; 0 < near_distance < far_distance. Blockers behind the receiver give 1.
 /// NaN: 1; a widest of NaN counts as none.
-/// Error: relative, 8 2^-p, for distances as rounded.
+/// Error: relative, 10 2^-p.
 /// Source: Fernando 2005; Peters 2017, Sec. 4.1
 GNOMON_KERNEL Real penumbra_local(Real z_f, Real z_b, GNOMON_SETTING near_distance, GNOMON_SETTING far_distance,
                                   GNOMON_SETTING light_texels, GNOMON_SETTING widest)

@@ -7,8 +7,8 @@
 //                   z_b = moments4_summed_blocker(c, most_texels, z_f)
 //                   shadow = moments4_summed_intensity(c, most_texels, z_f - bias)
 //
-// Encoding and the inverse of theta4 keep the digits that Real has no room for. Else the noise of channels (summed_area_noise)
-// would be 2.5e-7 for 784 texels, not 1.4e-7. Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at
+// Encoding and the inverse of theta4 keep the digits that Real has no room for: without them the noise of channels
+// (summed_area_noise) would be twice as large. Intensities exceed Z(z < z_f), for every distribution Z on [-1, 1], by at
 // most
 //   moments4_summed_intensity   stored4_arithmetic_weight: certificates (certified4.h)
 //   hankel4_from_summed         moments4_summed_bias_ratio times the noise, and that of arithmetic
@@ -21,6 +21,7 @@
 GNOMON_NAMESPACE_BEGIN
 
 GNOMON_CONSTANT(moments4_summed_bias_ratio, 5.0);
+GNOMON_CONSTANT(moments4_summed_node_ratio, 4.0); // for the nodes of certificates
 
 /// a + b as a double word, for magnitudes in any order.
 GNOMON_DETAIL_KERNEL GNOMON_T(double_word) summed_two_sum(Real a, Real b) { return two_difference(a, Real(-1) * b); }
@@ -139,19 +140,14 @@ GNOMON_DETAIL_KERNEL GNOMON_T(hankel4) hankel4_from_summed_theta(GNOMON_T(channe
     return hankel4_with_change(b, e);
 }
 
-/// The weight of the constant bias of a table for most_texels, at most 1/2.
-GNOMON_DETAIL_KERNEL Real moments4_summed_weight(Real most_texels)
-{
-    return gnomon_min(GNOMON_LITERAL(moments4_summed_bias_ratio) * summed_area_noise(most_texels), Real(0.5));
-}
-
 /// The factored matrix of the channels of a rectangle, with the constant bias of a table for most_texels.
 /// Domain: most_texels as of the table's scale.
 /// NaN: stays NaN; a most_texels of NaN counts as a small one.
 GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_summed(GNOMON_T(channels4) c, GNOMON_SETTING most_texels)
 {
+    Real weight = GNOMON_LITERAL(moments4_summed_bias_ratio) * summed_area_noise(most_texels);
     return hankel4_from_summed_theta(c, GNOMON_LITERAL(bias4_theta_b2), GNOMON_LITERAL(bias4_theta_b4),
-                                     moments4_summed_weight(most_texels));
+                                     gnomon_min(weight, Real(0.5)));
 }
 
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a rectangle.
@@ -159,9 +155,11 @@ GNOMON_KERNEL GNOMON_T(hankel4) hankel4_from_summed(GNOMON_T(channels4) c, GNOMO
 /// NaN: 0, lit.
 GNOMON_KERNEL Real moments4_summed_intensity(GNOMON_T(channels4) c, GNOMON_SETTING most_texels, Real z_f)
 {
-    return certified4_theta_constant_bias_lower(hankel4_from_summed(c, most_texels), summed_area_noise(most_texels),
-                                                GNOMON_LITERAL(bias4_theta_b2), GNOMON_LITERAL(bias4_theta_b4),
-                                                moments4_summed_weight(most_texels), z_f);
+    Real noise = summed_area_noise(most_texels);
+    Real weight = gnomon_min(GNOMON_LITERAL(moments4_summed_node_ratio) * noise, Real(0.5));
+    hankel4 h = hankel4_from_summed_theta(c, GNOMON_LITERAL(bias4_theta_b2), GNOMON_LITERAL(bias4_theta_b4), weight);
+    return certified4_theta_constant_bias_lower(h, noise, GNOMON_LITERAL(bias4_theta_b2),
+                                                GNOMON_LITERAL(bias4_theta_b4), weight, z_f);
 }
 
 /// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.

@@ -84,6 +84,8 @@ GNOMON_KERNEL Real variance_summed_intensity(GNOMON_T(channels2) c, GNOMON_SETTI
 /// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: no blocker, z_f, for a NaN in c; a z_f of NaN is the far plane.
+/// Error: against the kernel in double, for a table of 784 texels,
+///     error, float, variance_summed_blocker: p99 1e-6, p99.9 2e-4, max 2e-3
 /// Source: Yang 2010
 GNOMON_KERNEL Real variance_summed_blocker(GNOMON_T(channels2) c, GNOMON_SETTING most_texels, Real z_f)
 {
