@@ -2,7 +2,13 @@
 
 #include "renderer/raster/rasterizer.hpp"
 
+#include <gnomon/passes/blur.hpp>
+#include <gnomon/passes/look_up.hpp>
+#include <gnomon/passes/mips.hpp>
+#include <gnomon/storage/moments4_blended.h>
+
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -75,6 +81,38 @@ blend_difference compare_blend(const vulkan::device& gpu, const blended_frame& d
     result.mean_allowed /= count;
     result.beyond = beyond / count;
     result.beyond_inside = beyond_inside / count;
+    return result;
+}
+
+image<float> blended_visibility(const device_comparison& comparison,
+                                std::span<const translucent_fragment> back_to_front, std::span<const float> taps)
+{
+    using format = moments4_unorm16;
+    const depth_map& depths = comparison.depths();
+    const auto width = std::size_t(depths.width), height = std::size_t(depths.height);
+    std::vector<format::texel> texels(mip_texels(width, height));
+    for (std::size_t i = 0; i < depths.pixels.size(); ++i) {
+        channel_array<format> mean{};
+        for (const float z : depths.pixels[i]) {
+            const auto c = std::bit_cast<channel_array<format>>(format::from_depth(z));
+            for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += 0.25f * c[k];
+        }
+        texels[i] = store_channels<format>(mean);
+    }
+    const mip_view<format::texel> mips{texels, width, height};
+    const map_view<format::texel> map = mips.level(0);
+    blend<format>(map, back_to_front);
+    std::vector<format::texel> scratch(map.texels.size());
+    blur<format>(map, {scratch, width, height}, map, taps);
+    build_mips<format>(mips);
+
+    image<float> result(comparison.seen().width, comparison.seen().height, 1);
+    const map_receivers& where = comparison.where();
+    for (std::size_t i = 0; i < where.size(); ++i) {
+        const map_receiver& r = where.biased[i];
+        const auto c = trilinear<format>({texels, width, height}, r.u * float(width), r.v * float(height), r.level);
+        result.pixels[where.pixels[i]] = 1 - moments4_unorm16_blended_intensity(c, roundings, r.depth);
+    }
     return result;
 }
 

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "blended_map.hpp"
+#include "side_by_side.hpp"
 
 #include <cstddef>
 #include <span>
@@ -28,5 +29,10 @@ struct blend_difference {
 // Throws std::invalid_argument if there are no fragments.
 blend_difference compare_blend(const renderer::vulkan::device& gpu, const blended_frame& device,
                                std::span<const translucent_fragment> back_to_front);
+
+// Visibility of the sun at the receivers, by the CPU from its own depths and these fragments.
+renderer::image<float> blended_visibility(const device_comparison& comparison,
+                                          std::span<const translucent_fragment> back_to_front,
+                                          std::span<const float> taps);
 
 } // namespace gnomon::evaluation

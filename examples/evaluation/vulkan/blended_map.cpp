@@ -84,8 +84,17 @@ blended_frame blending_renderer::render(blend_images way) const
                                           }}};
     const named_pass blended{"blend", [&](auto& commands) { blend.record(commands, layers_, vulkan::bytes_of(rows)); }};
 
+    std::vector<vulkan::image> copies;
+    for (const vulkan::image& one : map.images())
+        copies.emplace_back(gpu, one.format(), one.extent(), usage::eSampled | usage::eTransferDst);
+    const named_pass copy{"copy", [&](auto& commands) {
+                              for (std::size_t i = 0; i < copies.size(); ++i)
+                                  vulkan::copy(commands, map.images()[i], copies[i]);
+                          }};
+
     std::vector<named_pass> all = opaque;
-    for (const named_pass& pass : {blended, map.blur(), map.mips(), map.lighting({own.lighting})}) all.push_back(pass);
+    for (const named_pass& pass : {blended, copy, map.blur(), map.mips(), map.lighting({own.lighting})})
+        all.push_back(pass);
     blended_frame result{stage_.run(all), {}, {}};
     gpu.run([&](auto& commands) {
         for (const named_pass& pass : opaque) pass.record(commands);

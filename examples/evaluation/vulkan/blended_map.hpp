@@ -16,7 +16,7 @@ namespace gnomon::evaluation {
 enum class blend_images { one, two };
 
 struct blended_frame {
-    device_frame frame;
+    device_frame frame;                                       // with a pass named copy, of the map
     renderer::image<moments4_unorm16::texel> opaque, blended; // before and after the blend
 };
 

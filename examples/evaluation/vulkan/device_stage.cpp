@@ -20,7 +20,6 @@ using glm::vec4;
 using usage = vk::ImageUsageFlagBits;
 
 constexpr std::uint32_t vectors = 3; // of a vertex
-constexpr float roundings = 26;      // of two filter passes and of a blend for each of 24 layers
 
 view view_of(const stage& scenery, int map_resolution, const soft_settings& soft)
 {

@@ -28,6 +28,9 @@ struct device_frame {
     std::vector<device_pass> passes;
 };
 
+// The roundings of a blended map that its look-up allows for: of two filter passes, and of a blend for each of 24 layers.
+inline constexpr float roundings = 26;
+
 class device_stage {
   public:
     // The stage has a directional light, and its meshes are shaded by the normals of their triangles.

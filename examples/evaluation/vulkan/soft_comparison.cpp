@@ -65,12 +65,13 @@ image<float> visibility_from(const table_texels& table, const device_comparison&
 
 } // namespace
 
-soft_comparison compare_soft(const vulkan::device& gpu, const stage& scenery, const device_comparison& comparison,
-                             const settings& how)
+std::optional<soft_comparison> compare_soft(const vulkan::device& gpu, const stage& scenery,
+                                            const device_comparison& comparison, const settings& how)
 {
     const vk::Extent2D extent{std::uint32_t(comparison.seen().width), std::uint32_t(comparison.seen().height)};
     const soft_renderer drawn(gpu, scenery, extent, how.map_resolution,
                               how.hlsl ? shading_language::hlsl : shading_language::glsl);
+    if (!drawn.supported()) return {};
     soft_comparison result{.device = drawn.render(),
                            .host = {},
                            .look_up_tolerance = tolerance_of(gpu, 0),

@@ -11,6 +11,7 @@
 #include "summed_map.hpp"
 
 #include <cstddef>
+#include <optional>
 
 namespace gnomon::evaluation {
 
@@ -22,9 +23,9 @@ struct soft_comparison {
     difference_statistics of_look_up, of_whole; // from the device's table, and from the CPU's
 };
 
-// The stage has a light with a size. The comparison is of the same stage.
-soft_comparison compare_soft(const renderer::vulkan::device& gpu, const renderer::stage& scenery,
-                             const device_comparison& comparison, const settings& how);
+// The stage has a light with a size. The comparison is of the same stage. Nothing if the device lacks the formats.
+std::optional<soft_comparison> compare_soft(const renderer::vulkan::device& gpu, const renderer::stage& scenery,
+                                            const device_comparison& comparison, const settings& how);
 
 // The stage of the fence under a sun of three degrees.
 renderer::stage soft_stage(double aspect);

@@ -1,11 +1,7 @@
-#include "evaluation/core/blocks.hpp"
-#include "evaluation/core/report.hpp"
 #include "evaluation/core/scene.hpp"
-#include "renderer/shade/shading.hpp"
-#include "side_by_side.hpp"
+#include "parts.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <optional>
@@ -18,30 +14,6 @@ namespace gnomon::evaluation {
 using namespace renderer;
 
 namespace {
-
-const registered<reference> on_cpu{"cpu", "the same method on the CPU", 40};
-
-constexpr const char* driver_name = "vulkan_shadows";
-constexpr float error_scale = 0.05f; // visibility at which error colours saturate
-
-// On the CPU, too, building a map is resolve, blur and mip levels.
-report_row row_of(const filterable_method& m, const std::string& scene, const std::string& device,
-                  const side_by_side& both, std::size_t receivers)
-{
-    report_row row = evaluation::row_of(m);
-    row.scene = scene;
-    row.receiver = "slope_biased";
-    row.reference = on_cpu->id;
-    row.receivers = static_cast<long long>(receivers);
-    row.errors = both.difference.errors;
-    row.device = device;
-    for (const device_pass& pass : both.device.passes) {
-        row.passes.emplace_back(pass.name, pass.milliseconds);
-        if (pass.name == "lighting") row.ns_per_receiver = 1e6 * pass.milliseconds / double(receivers);
-        else if (pass.name != "shadow_map") row.build_ms += pass.milliseconds;
-    }
-    return row;
-}
 
 struct compared_method {
     const filterable_method* of;
@@ -90,24 +62,10 @@ table_block numbers(const std::vector<compared_method>& methods, double toleranc
 
 pictures_block pictures(const compared_method& one)
 {
-    const std::string& id = one.of->id;
-    const error_statistics& e = one.difference.errors;
     std::string images;
     for (const device_image& image : one.of->device->images) images += (images.empty() ? "" : " + ") + image.format;
-    pictures_block result{
-        .title = fmt::format("{}, {}", one.of->label, images),
-        .columns = 3,
-        .pictures = {
-            {id + "-device.png", "The fence scene rendered on Vulkan with " + one.of->label, "Vulkan"},
-            {id + "-cpu.png", "The fence scene rendered on the CPU with " + one.of->label, "CPU"},
-            {id + "-difference.png",
-             fmt::format("Differences of visibility between Vulkan and the CPU: {:.2g} on average, at most {:.2g}",
-                         e.mean_abs, e.max_abs),
-             "difference"}}};
-    result.is_folded = true;
-    result.key = {{"#2a62cc", fmt::format("the device is brighter; full colour at {:g}", error_scale)},
-                  {"#c8232c", "the device is darker"}};
-    return result;
+    return pictures_of({one.of->id, fmt::format("{}, {}", one.of->label, images),
+                        "The fence scene with " + one.of->label, one.difference.errors});
 }
 
 page page_of(const std::string& device, const std::vector<compared_method>& methods,
@@ -116,12 +74,12 @@ page page_of(const std::string& device, const std::vector<compared_method>& meth
     const double tolerance = double(comparison.tolerance());
     const compared_method& shown = methods.front();
     page result{
-        .driver = driver_name,
+        .driver = vulkan_driver,
         .title = "The same shadows on Vulkan",
         .family = "hard",
         .summary = "Shaders that include the library's package show the shadows of the CPU, to within roundings.",
         .front = shown_picture{shown.of->id + "-device.png",
-                               "The fence scene rendered on Vulkan with " + shown.of->label, "On Vulkan"},
+                               "The fence scene with " + shown.of->label + ", rendered on Vulkan", "On Vulkan"},
         .blocks = {text_block{
             {},
             fmt::format(
@@ -152,15 +110,14 @@ page page_of(const std::string& device, const std::vector<compared_method>& meth
 
 void compare_on(const vulkan::device& gpu, const settings& how)
 {
-    progress(driver_name, gpu.name() + ", shaders from " + (how.hlsl ? "HLSL" : "GLSL"));
+    progress(vulkan_driver, gpu.name() + ", shaders from " + (how.hlsl ? "HLSL" : "GLSL"));
     const auto& entry = dynamic_cast<const still_scene&>(registry_of<scene_entry>().at("fence"));
     const stage scenery = entry.stage(double(how.width) / how.height);
     const device_comparison comparison(gpu, scenery, how);
-    const std::filesystem::path folder = how.folder(driver_name);
     std::vector<compared_method> methods;
     std::vector<report_row> rows;
     const auto known = device_methods();
-    steps all(driver_name, known.size());
+    steps all(vulkan_driver, known.size());
     for (const filterable_method* m : known) {
         if (!comparison.possible(*m)) {
             all.begin(m->label + ": skipped, the device lacks its format");
@@ -169,17 +126,18 @@ void compare_on(const vulkan::device& gpu, const settings& how)
         all.begin(m->label);
         const side_by_side both = comparison.render(*m);
         methods.push_back({m, both.difference, both.device.passes});
-        const auto write = [&](const char* kind, const picture& whole) {
-            write_png(folder / (m->id + kind + ".png"), reduced(whole, how.supersampling));
-        };
-        tbb::parallel_invoke(
-            [&] { write("-device", both.device.colour); },
-            [&] { write("-cpu", shade(scenery.world, scenery.light, comparison.seen(), both.host)); },
-            [&] { write("-difference", error_picture(both.device.visibility, both.host, error_scale)); });
-        rows.push_back(row_of(*m, entry.id, gpu.name(), both, comparison.where().size()));
+        write_pictures(m->id, how, both.device, scenery, comparison, both.host);
+        rows.push_back(
+            device_row(*m, entry.id, gpu.name(), both.device, both.difference.errors, comparison.where().size()));
     }
-    if (methods.empty()) return progress(driver_name, "skipped: the device lacks all formats");
-    write_page(folder, page_of(gpu.name(), methods, comparison, how));
+    if (methods.empty()) return progress(vulkan_driver, "skipped: the device lacks all formats");
+    page whole = page_of(gpu.name(), methods, comparison, how);
+    for (const auto& part : {translucent_part, soft_part}) {
+        const page_part one = part(gpu, how);
+        whole.blocks.insert(whole.blocks.end(), one.blocks.begin(), one.blocks.end());
+        rows.insert(rows.end(), one.rows.begin(), one.rows.end());
+    }
+    write_page(how.folder(vulkan_driver), whole);
     merge_report(how.out / "report.json", rows);
 }
 
@@ -190,7 +148,7 @@ void vulkan_shadows(const settings& how)
     try {
         gpu.emplace();
     } catch (const vulkan::unavailable& error) {
-        return progress(driver_name, std::string("skipped, no Vulkan device: ") + error.what());
+        return progress(vulkan_driver, std::string("skipped, no Vulkan device: ") + error.what());
     }
     compare_on(*gpu, how);
 }

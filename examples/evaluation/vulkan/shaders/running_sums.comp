@@ -1,13 +1,13 @@
-// One pass of a summed-area table: the running sums of each line of texels, modulo 2^32. A workgroup takes a line, a block
-// of texels at a time. The pass along rows reads channels and turns them into codes (GNOMON_FROM_CHANNELS), the pass along
+// One pass of a summed-area table: the running sums of each line of texels, modulo 2^32. A workgroup takes a line, some
+// texels for each invocation at a time. The pass along rows reads channels and turns them into codes (GNOMON_FROM_CHANNELS), the pass along
 // columns reads what that one wrote.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "gnomon.glsl"
 
-const int block = 128;
-layout(local_size_x = block) in;
+const int invocations = 128, texels = 8;
+layout(local_size_x = invocations) in;
 #ifdef GNOMON_FROM_CHANNELS
 layout(binding = 0) uniform texture2D source;
 #else
@@ -20,7 +20,7 @@ layout(push_constant) uniform push
     int size; // of a line, in texels
     float scale;
 };
-shared uvec4 sums[block];
+shared uvec4 sums[invocations];
 
 uvec4 texel_at(ivec2 p)
 {
@@ -37,22 +37,26 @@ void main()
 {
     int i = int(gl_LocalInvocationID.x);
     ivec2 line = int(gl_WorkGroupID.x) * direction.yx;
-    uvec4 before = uvec4(0); // the sum of all blocks before this one
-    for (int first = 0; first < size; first += block) {
-        ivec2 p = line + (first + i) * direction;
-        bool inside = first + i < size;
-        uvec4 sum = uvec4(0);
-        if (inside) sum = texel_at(p);
-        for (int step = 1; step < block; step *= 2) {
+    uvec4 before = uvec4(0); // the sum over what was taken earlier
+    for (int first = i * texels; first - i * texels < size; first += invocations * texels) {
+        uvec4 own[texels], total = uvec4(0);
+        for (int k = 0; k < texels; ++k) {
+            if (first + k < size) total += texel_at(line + (first + k) * direction);
+            own[k] = total;
+        }
+        uvec4 sum = total;
+        for (int step = 1; step < invocations; step *= 2) {
             sums[i] = sum;
             barrier();
             if (i >= step) sum += sums[i - step];
             barrier();
         }
         sums[i] = sum;
-        if (inside) imageStore(target, p, before + sum);
         barrier();
-        before += sums[block - 1];
+        uvec4 start = before + sum - total;
+        for (int k = 0; k < texels; ++k)
+            if (first + k < size) imageStore(target, line + (first + k) * direction, start + own[k]);
+        before += sums[invocations - 1];
         barrier();
     }
 }

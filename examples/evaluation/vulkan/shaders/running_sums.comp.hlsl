@@ -1,7 +1,7 @@
 // running_sums.comp in HLSL.
 #include "gnomon.hlsl"
 
-static const int block = 128;
+static const int invocations = 128, texels = 8;
 #ifdef GNOMON_FROM_CHANNELS
 [[vk::binding(0)]] Texture2D<float4> source;
 #else
@@ -14,7 +14,7 @@ static const int block = 128;
     int size; // of a line, in texels
     float scale;
 };
-groupshared uint4 sums[block];
+groupshared uint4 sums[invocations];
 
 uint4 texel_at(int2 p)
 {
@@ -28,27 +28,31 @@ uint4 texel_at(int2 p)
 #endif
 }
 
-[numthreads(block, 1, 1)]
+[numthreads(invocations, 1, 1)]
 void main(uint3 thread : SV_GroupThreadID, uint3 group : SV_GroupID)
 {
     int i = int(thread.x);
     int2 row = int(group.x) * direction.yx;
-    uint4 before = uint4(0, 0, 0, 0); // the sum of all blocks before this one
-    for (int first = 0; first < size; first += block) {
-        int2 p = row + (first + i) * direction;
-        bool inside = first + i < size;
-        uint4 sum = uint4(0, 0, 0, 0);
-        if (inside) sum = texel_at(p);
-        for (int step = 1; step < block; step *= 2) {
+    uint4 before = uint4(0, 0, 0, 0); // the sum over what was taken earlier
+    for (int first = i * texels; first - i * texels < size; first += invocations * texels) {
+        uint4 own[texels], total = uint4(0, 0, 0, 0);
+        for (int k = 0; k < texels; ++k) {
+            if (first + k < size) total += texel_at(row + (first + k) * direction);
+            own[k] = total;
+        }
+        uint4 sum = total;
+        for (int step = 1; step < invocations; step *= 2) {
             sums[i] = sum;
             GroupMemoryBarrierWithGroupSync();
             if (i >= step) sum += sums[i - step];
             GroupMemoryBarrierWithGroupSync();
         }
         sums[i] = sum;
-        if (inside) target[p] = before + sum;
         GroupMemoryBarrierWithGroupSync();
-        before += sums[block - 1];
+        uint4 start = before + sum - total;
+        for (int j = 0; j < texels; ++j)
+            if (first + j < size) target[row + (first + j) * direction] = start + own[j];
+        before += sums[invocations - 1];
         GroupMemoryBarrierWithGroupSync();
     }
 }
