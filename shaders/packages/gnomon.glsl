@@ -6922,6 +6922,7 @@ float fusion_intensity(float blocked, float covered, float either)
 #ifndef GNOMON_SOFT_MIP_FILTER_H
 #define GNOMON_SOFT_MIP_FILTER_H
 
+const float mip_filter_fifth = 0.2;
 const float mip_filter_per_octave = 0.72134752044448170; // 1 / ln 4
 
 /// The level of a mip chain whose cubic B-spline has the variance of a box of this width in texels of the map; its
@@ -6931,7 +6932,7 @@ const float mip_filter_per_octave = 0.72134752044448170; // 1 / ln 4
 float mip_filter_level(float width)
 {
     float w = gnomon_max(gnomon_min(gnomon_texel_limit, width), 1.0);
-    float squares = gnomon_max(0.2 * (w * w), 1.0);
+    float squares = gnomon_max(mip_filter_fifth * (w * w), 1.0);
     float whole = texel_below(polynomial_log(squares) * mip_filter_per_octave);
     float power = gnomon_power_of_two(whole);
     float share = (squares / (power * power) - 1.0) / 3.0;

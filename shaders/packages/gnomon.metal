@@ -7199,6 +7199,7 @@ inline float fusion_intensity(float blocked, float covered, float either)
 
 namespace gnomon {
 
+constant constexpr float mip_filter_fifth = 0.2f;
 constant constexpr float mip_filter_per_octave = 0.72134752044448170f; // 1 / ln 4
 
 /// The level of a mip chain whose cubic B-spline has the variance of a box of this width in texels of the map; its
@@ -7208,7 +7209,7 @@ constant constexpr float mip_filter_per_octave = 0.72134752044448170f; // 1 / ln
 inline float mip_filter_level(float width)
 {
     float w = gnomon_max(gnomon_min(texel_limit, width), 1.0f);
-    float squares = gnomon_max(0.2f * (w * w), 1.0f);
+    float squares = gnomon_max(mip_filter_fifth * (w * w), 1.0f);
     float whole = texel_below(polynomial_log(squares) * mip_filter_per_octave);
     float power = gnomon_power_of_two(whole);
     float share = (squares / (power * power) - 1.0f) / 3.0f;

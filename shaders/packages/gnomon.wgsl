@@ -6679,6 +6679,7 @@ fn fusion_intensity(blocked: f32, covered: f32, either: f32) -> f32
 //     w^2 / 12 = 5/12 4^l (1 + 3 f),    level = l + f,    f in [0, 1)
 // Weights are not negative and sum to 1, so filtered moments are moments.
 
+const mip_filter_fifth: f32 = 0x1.99999ap-3; // 0.2
 const mip_filter_per_octave: f32 = 0x1.715476p-1; // 0.72134752044448170, 1 / ln 4
 
 /// The level of a mip chain whose cubic B-spline has the variance of a box of this width in texels of the map; its
@@ -6688,7 +6689,7 @@ const mip_filter_per_octave: f32 = 0x1.715476p-1; // 0.72134752044448170, 1 / ln
 fn mip_filter_level(width: f32) -> f32
 {
     let w = gnomon_max(gnomon_min(gnomon_texel_limit, width), 1.0);
-    let squares = gnomon_max(0.2 * (w * w), 1.0);
+    let squares = gnomon_max(mip_filter_fifth * (w * w), 1.0);
     let whole = texel_below(polynomial_log(squares) * mip_filter_per_octave);
     let power = gnomon_power_of_two(whole);
     let share = (squares / (power * power) - 1.0) / 3.0;

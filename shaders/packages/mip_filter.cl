@@ -245,6 +245,7 @@ static inline float texel_weight(float u, float i, float look_ups)
 #ifndef GNOMON_SOFT_MIP_FILTER_H
 #define GNOMON_SOFT_MIP_FILTER_H
 
+__constant float mip_filter_fifth = 0.2f;
 __constant float mip_filter_per_octave = 0.72134752044448170f; // 1 / ln 4
 
 /// The level of a mip chain whose cubic B-spline has the variance of a box of this width in texels of the map; its
@@ -254,7 +255,7 @@ __constant float mip_filter_per_octave = 0.72134752044448170f; // 1 / ln 4
 static inline float mip_filter_level(float width)
 {
     float w = gnomon_max(gnomon_min(gnomon_texel_limit, width), 1.0f);
-    float squares = gnomon_max(0.2f * (w * w), 1.0f);
+    float squares = gnomon_max(mip_filter_fifth * (w * w), 1.0f);
     float whole = texel_below(polynomial_log(squares) * mip_filter_per_octave);
     float power = gnomon_power_of_two(whole);
     float share = (squares / (power * power) - 1.0f) / 3.0f;

@@ -682,6 +682,7 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 
 GNOMON_WARNINGS_OFF namespace gnomon {
 
+inline constexpr double mip_filter_fifth = 0.2;
 inline constexpr double mip_filter_per_octave = 0.72134752044448170; // 1 / ln 4
 
 /// The level of a mip chain whose cubic B-spline has the variance of a box of this width in texels of the map; its
@@ -691,7 +692,7 @@ inline constexpr double mip_filter_per_octave = 0.72134752044448170; // 1 / ln 4
 template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real mip_filter_level(Real width)
 {
     Real w = gnomon_max(gnomon_min(literal<Real>(texel_limit), width), Real(1));
-    Real squares = gnomon_max(Real(0.2) * (w * w), Real(1));
+    Real squares = gnomon_max(literal<Real>(mip_filter_fifth) * (w * w), Real(1));
     Real whole = texel_below(polynomial_log(squares) * literal<Real>(mip_filter_per_octave));
     Real power = gnomon_power_of_two(whole);
     Real share = (squares / (power * power) - Real(1)) / Real(3);

@@ -12,6 +12,7 @@
 #include "../numerics/texel_filter.h"
 GNOMON_NAMESPACE_BEGIN
 
+GNOMON_CONSTANT(mip_filter_fifth, 0.2);
 GNOMON_CONSTANT(mip_filter_per_octave, 0.72134752044448170); // 1 / ln 4
 
 /// The level of a mip chain whose cubic B-spline has the variance of a box of this width in texels of the map; its fraction
@@ -21,7 +22,7 @@ GNOMON_CONSTANT(mip_filter_per_octave, 0.72134752044448170); // 1 / ln 4
 GNOMON_KERNEL Real mip_filter_level(Real width)
 {
     Real w = gnomon_max(gnomon_min(GNOMON_LITERAL(texel_limit), width), Real(1));
-    Real squares = gnomon_max(Real(0.2) * (w * w), Real(1));
+    Real squares = gnomon_max(GNOMON_LITERAL(mip_filter_fifth) * (w * w), Real(1));
     Real whole = texel_below(polynomial_log(squares) * GNOMON_LITERAL(mip_filter_per_octave));
     Real power = gnomon_power_of_two(whole);
     Real share = (squares / (power * power) - Real(1)) / Real(3);
