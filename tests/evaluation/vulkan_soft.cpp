@@ -1,11 +1,15 @@
 // Translucent and soft shadows of the example vulkan_shadows, small: the blend keeps the tolerance of
 // blend_comparison.hpp, the summed-area table is that of the CPU bit by bit, its look-ups are those of the CPU, and the
 // validation layer has nothing to say.
+#include "evaluation/soft/soft_stage.hpp"
 #include "evaluation/vulkan/blend_comparison.hpp"
 #include "evaluation/vulkan/soft_comparison.hpp"
 #include "renderer/device.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -66,7 +70,7 @@ TEST_CASE("the table is the CPU's, and so are its soft shadows")
 {
     const auto gpu = test::device_or_skip();
     if (!gpu) return;
-    const renderer::stage scenery = soft_stage(aspect);
+    const renderer::stage scenery = sunny_fence(aspect);
     for (const bool hlsl : {false, true}) {
         CAPTURE(hlsl);
         settings how = small;
@@ -78,6 +82,20 @@ TEST_CASE("the table is the CPU's, and so are its soft shadows")
         CHECK(both.wrong_sums == 0);
         check(both.of_look_up, double(both.look_up_tolerance));
         check(both.of_whole, double(both.whole_tolerance));
+
+        // The CPU's shadows are those of the registry's method.
+        const auto& method =
+            dynamic_cast<const soft_method&>(registry_of<gnomon::evaluation::method>().at("msm4_soft"));
+        const renderer::image<std::array<float, 1>> centres;
+        const auto map = method.build({comparison.depths(), centres},
+                                      soft_light_of(scenery.area(), small.map_resolution, method.widest_search));
+        std::vector<std::size_t> pixels;
+        const auto where = soft_receivers_of(comparison.seen(), scenery.light, small.map_resolution, pixels);
+        REQUIRE(pixels == comparison.where().pixels);
+        std::vector<float> intensities(where.size());
+        map->intensities(where, intensities);
+        for (std::size_t i = 0; i < where.size(); ++i)
+            CHECK(std::abs(1 - intensities[i] - found->host.pixels[pixels[i]]) < 1e-4f);
 
         // A light of half the size has other shadows.
         renderer::stage smaller = scenery;

@@ -1,12 +1,16 @@
 #include "soft_comparison.hpp"
 
+#include "renderer/shade/receivers.hpp"
+
 #include <gnomon/filters/depth_bias.h>
 #include <gnomon/moments/bounds.h>
 #include <gnomon/passes/summed_area.hpp>
 #include <gnomon/soft/penumbra.h>
 
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -33,11 +37,20 @@ template <class Source> table_texels table_of(const image<Source>& source)
     return result;
 }
 
-float intensity_at(const map_receiver& r, const table_texels& table, const glm::vec2& scales)
+// The gradient of depth per texel at a receiver, of a plane at 80 degrees at most.
+gnomon::depth_gradient<float> gradient_of(const map_receiver& r, const camera& light, float size)
+{
+    const glm::dvec2 per_uv(r.depth_per_u, r.depth_per_v);
+    const double slope = glm::length(0.25 * (light.far_distance - light.near_distance) * per_uv / light.half_extent);
+    const glm::vec2 gradient = per_uv * std::min(1., steepest_slope / slope) / double(size);
+    return {gradient.x, gradient.y};
+}
+
+float intensity_at(const map_receiver& r, const table_texels& table, const camera& light, const glm::vec2& scales)
 {
     const auto size = float(table.width);
     const float x = r.u * size, y = r.v * size;
-    const gnomon::depth_gradient<float> gradient{r.depth_per_u / size, r.depth_per_v / size};
+    const auto gradient = gradient_of(r, light, size);
     const auto widths = [&](float z_b) {
         return std::pair(penumbra_directional(r.depth, z_b, scales.x, widest_search),
                          penumbra_directional(r.depth, z_b, scales.y, widest_search));
@@ -46,20 +59,21 @@ float intensity_at(const map_receiver& r, const table_texels& table, const glm::
     const auto [search_x, search_y] = widths(-1);
     const auto searched =
         grid_average<moments4_summed>(view_of(table), most_searched, summed_area_around(x, y, search_x, search_y));
-    if (1 - umbra_epsilon < moments4_summed::intensity(searched, most, r.depth)) return 1;
+    if (1 - umbra_share < moments4_summed::intensity(searched, most, r.depth)) return 1;
     const auto [width_x, width_y] = widths(moments4_summed::blocker(searched, most, r.depth));
     const auto filtered =
         rectangle_average<moments4_summed>(view_of(table), most_searched, summed_area_around(x, y, width_x, width_y));
     const float bias = depth_bias_receiver_plane(gradient, 0.5f * width_x + 1, 0.5f * width_y + 1, 2.f);
-    return over_darken(moments4_summed::intensity(filtered, most, r.depth - bias), 1 - umbra_epsilon);
+    return over_darken(moments4_summed::intensity(filtered, most, r.depth - bias), 1 - umbra_share);
 }
 
-image<float> visibility_from(const table_texels& table, const device_comparison& comparison, const glm::vec2& scales)
+image<float> visibility_from(const table_texels& table, const device_comparison& comparison, const camera& light,
+                             const glm::vec2& scales)
 {
     image<float> result(comparison.seen().width, comparison.seen().height, 1);
     const map_receivers& where = comparison.where();
     for (std::size_t i = 0; i < where.size(); ++i)
-        result.pixels[where.pixels[i]] = 1 - intensity_at(where.unbiased[i], table, scales);
+        result.pixels[where.pixels[i]] = 1 - intensity_at(where.unbiased[i], table, light, scales);
     return result;
 }
 
@@ -84,14 +98,14 @@ std::optional<soft_comparison> compare_soft(const vulkan::device& gpu, const sta
 
     const glm::vec2 scales = penumbra_scales(scenery, how.map_resolution);
     const image<float>& seen = result.device.frame.visibility;
-    result.of_look_up =
-        comparison.difference(seen, visibility_from(result.device.table, comparison, scales), result.look_up_tolerance);
-    result.host = visibility_from(table_of(comparison.depths()), comparison, scales);
+    result.of_look_up = comparison.difference(
+        seen, visibility_from(result.device.table, comparison, scenery.light, scales), result.look_up_tolerance);
+    result.host = visibility_from(table_of(comparison.depths()), comparison, scenery.light, scales);
     result.of_whole = comparison.difference(seen, result.host, result.whole_tolerance);
     return result;
 }
 
-stage soft_stage(double aspect)
+stage sunny_fence(double aspect)
 {
     stage result = fence_stage(aspect);
     result.light_size = glm::dvec2(glm::radians(3.0));

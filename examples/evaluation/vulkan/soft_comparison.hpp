@@ -28,6 +28,6 @@ std::optional<soft_comparison> compare_soft(const renderer::vulkan::device& gpu,
                                             const device_comparison& comparison, const settings& how);
 
 // The stage of the fence under a sun of three degrees.
-renderer::stage soft_stage(double aspect);
+renderer::stage sunny_fence(double aspect);
 
 } // namespace gnomon::evaluation

@@ -56,7 +56,7 @@ table_block rates(const soft_comparison& both)
 
 page_part soft_part(const vulkan::device& gpu, const settings& how)
 {
-    const stage scenery = soft_stage(double(how.width) / how.height);
+    const stage scenery = sunny_fence(double(how.width) / how.height);
     const device_comparison comparison(gpu, scenery, how);
     const std::optional<soft_comparison> both = compare_soft(gpu, scenery, comparison, how);
     if (!both) return {};
@@ -74,6 +74,7 @@ page_part soft_part(const vulkan::device& gpu, const settings& how)
     if (const method* m = registry_of<method>().find("msm4_soft")) {
         report_row row =
             device_row(*m, "fence", gpu.name(), both->device.frame, both->of_whole.errors, comparison.where().size());
+        row.receiver = "plane_biased";
         row.map_bytes = double(both->device.table.pixels.size()) * moments4_summed::bytes_per_texel;
         result.rows.push_back(std::move(row));
     }

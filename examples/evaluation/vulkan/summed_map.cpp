@@ -32,7 +32,7 @@ struct sums_push {
 soft_settings settings_of(const stage& scenery, int map_resolution, float scale)
 {
     return {.penumbra = {penumbra_scales(scenery, map_resolution), widest_search, 0},
-            .table = {float(most_searched), scale, 1 - umbra_epsilon, 0}};
+            .table = {float(most_searched), scale, 1 - umbra_share, 0}};
 }
 
 } // namespace

@@ -22,7 +22,7 @@ struct soft_frame {
 // The searches of both sides: at most 27 texels along each axis, which touch 28 x 28.
 inline constexpr float widest_search = 27;
 inline constexpr std::size_t most_searched = 784;
-inline constexpr float umbra_epsilon = 0.01f;
+inline constexpr float umbra_share = 0.01f;
 
 // Width of the penumbra along x and y of the map, in texels per unit of signed depth.
 glm::vec2 penumbra_scales(const renderer::stage& scenery, int map_resolution);

@@ -25,9 +25,10 @@ float4 main(fragment f) : SV_Target
     float cosine = dot(seen.to_light.xyz, normal);
     float visibility = 1;
     if (cosine > 0 && all(abs(float3(2 * place.xy - 1, place.z)) <= 1)) {
+        float steepness = min(1, seen.bias.y * cosine / length(seen.to_light.xyz - cosine * normal));
         depth_gradient gradient;
-        gradient.x = dot(seen.slope_u.xyz, normal) / cosine;
-        gradient.y = dot(seen.slope_v.xyz, normal) / cosine;
+        gradient.x = steepness * dot(seen.slope_u.xyz, normal) / cosine;
+        gradient.y = steepness * dot(seen.slope_v.xyz, normal) / cosine;
         soft_settings settings;
         settings.per_depth = seen.penumbra.xy;
         settings.widest = seen.penumbra.z;
