@@ -1,0 +1,23 @@
+// The bound on the shadow that knows that depths lie in [-1, 1].
+#include "moments4.hpp"
+
+#include <gnomon/storage/moments4_summed_within.h>
+
+namespace gnomon::evaluation {
+
+namespace {
+
+struct within_kernels : moments4_kernels {
+    template <class Real> static hankel4<Real> region(const channels4<Real>& c, Real most_texels)
+    {
+        return hankel4_from_summed_within(c, most_texels);
+    }
+    template <class Real> static Real intensity(const hankel4<Real>& h, Real z_f) { return hausdorff4_lower(h, z_f); }
+};
+
+const registered<summed_method<within_kernels, look_up_options{}>> entry{
+    method_facts{.id = "msm4_soft_within", .family = "msm4", .label = "MSM soft, 4 moments of [-1, 1]", .order = 270}};
+
+} // namespace
+
+} // namespace gnomon::evaluation
