@@ -123,11 +123,12 @@ TEST_CASE("a decided receiver is lit or in the umbra of every filter region insi
         const float z_f = float(x[10] < 0.5 ? near : far) + float((x[11] - 0.5) * std::exp2(-30 * x[12]));
         const float bias = x[13] < 0.5 ? 0 : float(x[13] - 0.5);
         const depth_interval interval = interval_in(m, search);
-        const decided_shadow<float> r = depth_interval_shadow(interval.least, interval.greatest, z_f, bias);
+        const float least_bias = x[13] < 0.75 ? 0 : bias * float(x[14]);
+        const decided_shadow<float> r = depth_interval_shadow(interval.least, interval.greatest, z_f, least_bias, bias);
         if (r.decided == 0) return -1.0;
         ++decided;
         double worst = 0;
-        for (const float moved : {0.0f, bias * float(x[14]), bias})
+        for (const float moved : {least_bias, bias * float(x[14]), bias})
             for (const double scale : {1.0, 0.6, 0.2}) {
                 const auto inner = [&](float a, float b, double shift) {
                     const float spare = float(1 - scale) * (b - a);
@@ -149,21 +150,24 @@ TEST_CASE("a decided receiver is lit or in the umbra of every filter region insi
 
 TEST_CASE("what the ends decide")
 {
-    const auto shadow = [](float least, float greatest, float z_f, float bias) {
-        const decided_shadow<float> r = depth_interval_shadow(least, greatest, z_f, bias);
+    const auto shadow = [](float least, float greatest, float z_f, float least_bias, float most_bias) {
+        const decided_shadow<float> r = depth_interval_shadow(least, greatest, z_f, least_bias, most_bias);
         return r.decided > 0 ? r.intensity : -1.0f;
     };
-    CHECK(shadow(-0.5f, 0.5f, -0.5f, 0) == 0);
-    CHECK(shadow(-0.5f, 0.5f, -0.4f, 0.2f) == -1);
-    CHECK(shadow(-0.5f, 0.5f, 0.5f, 0) == -1);
-    CHECK(shadow(-0.5f, 0.5f, 0.6f, 0) == 1);
-    CHECK(shadow(-0.5f, 0.5f, 0.6f, 0.2f) == -1);
-    CHECK(shadow(-0.5f, 0.5f, 0.6f, -3) == 1);
-    CHECK(shadow(0.5f, -0.5f, 0.6f, 0) == -1);
-    for (int k = 0; k < 4; ++k) {
-        std::array<float, 4> v{-0.5f, 0.5f, 0.9f, 0};
-        v[std::size_t(k)] = no_number;
-        CHECK(shadow(v[0], v[1], v[2], v[3]) == -1);
+    CHECK(shadow(-0.5f, 0.5f, -0.5f, 0, 0) == 0);
+    CHECK(shadow(-0.5f, 0.5f, -0.375f, 0.125f, 0.25f) == 0);
+    CHECK(shadow(-0.5f, 0.5f, -0.375f, 0, 0.25f) == -1);
+    CHECK(shadow(-0.5f, 0.5f, 0.5f, 0, 0) == -1);
+    CHECK(shadow(-0.5f, 0.5f, 0.6f, 0, 0) == 1);
+    CHECK(shadow(-0.5f, 0.5f, 0.6f, 0, 0.2f) == -1);
+    CHECK(shadow(-0.5f, 0.5f, 0.6f, -4, -3) == 1);
+    CHECK(shadow(-0.5f, 0.5f, 0.6f, 0.1f, 0) == -1);
+    CHECK(shadow(0.5f, -0.5f, 0.6f, 0, 0) == -1);
+    CHECK(shadow(1, 1, 3, 0, 0) == 0);
+    for (std::size_t k = 0; k < 5; ++k) {
+        std::array<float, 5> v{-0.5f, 0.5f, 0.9f, 0, 0};
+        v[k] = no_number;
+        CHECK(shadow(v[0], v[1], v[2], v[3], v[4]) == -1);
     }
 }
 

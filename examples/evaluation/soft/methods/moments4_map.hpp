@@ -159,9 +159,9 @@ template <class Shadow> class moments4_method final : public soft_method {
 inline float one_occluder(const hankel4<float>& h, const soft_light& light, const soft_receiver& where, auto& read)
 {
     const soft_widths<float> widths = light.penumbra(where.depth, moments4_kernels::blocker(h, where.depth));
-    const auto within =
-        moments4_kernels::region(read.filter(soft_light::filter_rectangle(where, widths)), light.most_texels());
-    return over_darken(moments4_kernels::intensity(within, biased_depth(where, widths)), 1 - umbra_epsilon);
+    const channels4<float> within = read.filter(soft_light::filter_rectangle(where, widths));
+    return over_darken(moments4_kernels::shadow(within, light.most_texels(), biased_depth(where, widths)),
+                       1 - umbra_epsilon);
 }
 
 } // namespace gnomon::evaluation

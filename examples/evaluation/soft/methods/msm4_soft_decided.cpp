@@ -12,8 +12,9 @@ struct decided_first {
     {
         const soft_widths<float> widest = light.penumbra(where.depth, -1.0f);
         const depth_interval depths = read.depths(soft_light::filter_rectangle(where, widest));
-        const float bias = where.depth - biased_depth(where, widest);
-        return depth_interval_shadow(depths.least, depths.greatest, where.depth, bias);
+        const float least = where.depth - biased_depth(where, soft_widths<float>{1, 1});
+        const float most = where.depth - biased_depth(where, widest);
+        return depth_interval_shadow(depths.least, depths.greatest, where.depth, least, most);
     }
 
     float operator()(const soft_light& light, const soft_receiver& where, auto& read) const
@@ -22,7 +23,7 @@ struct decided_first {
         if (found.decided > 0) return found.intensity;
         const hankel4<float> around =
             moments4_kernels::region(read.search(light.search_rectangle(where)), light.most_texels());
-        if (moments4_kernels::intensity(around, where.depth) > 1 - umbra_epsilon) return 1;
+        if (moments4_kernels::occlusion(around, where.depth) > 1 - umbra_epsilon) return 1;
         return one_occluder(around, light, where, read);
     }
 };

@@ -14,18 +14,22 @@ struct fused_shadow {
     {
         const float most = light.most_texels();
         const hankel4<float> around = moments4_kernels::region(read.search(light.search_rectangle(where)), most);
-        if (moments4_kernels::intensity(around, where.depth) > 1 - umbra_epsilon) return 1;
+        if (moments4_kernels::occlusion(around, where.depth) > 1 - umbra_epsilon) return 1;
         const occluder_pair<float> two = fusion_occluders(hamburger4_distribution(around, where.depth));
         if (!(two.between > -1)) return one_occluder(around, light, where, read);
         const auto filtered = [&](const soft_widths<float>& widths) {
-            return moments4_kernels::region(read.filter(soft_light::filter_rectangle(where, widths)), most);
+            return read.filter(soft_light::filter_rectangle(where, widths));
         };
-        const soft_widths<float> widths = light.penumbra(where.depth, two.second);
-        const hankel4<float> first = filtered(light.penumbra(where.depth, two.first)), second = filtered(widths);
-        return over_darken(fusion_intensity(moments4_kernels::intensity(first, two.between),
-                                            moments4_kernels::intensity(second, two.between),
-                                            moments4_kernels::intensity(second, biased_depth(where, widths))),
-                           1 - umbra_epsilon);
+        const soft_widths<float> first = light.penumbra(where.depth, two.first);
+        const soft_widths<float> second = light.penumbra(where.depth, two.second);
+        const channels4<float> far_light = filtered(first), near_light = filtered(second);
+        const float receiver = biased_depth(where, second);
+        // What parts the occluders must not lie behind the receiver's own plane.
+        const float blocked =
+            moments4_kernels::shadow(far_light, most, std::min(two.between, biased_depth(where, first)));
+        const float covered = moments4_kernels::shadow(near_light, most, std::min(two.between, receiver));
+        const float either = moments4_kernels::shadow(near_light, most, receiver);
+        return over_darken(fusion_intensity(blocked, covered, either), 1 - umbra_epsilon);
     }
 };
 

@@ -8,11 +8,10 @@ namespace gnomon::evaluation {
 namespace {
 
 struct within_kernels : moments4_kernels {
-    template <class Real> static hankel4<Real> region(const channels4<Real>& c, Real most_texels)
+    template <class Real> static Real shadow(const channels4<Real>& c, Real most_texels, Real z_f)
     {
-        return hankel4_from_summed_within(c, most_texels);
+        return moments4_summed_intensity_within(c, most_texels, z_f);
     }
-    template <class Real> static Real intensity(const hankel4<Real>& h, Real z_f) { return hausdorff4_lower(h, z_f); }
 };
 
 const registered<summed_method<within_kernels, look_up_options{}>> entry{
