@@ -98,13 +98,13 @@ class mip_method final : public soft_method {
     }
 };
 
-const registered<mip_method> entry{method_facts{
-    .id = "msm4_soft_mips",
-    .family = "msm4",
-    .label = "MSM soft, 4 moments, mips",
-    .order = 280,
-    .map = mips_kind->id,
-    .format = {std::string(format::id), std::string(format::name), 4.0 / 3 * double(sizeof(format::texel))}}};
+const registered<mip_method> entry{
+    method_facts{.id = "msm4_soft_mips",
+                 .family = "msm4",
+                 .label = "MSM soft, 4 moments, mips",
+                 .order = 280,
+                 .map = mips_kind->id,
+                 .format = {std::string(format::id), std::string(format::name), double(sizeof(format::texel))}}};
 
 } // namespace
 
