@@ -449,9 +449,14 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 // Shadow of a receiver that the least and the greatest depth of its search region decide (passes/depth_pyramid.hpp).
 //
 // All filter regions of a soft shadow lie in its search region. Where no depth of the search region is before the
-// receiver, none of a filter region is: the receiver is lit. Where all depths are before the receiver after its bias,
-// all of a filter region are: the receiver is in the umbra. Both equal exact percentage-closer soft shadows. Moments
-// alone cannot say so: a mean blocker depth does not tell whether there is a blocker (Peters et al. 2017, Sec. 4.5).
+// receiver after its least bias, none of a filter region is: the receiver is lit. Where all depths are before the
+// receiver after its greatest bias, all of a filter region are: the receiver is in the umbra. Both equal exact
+// percentage-closer soft shadows. Moments alone cannot say so: a mean blocker depth does not tell whether there is a
+// blocker (Peters et al. 2017, Sec. 4.5).
+//
+// A bias that grows with the filter is least for a filter of one texel. A tilted plane then has depths before its own
+// receivers in every wider search region, so that only receivers that face the light are found lit. A bias that is the
+// same for all filters has no such limit.
 #ifndef GNOMON_SOFT_DEPTH_INTERVAL_H
 #define GNOMON_SOFT_DEPTH_INTERVAL_H
 
@@ -461,18 +466,19 @@ GNOMON_WARNINGS_OFF namespace gnomon {
 /// 0.
 template <class Real, class = require_real<Real>> struct decided_shadow { Real intensity, decided; };
 
-/// The shadow of a receiver at z_f from the least and the greatest depth of its search region. bias is the most that a
-/// filter moves the receiver towards the light. Both members are 0 or 1.
-/// Domain: any z_f, limited to [-1, 1]; least <= greatest, else open; a negative bias counts for nothing.
+/// The shadow of a receiver at z_f from the least and the greatest depth of its search region. A filter moves the
+/// receiver towards the light by least_bias to most_bias. Both members are 0 or 1.
+/// Domain: any z_f, limited to [-1, 1]; least <= greatest, else open; negative biases count for nothing.
 /// NaN: open.
 /// Source: Peters 2017, Sec. 4.5
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr decided_shadow<Real> depth_interval_shadow(Real least, Real greatest, Real z_f, Real bias)
+GNOMON_INLINE constexpr decided_shadow<Real> depth_interval_shadow(Real least, Real greatest, Real z_f, Real least_bias,
+                                                                   Real most_bias)
 {
     Real z = clamp_or_nan(z_f, Real(-1), Real(1));
-    mask_t<Real> ordered = least <= greatest;
-    mask_t<Real> umbra = ordered && (bias <= bias) && (greatest < z - gnomon_max(Real(0), bias));
-    mask_t<Real> lit = ordered && (z <= least);
+    mask_t<Real> known = least <= greatest && least_bias <= most_bias;
+    mask_t<Real> umbra = known && (greatest < z - gnomon_max(Real(0), most_bias));
+    mask_t<Real> lit = known && (z - gnomon_max(Real(0), least_bias) <= least);
     decided_shadow<Real> r;
     r.intensity = gnomon_select(umbra, Real(1), Real(0));
     r.decided = gnomon_select(umbra || lit, Real(1), Real(0));

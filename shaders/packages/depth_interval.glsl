@@ -85,9 +85,14 @@ float saturate_or_zero(float x) { return gnomon_saturate(x); }
 // Shadow of a receiver that the least and the greatest depth of its search region decide (passes/depth_pyramid.hpp).
 //
 // All filter regions of a soft shadow lie in its search region. Where no depth of the search region is before the
-// receiver, none of a filter region is: the receiver is lit. Where all depths are before the receiver after its bias,
-// all of a filter region are: the receiver is in the umbra. Both equal exact percentage-closer soft shadows. Moments
-// alone cannot say so: a mean blocker depth does not tell whether there is a blocker (Peters et al. 2017, Sec. 4.5).
+// receiver after its least bias, none of a filter region is: the receiver is lit. Where all depths are before the
+// receiver after its greatest bias, all of a filter region are: the receiver is in the umbra. Both equal exact
+// percentage-closer soft shadows. Moments alone cannot say so: a mean blocker depth does not tell whether there is a
+// blocker (Peters et al. 2017, Sec. 4.5).
+//
+// A bias that grows with the filter is least for a filter of one texel. A tilted plane then has depths before its own
+// receivers in every wider search region, so that only receivers that face the light are found lit. A bias that is the
+// same for all filters has no such limit.
 #ifndef GNOMON_SOFT_DEPTH_INTERVAL_H
 #define GNOMON_SOFT_DEPTH_INTERVAL_H
 
@@ -95,17 +100,17 @@ float saturate_or_zero(float x) { return gnomon_saturate(x); }
 /// 0.
 struct gnomon_decided_shadow { float intensity, decided; };
 
-/// The shadow of a receiver at z_f from the least and the greatest depth of its search region. bias is the most that a
-/// filter moves the receiver towards the light. Both members are 0 or 1.
-/// Domain: any z_f, limited to [-1, 1]; least <= greatest, else open; a negative bias counts for nothing.
+/// The shadow of a receiver at z_f from the least and the greatest depth of its search region. A filter moves the
+/// receiver towards the light by least_bias to most_bias. Both members are 0 or 1.
+/// Domain: any z_f, limited to [-1, 1]; least <= greatest, else open; negative biases count for nothing.
 /// NaN: open.
 /// Source: Peters 2017, Sec. 4.5
-gnomon_decided_shadow depth_interval_shadow(float least, float greatest, float z_f, float bias)
+gnomon_decided_shadow depth_interval_shadow(float least, float greatest, float z_f, float least_bias, float most_bias)
 {
     float z = clamp_or_nan(z_f, -1.0, 1.0);
-    bool ordered = least <= greatest;
-    bool umbra = ordered && (bias <= bias) && (greatest < z - gnomon_max(0.0, bias));
-    bool lit = ordered && (z <= least);
+    bool known = least <= greatest && least_bias <= most_bias;
+    bool umbra = known && (greatest < z - gnomon_max(0.0, most_bias));
+    bool lit = known && (z - gnomon_max(0.0, least_bias) <= least);
     gnomon_decided_shadow r;
     r.intensity = gnomon_select(umbra, 1.0, 0.0);
     r.decided = gnomon_select(umbra || lit, 1.0, 0.0);

@@ -52,25 +52,30 @@ fn saturate_or_zero(x: f32) -> f32 { return gnomon_saturate(x); }
 // Shadow of a receiver that the least and the greatest depth of its search region decide (passes/depth_pyramid.hpp).
 //
 // All filter regions of a soft shadow lie in its search region. Where no depth of the search region is before the
-// receiver, none of a filter region is: the receiver is lit. Where all depths are before the receiver after its bias,
-// all of a filter region are: the receiver is in the umbra. Both equal exact percentage-closer soft shadows. Moments
-// alone cannot say so: a mean blocker depth does not tell whether there is a blocker (Peters et al. 2017, Sec. 4.5).
+// receiver after its least bias, none of a filter region is: the receiver is lit. Where all depths are before the
+// receiver after its greatest bias, all of a filter region are: the receiver is in the umbra. Both equal exact
+// percentage-closer soft shadows. Moments alone cannot say so: a mean blocker depth does not tell whether there is a
+// blocker (Peters et al. 2017, Sec. 4.5).
+//
+// A bias that grows with the filter is least for a filter of one texel. A tilted plane then has depths before its own
+// receivers in every wider search region, so that only receivers that face the light are found lit. A bias that is the
+// same for all filters has no such limit.
 
 /// The shadow intensity, 0 or 1, where decided is 1. Where decided is 0 the depths leave the intensity open, and it is
 /// 0.
 struct gnomon_decided_shadow { intensity: f32, decided: f32 }
 
-/// The shadow of a receiver at z_f from the least and the greatest depth of its search region. bias is the most that a
-/// filter moves the receiver towards the light. Both members are 0 or 1.
-/// Domain: any z_f, limited to [-1, 1]; least <= greatest, else open; a negative bias counts for nothing.
+/// The shadow of a receiver at z_f from the least and the greatest depth of its search region. A filter moves the
+/// receiver towards the light by least_bias to most_bias. Both members are 0 or 1.
+/// Domain: any z_f, limited to [-1, 1]; least <= greatest, else open; negative biases count for nothing.
 /// NaN: open.
 /// Source: Peters 2017, Sec. 4.5
-fn depth_interval_shadow(least: f32, greatest: f32, z_f: f32, bias: f32) -> gnomon_decided_shadow
+fn depth_interval_shadow(least: f32, greatest: f32, z_f: f32, least_bias: f32, most_bias: f32) -> gnomon_decided_shadow
 {
     let z = clamp_or_nan(z_f, -1.0, 1.0);
-    let ordered = least <= greatest;
-    let umbra = ordered && (bias <= bias) && (greatest < z - gnomon_max(0.0, bias));
-    let lit = ordered && (z <= least);
+    let known = least <= greatest && least_bias <= most_bias;
+    let umbra = known && (greatest < z - gnomon_max(0.0, most_bias));
+    let lit = known && (z - gnomon_max(0.0, least_bias) <= least);
     var r: gnomon_decided_shadow;
     r.intensity = gnomon_select(umbra, 1.0, 0.0);
     r.decided = gnomon_select(umbra || lit, 1.0, 0.0);

@@ -796,7 +796,9 @@ float blocker4_depth(hankel4 h, float z_f)
 //     I2       intensity of k2 at z_f: the share that either covers
 // Of the part of k2 that the first occluder leaves, the second covers (I2 - c) / (1 - c). Both block light
 // independently of one another, so the visibility is (1 - I1) (1 - (I2 - c) / (1 - c)). It is 1 - I2 where the
-// occluders coincide, and where the first one is missing.
+// occluders coincide, and where the first one is missing. Where the first covers all of k2, nothing is known of the
+// second, and blocker_epsilon makes little of what bounds leave between I2 and c. The receiver is moved by its bias for
+// I2, and between is not deeper than the moved receiver, or the receiver's own plane would be taken for an occluder.
 //
 // Costs beside those of one occluder: one root for the nodes, a second filter region and two more intensities, only
 // where fusion_occluders found two.
@@ -840,7 +842,8 @@ float fusion_intensity(float blocked, float covered, float either)
 {
     float one = saturate_or_zero(blocked);
     float c = saturate_or_zero(covered);
-    float two = saturate_or_zero((saturate_or_zero(either) - c) / (1.0 - c));
+    float left = (1.0 - c) + blocker_epsilon * c;
+    float two = saturate_or_zero((saturate_or_zero(either) - c) / left);
     return saturate_or_zero(one + (1.0 - one) * two);
 }
 

@@ -6689,9 +6689,14 @@ static inline float blocker6_depth(hankel6 h, float z_f)
 // Shadow of a receiver that the least and the greatest depth of its search region decide (passes/depth_pyramid.hpp).
 //
 // All filter regions of a soft shadow lie in its search region. Where no depth of the search region is before the
-// receiver, none of a filter region is: the receiver is lit. Where all depths are before the receiver after its bias,
-// all of a filter region are: the receiver is in the umbra. Both equal exact percentage-closer soft shadows. Moments
-// alone cannot say so: a mean blocker depth does not tell whether there is a blocker (Peters et al. 2017, Sec. 4.5).
+// receiver after its least bias, none of a filter region is: the receiver is lit. Where all depths are before the
+// receiver after its greatest bias, all of a filter region are: the receiver is in the umbra. Both equal exact
+// percentage-closer soft shadows. Moments alone cannot say so: a mean blocker depth does not tell whether there is a
+// blocker (Peters et al. 2017, Sec. 4.5).
+//
+// A bias that grows with the filter is least for a filter of one texel. A tilted plane then has depths before its own
+// receivers in every wider search region, so that only receivers that face the light are found lit. A bias that is the
+// same for all filters has no such limit.
 #ifndef GNOMON_SOFT_DEPTH_INTERVAL_H
 #define GNOMON_SOFT_DEPTH_INTERVAL_H
 
@@ -6700,17 +6705,18 @@ static inline float blocker6_depth(hankel6 h, float z_f)
 typedef struct gnomon_decided_shadow gnomon_decided_shadow;
 struct gnomon_decided_shadow { float intensity, decided; };
 
-/// The shadow of a receiver at z_f from the least and the greatest depth of its search region. bias is the most that a
-/// filter moves the receiver towards the light. Both members are 0 or 1.
-/// Domain: any z_f, limited to [-1, 1]; least <= greatest, else open; a negative bias counts for nothing.
+/// The shadow of a receiver at z_f from the least and the greatest depth of its search region. A filter moves the
+/// receiver towards the light by least_bias to most_bias. Both members are 0 or 1.
+/// Domain: any z_f, limited to [-1, 1]; least <= greatest, else open; negative biases count for nothing.
 /// NaN: open.
 /// Source: Peters 2017, Sec. 4.5
-static inline gnomon_decided_shadow depth_interval_shadow(float least, float greatest, float z_f, float bias)
+static inline gnomon_decided_shadow depth_interval_shadow(float least, float greatest, float z_f, float least_bias,
+                                                          float most_bias)
 {
     float z = clamp_or_nan(z_f, -1.0f, 1.0f);
-    bool ordered = least <= greatest;
-    bool umbra = ordered && (bias <= bias) && (greatest < z - gnomon_max(0.0f, bias));
-    bool lit = ordered && (z <= least);
+    bool known = least <= greatest && least_bias <= most_bias;
+    bool umbra = known && (greatest < z - gnomon_max(0.0f, most_bias));
+    bool lit = known && (z - gnomon_max(0.0f, least_bias) <= least);
     gnomon_decided_shadow r;
     r.intensity = gnomon_select(umbra, 1.0f, 0.0f);
     r.decided = gnomon_select(umbra || lit, 1.0f, 0.0f);
@@ -7007,7 +7013,9 @@ static inline summed_area_rectangle disc_rectangle(summed_area_rectangle bounds,
 //     I2       intensity of k2 at z_f: the share that either covers
 // Of the part of k2 that the first occluder leaves, the second covers (I2 - c) / (1 - c). Both block light
 // independently of one another, so the visibility is (1 - I1) (1 - (I2 - c) / (1 - c)). It is 1 - I2 where the
-// occluders coincide, and where the first one is missing.
+// occluders coincide, and where the first one is missing. Where the first covers all of k2, nothing is known of the
+// second, and blocker_epsilon makes little of what bounds leave between I2 and c. The receiver is moved by its bias for
+// I2, and between is not deeper than the moved receiver, or the receiver's own plane would be taken for an occluder.
 //
 // Costs beside those of one occluder: one root for the nodes, a second filter region and two more intensities, only
 // where fusion_occluders found two.
@@ -7052,7 +7060,8 @@ static inline float fusion_intensity(float blocked, float covered, float either)
 {
     float one = saturate_or_zero(blocked);
     float c = saturate_or_zero(covered);
-    float two = saturate_or_zero((saturate_or_zero(either) - c) / (1.0f - c));
+    float left = (1.0f - c) + blocker_epsilon * c;
+    float two = saturate_or_zero((saturate_or_zero(either) - c) / left);
     return saturate_or_zero(one + (1.0f - one) * two);
 }
 
