@@ -283,6 +283,20 @@ inline float depth_bias_receiver_plane(depth_gradient gradient, float half_width
     return depth_bias_limit(gnomon_min(limit, rise));
 }
 
+/// The adaptive depth bias in [0, 2] for a look-up of a single texel: by how much the receiver is behind its own plane
+/// where the plane meets the ray through the texel's centre, at most limit, plus epsilon. offset_x and offset_y lead
+/// from that centre to the receiver, in texels. For a rectangle of texels depth_bias_receiver_plane is the largest of
+/// these, less epsilon, if its half widths reach to the farthest centre.
+/// Domain: any; limit and epsilon at least 0.
+/// NaN: epsilon; a limit of NaN counts as none, an epsilon of NaN gives 0.
+/// Error: relative, 4 2^-p of |gradient.x offset_x| + |gradient.y offset_y| + epsilon.
+/// Source: Dou 2014
+inline float depth_bias_texel_plane(depth_gradient gradient, float offset_x, float offset_y, float limit, float epsilon)
+{
+    float behind = gnomon_max(gradient.x * offset_x + gradient.y * offset_y, 0.0f);
+    return depth_bias_limit(depth_bias_limit(gnomon_min(limit, behind)) + epsilon);
+}
+
 } // namespace gnomon
 
 #endif

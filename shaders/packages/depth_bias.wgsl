@@ -231,3 +231,17 @@ fn depth_bias_receiver_plane(gradient: depth_gradient, half_width_x: f32, half_w
     let rise = gnomon_abs(gradient.x * half_width_x) + gnomon_abs(gradient.y * half_width_y);
     return gnomon_depth_bias_limit(gnomon_min(limit, rise));
 }
+
+/// The adaptive depth bias in [0, 2] for a look-up of a single texel: by how much the receiver is behind its own plane
+/// where the plane meets the ray through the texel's centre, at most limit, plus epsilon. offset_x and offset_y lead
+/// from that centre to the receiver, in texels. For a rectangle of texels depth_bias_receiver_plane is the largest of
+/// these, less epsilon, if its half widths reach to the farthest centre.
+/// Domain: any; limit and epsilon at least 0.
+/// NaN: epsilon; a limit of NaN counts as none, an epsilon of NaN gives 0.
+/// Error: relative, 4 2^-p of |gradient.x offset_x| + |gradient.y offset_y| + epsilon.
+/// Source: Dou 2014
+fn depth_bias_texel_plane(gradient: depth_gradient, offset_x: f32, offset_y: f32, limit: f32, epsilon: f32) -> f32
+{
+    let behind = gnomon_max(gradient.x * offset_x + gradient.y * offset_y, 0.0);
+    return gnomon_depth_bias_limit(gnomon_depth_bias_limit(gnomon_min(limit, behind)) + epsilon);
+}

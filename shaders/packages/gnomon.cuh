@@ -3135,6 +3135,23 @@ GNOMON_INLINE constexpr Real depth_bias_receiver_plane(depth_gradient<Real> grad
     return depth_bias_limit(gnomon_min(limit, rise));
 }
 
+/// The adaptive depth bias in [0, 2] for a look-up of a single texel: by how much the receiver is behind its own plane
+/// where the plane meets the ray through the texel's centre, at most limit, plus epsilon. offset_x and offset_y lead
+/// from that centre to the receiver, in texels. For a rectangle of texels depth_bias_receiver_plane is the largest of
+/// these, less epsilon, if its half widths reach to the farthest centre.
+/// Domain: any; limit and epsilon at least 0.
+/// NaN: epsilon; a limit of NaN counts as none, an epsilon of NaN gives 0.
+/// Error: relative, 4 2^-p of |gradient.x offset_x| + |gradient.y offset_y| + epsilon.
+/// Source: Dou 2014
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real depth_bias_texel_plane(depth_gradient<Real> gradient, Real offset_x, Real offset_y,
+                                                    std::type_identity_t<Real> limit,
+                                                    std::type_identity_t<Real> epsilon)
+{
+    Real behind = gnomon_max(gradient.x * offset_x + gradient.y * offset_y, Real(0));
+    return depth_bias_limit(depth_bias_limit(gnomon_min(limit, behind)) + epsilon);
+}
+
 GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif
@@ -8246,7 +8263,8 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 //
 // and the same by penumbra_local. In the umbra, where the intensity of the search rectangle is above 1 - epsilon, the
 // filter may be skipped: over_darken makes that 1 as well, so no step is seen. The paper's epsilon is 0.01. The bias is
-// that of filters/depth_bias.h: the most that the receiver's plane rises within the half widths of the filter.
+// that of filters/depth_bias.h: the most that the receiver's plane rises within the half widths of the filter; or, for
+// look-ups of single texels, depth_bias_texel_plane.
 #ifndef GNOMON_SOFT_PENUMBRA_H
 #define GNOMON_SOFT_PENUMBRA_H
 

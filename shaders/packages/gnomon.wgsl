@@ -2352,6 +2352,20 @@ fn depth_bias_receiver_plane(gradient: depth_gradient, half_width_x: f32, half_w
     return gnomon_depth_bias_limit(gnomon_min(limit, rise));
 }
 
+/// The adaptive depth bias in [0, 2] for a look-up of a single texel: by how much the receiver is behind its own plane
+/// where the plane meets the ray through the texel's centre, at most limit, plus epsilon. offset_x and offset_y lead
+/// from that centre to the receiver, in texels. For a rectangle of texels depth_bias_receiver_plane is the largest of
+/// these, less epsilon, if its half widths reach to the farthest centre.
+/// Domain: any; limit and epsilon at least 0.
+/// NaN: epsilon; a limit of NaN counts as none, an epsilon of NaN gives 0.
+/// Error: relative, 4 2^-p of |gradient.x offset_x| + |gradient.y offset_y| + epsilon.
+/// Source: Dou 2014
+fn depth_bias_texel_plane(gradient: depth_gradient, offset_x: f32, offset_y: f32, limit: f32, epsilon: f32) -> f32
+{
+    let behind = gnomon_max(gradient.x * offset_x + gradient.y * offset_y, 0.0);
+    return gnomon_depth_bias_limit(gnomon_depth_bias_limit(gnomon_min(limit, behind)) + epsilon);
+}
+
 // filters/exponential.h -----------------------------------------------------------------------------------------------
 // Exponential shadow maps (Salvi 2008; Annen et al. 2008; Peters et al. 2017, 2.2): the map holds exp(c z), and
 // Markov's inequality bounds the shadow intensity from below: Z(z < z_f) >= 1 - E[exp(c z)] / exp(c z_f).
@@ -6741,7 +6755,8 @@ fn mip_filter_taps_at(share: f32) -> mip_filter_taps
 //
 // and the same by penumbra_local. In the umbra, where the intensity of the search rectangle is above 1 - epsilon, the
 // filter may be skipped: over_darken makes that 1 as well, so no step is seen. The paper's epsilon is 0.01. The bias is
-// that of filters/depth_bias.h: the most that the receiver's plane rises within the half widths of the filter.
+// that of filters/depth_bias.h: the most that the receiver's plane rises within the half widths of the filter; or, for
+// look-ups of single texels, depth_bias_texel_plane.
 
 /// A width of any size clamped to [1, widest], or 1 if widest is below 1.
 /// NaN: 1; a widest of NaN counts as none.

@@ -82,7 +82,8 @@ float saturate_or_zero(float x) { return gnomon_saturate(x); }
 //
 // and the same by penumbra_local. In the umbra, where the intensity of the search rectangle is above 1 - epsilon, the
 // filter may be skipped: over_darken makes that 1 as well, so no step is seen. The paper's epsilon is 0.01. The bias is
-// that of filters/depth_bias.h: the most that the receiver's plane rises within the half widths of the filter.
+// that of filters/depth_bias.h: the most that the receiver's plane rises within the half widths of the filter; or, for
+// look-ups of single texels, depth_bias_texel_plane.
 #ifndef GNOMON_SOFT_PENUMBRA_H
 #define GNOMON_SOFT_PENUMBRA_H
 

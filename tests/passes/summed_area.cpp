@@ -223,6 +223,9 @@ TEST_CASE_TEMPLATE("channels are clamped, and a NaN makes a texel of the border"
             std::array<depths, 1> missing{depths{nan_of<float>, 2, HUGE_VALF, 1}};
             build_summed_area<Table>(map_view<const depths>{missing, 1, 1}, map_view<format_texel<Table>>{want, 1, 1},
                                      784);
+            std::array<format_texel<Table>, 2> total{};
+            summed_area_total<Table>(map_view<const channels>{source, 2, 1}, 784, {0, 1}, std::span(total));
+            CHECK(total == texels);
             if (std::isnan(x))
                 for (std::size_t i = 0; i < codes.size(); ++i)
                     CHECK(std::abs(double(texels[0][i]) - double(want[0][i])) <= 1);

@@ -147,6 +147,35 @@ TEST_CASE("in the umbra the filter may be skipped without a step")
         }
 }
 
+TEST_CASE_TEMPLATE("a texel's own bias is what the plane rises to its centre, and the largest is that of the rectangle",
+                   T, float, double)
+{
+    bit_source bits(3);
+    double worst = 0;
+    for (std::int64_t i = 0; i < effort(20'000); ++i) {
+        const depth_gradient<T> slope{T(bits.uniform(-0.1, 0.1)), T(bits.uniform(-0.1, 0.1))};
+        const T epsilon = T(bits.uniform(0, 0.01));
+        T largest = 0;
+        for (int y = -3; y <= 3; ++y)
+            for (int x = -3; x <= 3; ++x) {
+                const T bias = depth_bias_texel_plane(slope, T(x), T(y), T(2), epsilon);
+                const double rise = double(slope.x) * x + double(slope.y) * y;
+                const double sum = std::abs(double(slope.x) * x) + std::abs(double(slope.y) * y) + double(epsilon);
+                worst = std::max(worst, std::abs(double(bias) - (std::max(0.0, rise) + double(epsilon))) / sum / u<T>);
+                largest = std::max(largest, bias);
+            }
+        const T whole = depth_bias_receiver_plane(slope, T(3), T(3), T(2));
+        REQUIRE(std::abs(largest - (whole + epsilon)) <= T(8) * T(u<T>));
+    }
+    CHECK(worst <= 4);
+    hostile_source<T> source(4);
+    for (std::int64_t i = 0; i < effort(100'000); ++i) {
+        const auto x = source.draw();
+        const T bias = depth_bias_texel_plane(depth_gradient<T>{x[0], x[1]}, x[2], x[3], x[4], x[5]);
+        REQUIRE((0 <= bias && bias <= 2));
+    }
+}
+
 TEST_CASE("a plane is not in its own shadow, with the bias for the half widths of its filter")
 {
     // 80 degrees: 5.67 units of depth per unit of length, of a filter of up to 27 texels.

@@ -18,6 +18,16 @@ struct moments4_summed : summed_texel<channels4> {
         if constexpr (std::is_same_v<Real, double>) return moments4_unorm16_encode(z);
         else return moments4_summed_encode(z);
     }
+    /// The mean channels of depth samples: moments are averaged before the transform, which is linear.
+    template <std::size_t samples>
+    static constexpr channels<double> from_samples(const std::array<float, samples>& depths)
+    {
+        constexpr double share = 1.0 / double(samples);
+        moments4<double> sum{};
+        for (const float z : depths)
+            sum = moments4_add(sum, moments4_from_depth(clamp_or_high(double(z), -1.0, 1.0)), share);
+        return theta4(sum);
+    }
     template <class Real>
     static constexpr channels<Real> codes(const channels<Real>& c, std::type_identity_t<Real> scale)
     {

@@ -13,6 +13,16 @@ struct moments6_summed : summed_texel<channels6> {
     static constexpr double darkening(double most_texels) { return moments6_summed_weight(most_texels); }
 
     template <class Real> static constexpr channels<Real> from_depth(Real z) { return moments6_summed_encode(z); }
+    /// The mean channels of depth samples: moments are averaged before the transform, which is linear.
+    template <std::size_t samples>
+    static constexpr channels<double> from_samples(const std::array<float, samples>& depths)
+    {
+        constexpr double share = 1.0 / double(samples);
+        moments6<double> sum{};
+        for (const float z : depths)
+            sum = moments6_add(sum, moments6_from_depth(clamp_or_high(double(z), -1.0, 1.0)), share);
+        return theta6(sum);
+    }
     template <class Real>
     static constexpr channels<Real> codes(const channels<Real>& c, std::type_identity_t<Real> scale)
     {

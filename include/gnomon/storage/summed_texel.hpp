@@ -18,6 +18,7 @@ GNOMON_NAMESPACE_BEGIN
 ///     name, id                                 in words, and for programs: [a-z0-9_]
 ///     bytes_per_texel
 ///     from_depth(z)                            the channels of one depth, each in [0, 1]
+///     from_samples(depths)                     the mean channels of depth samples, in double
 ///     codes(channels, scale)                   whole numbers; those of the border for channels that have a NaN
 ///     mean(sums, area, scale)                  the channels of a rectangle; the border for no area
 ///     intensity(channels, most_texels, z_f)    the shadow in a rectangle
@@ -30,6 +31,7 @@ template <class Table> concept summed_table = requires(float z, double w, const 
     { Table::name } -> std::convertible_to<std::string_view>;
     { Table::id } -> std::convertible_to<std::string_view>;
     { Table::from_depth(z) } -> std::same_as<format_channels<Table>>;
+    { Table::from_samples(std::array{z, z}) } -> std::same_as<format_channels<Table, double>>;
     { Table::codes(c, z) } -> std::same_as<format_channels<Table>>;
     { Table::mean(c, z, z) } -> std::same_as<format_channels<Table>>;
     { Table::intensity(c, z, z) } -> std::same_as<float>;

@@ -13,6 +13,19 @@ struct variance_summed : summed_texel<channels2> {
     static constexpr double darkening([[maybe_unused]] double most_texels) { return variance_summed_darkening; }
 
     template <class Real> static constexpr channels<Real> from_depth(Real z) { return variance_summed_encode(z); }
+    /// The mean channels of depth samples.
+    template <std::size_t samples>
+    static constexpr channels<double> from_samples(const std::array<float, samples>& depths)
+    {
+        constexpr double share = 1.0 / double(samples);
+        channels<double> sum{};
+        for (const float z : depths) {
+            const channels<double> c = variance_summed_encode(double(z));
+            sum.c1 += share * c.c1;
+            sum.c2 += share * c.c2;
+        }
+        return sum;
+    }
     template <class Real>
     static constexpr channels<Real> codes(const channels<Real>& c, std::type_identity_t<Real> scale)
     {
