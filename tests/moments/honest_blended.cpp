@@ -185,8 +185,8 @@ TEST_CASE("without blends the intensities are those of one rounding")
     for (int i = 0; i < 1000; ++i) {
         const auto four = theta4(moments4_from_depth(float(bits.uniform(-1, 1))));
         const float z_f = float(bits.uniform(-1, 1));
-        CHECK(moments4_unorm16_blended_intensity(four, 0, z_f) ==
-              doctest::Approx(moments4_unorm16_intensity(four, z_f)).epsilon(1e-4));
+        CHECK(double(moments4_unorm16_blended_intensity(four, 0, z_f)) ==
+              doctest::Approx(double(moments4_unorm16_intensity(four, z_f))).epsilon(1e-4));
         CHECK(moments4_unorm16_blended_intensity(four, -5, z_f) == moments4_unorm16_blended_intensity(four, 0, z_f));
     }
     CHECK(bias_weight_of_roundings(0.25, 1.0) == 0.25);
