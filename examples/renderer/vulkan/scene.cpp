@@ -4,6 +4,8 @@
 #include <glm/vec2.hpp>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 
 namespace gnomon::renderer::vulkan {
@@ -41,10 +43,11 @@ std::vector<glm::vec3> layers_of(const scene& world, const camera& eye)
     for (const mesh& part : translucent_part(world).meshes)
         for (const glm::uvec3& triangle : part.triangles) {
             layer& one = layers.emplace_back();
-            for (int i = 0; i < 3; ++i) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                const std::uint32_t corner = triangle[glm::length_t(i)];
                 const glm::vec2 place =
-                    part.texture_coordinates.empty() ? glm::vec2(0) : part.texture_coordinates[triangle[i]];
-                one.corners[2 * i] = part.positions[triangle[i]];
+                    part.texture_coordinates.empty() ? glm::vec2(0) : part.texture_coordinates[corner];
+                one.corners[2 * i] = part.positions[corner];
                 one.corners[2 * i + 1] = {place, part.opacity.r};
                 one.distance += view_distance(eye, one.corners[2 * i]) / 3;
             }
