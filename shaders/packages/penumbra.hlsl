@@ -77,13 +77,14 @@ float saturate_or_zero(float x) { return gnomon_saturate(x); }
 // plane
 //     blockers:         z_b = moments4_summed_blocker(...)                                     of the search rectangle
 //     filter:           width = penumbra_directional(z_f, z_b, texels_per_depth, cap)          at least one texel
-//     bias:             bias = depth_bias_receiver_plane(gradient, width_x / 2, width_y / 2, limit)
+//     bias:             bias = depth_bias_receiver_plane(gradient, (width_x + 1) / 2, (width_y + 1) / 2, limit)
 //     shadow:           over_darken(moments4_summed_intensity(..., z_f - bias), 1 - epsilon)
 //
 // and the same by penumbra_local. In the umbra, where the intensity of the search rectangle is above 1 - epsilon, the
 // filter may be skipped: over_darken makes that 1 as well, so no step is seen. The paper's epsilon is 0.01. The bias is
-// that of filters/depth_bias.h: the most that the receiver's plane rises within the half widths of the filter; or, for
-// look-ups of single texels, depth_bias_texel_plane.
+// that of filters/depth_bias.h: the most that the receiver's plane rises within the half widths of the filter and half
+// a texel, as far as the centres of texels lie that a rectangle touches; or, for look-ups of single texels,
+// depth_bias_texel_plane.
 #ifndef GNOMON_SOFT_PENUMBRA_H
 #define GNOMON_SOFT_PENUMBRA_H
 
