@@ -8249,9 +8249,9 @@ float moments6_float_filtered_intensity(channels6 c, float z_f)
 //   6 x 16 UNORM    hankel6_from_unorm16_blended   moments6_unorm16_blended_intensity
 //   6 x float       hankel6_from_float_blended     moments6_float_blended_intensity
 //
-// Intensities exceed Z(z < z_f) by bias_weight_of_roundings at most: for blends of an alpha from 1% on by 8.1e-3 for 6
-// x 16 UNORM, but by 0.29 for 6 x 10 UNORM, which is no format to blend many layers into. A blend of floats takes 1.5
-// of the weights of 6 x float, each of which is good for 2.7 roundings.
+// Intensities exceed Z(z < z_f) by bias_weight_of_roundings at most: for blends of an alpha from 1% on by 8e-3 for 6 x
+// 16 UNORM, but by 0.29 for 6 x 10 UNORM, which is no format to blend many layers into. A blend of floats takes 1.5 of
+// the weights of 6 x float, each of which is good for 2.7 roundings.
 #ifndef GNOMON_STORAGE_MOMENTS6_BLENDED_H
 #define GNOMON_STORAGE_MOMENTS6_BLENDED_H
 

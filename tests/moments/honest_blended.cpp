@@ -191,6 +191,10 @@ TEST_CASE("without blends the intensities are those of one rounding")
     }
     CHECK(bias_weight_of_roundings(0.25, 1.0) == 0.25);
     CHECK(bias_weight_of_roundings(0.25, 3.0) == doctest::Approx(0.5));
+    // As moments6_blended.h and docs/translucency.md state, of an alpha from 1% on.
+    const double n = 1 + blend_roundings(alpha_test_one_percent);
+    CHECK(bias_weight_of_roundings(stored6_unorm16_weight, n) == doctest::Approx(8e-3).epsilon(0.01));
+    CHECK(bias_weight_of_roundings(stored6_unorm10_weight, n) == doctest::Approx(0.29).epsilon(0.01));
 }
 
 TEST_CASE("no number of roundings is too large: the shadow fades")
