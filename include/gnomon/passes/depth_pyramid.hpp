@@ -27,13 +27,15 @@ inline constexpr std::size_t depth_pyramid_block = 8;
 constexpr std::size_t depth_pyramid_extent(std::size_t extent, std::size_t level)
 {
     const std::size_t last = extent > 0 ? (extent - 1) / depth_pyramid_block : 0;
-    return (level < std::size_t(std::numeric_limits<std::size_t>::digits) ? last >> level : 0) + 1;
+    return (level < std::numeric_limits<std::size_t>::digits ? last >> level : 0) + 1;
 }
 
 /// The number of levels up to a single block.
 constexpr std::size_t depth_pyramid_levels(std::size_t width, std::size_t height)
 {
-    return std::size_t(std::bit_width(depth_pyramid_extent((std::max)(width, height), 0) - 1)) + 1;
+    const std::size_t blocks = depth_pyramid_extent((std::max)(width, height), 0);
+    const int doublings = std::numeric_limits<std::size_t>::digits - std::countl_zero(blocks - 1);
+    return std::size_t(doublings) + 1;
 }
 
 /// The number of blocks of all levels.
