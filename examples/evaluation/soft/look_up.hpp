@@ -11,8 +11,7 @@
 //     const registered<summed_method<kernels, look_up_options{}>> entry{method_facts{...}};
 #pragma once
 
-#include "evaluation/core/timed_look_ups.hpp"
-#include "soft_method.hpp"
+#include "lanes.hpp"
 
 #include <gnomon/moments/bounds.h>
 #include <gnomon/passes/summed_area.hpp>
@@ -38,41 +37,6 @@ struct look_up_options {
 // Of the shadow intensity of a search region, at which its receivers are taken for umbra; intensities are divided by 1 -
 // umbra_epsilon, so that no step is seen.
 inline constexpr float umbra_epsilon = 0.01f;
-
-template <class Real> inline constexpr std::size_t lanes_of = 1;
-template <> inline constexpr std::size_t lanes_of<receiver_pack> = receiver_pack::size;
-
-// A struct of packs whose lane i is the struct of floats fetch(i).
-template <template <class...> class Struct, class Real> Struct<Real> gathered(auto&& fetch)
-{
-    if constexpr (std::is_same_v<Real, float>) return fetch(std::size_t(0));
-    else {
-        constexpr std::size_t count = sizeof(Struct<float>) / sizeof(float);
-        alignas(Real) std::array<std::array<float, Real::size>, count> lanes;
-        for (std::size_t i = 0; i < Real::size; ++i) {
-            const auto one = std::bit_cast<std::array<float, count>>(fetch(i));
-            for (std::size_t k = 0; k < count; ++k) lanes[k][i] = one[k];
-        }
-        return std::bit_cast<Struct<Real>>(lanes);
-    }
-}
-
-// The lanes of a struct of packs.
-template <template <class...> class Struct, class Real> class scattered {
-  public:
-    explicit scattered(const Struct<Real>& all) : lanes_(std::bit_cast<decltype(lanes_)>(all)) {}
-
-    Struct<float> operator[](std::size_t lane) const
-    {
-        std::array<float, count> one;
-        for (std::size_t k = 0; k < count; ++k) one[k] = lanes_[k][lane];
-        return std::bit_cast<Struct<float>>(one);
-    }
-
-  private:
-    static constexpr std::size_t count = sizeof(Struct<float>) / sizeof(float);
-    std::array<std::array<float, lanes_of<Real>>, count> lanes_;
-};
 
 // A number in [0, 1) that looks random, from the place.
 inline float dither_of(const soft_receiver& where)
@@ -136,11 +100,6 @@ template <class Kernels, look_up_options how> class summed_map final : public so
 
     map_view<const texel> map() const { return {texels_, width_, height_}; }
 
-    template <class Real> static soft_place<Real> place(std::span<const soft_receiver> where, std::size_t group)
-    {
-        return gathered<soft_place, Real>([&](std::size_t lane) { return where[group * lanes_of<Real> + lane]; });
-    }
-
     // Means over the search region, and over the filter region unless the lane is done. Lanes are fetched one by one.
     template <class Real> channels<Real> search(const soft_place<Real>& where) const
     {
@@ -201,20 +160,10 @@ template <class Kernels, look_up_options how> class summed_map final : public so
             });
     }
 
-    // One group of receivers at a time, whatever the compiler could do with the loop.
-    template <class Real> static void run(std::size_t groups, std::span<float> result, const auto& shadow_of)
-    {
-        for (std::size_t i = 0; i < groups; ++i) {
-            const Real found = shadow_of(i);
-            if constexpr (std::is_same_v<Real, float>) result[i] = found;
-            else found.store_unaligned(&result[i * lanes_of<Real>]);
-            asm volatile("" ::: "memory");
-        }
-    }
-
     template <class Real> void run_all(std::span<const soft_receiver> where, std::span<float> result) const
     {
-        run<Real>(where.size() / lanes_of<Real>, result, [&](std::size_t i) { return look_up(place<Real>(where, i)); });
+        run_groups<Real>(where.size() / lanes_of<Real>, result,
+                         [&](std::size_t i) { return look_up(place_of<Real>(where, i)); });
     }
 
     template <class Real> struct fetched {
@@ -228,13 +177,13 @@ template <class Kernels, look_up_options how> class summed_map final : public so
         std::vector<fetched<Real>> values(groups);
         tbb::parallel_for(std::size_t(0), groups, [&](std::size_t i) {
             fetched<Real>& f = values[i];
-            f.where = place<Real>(where, i);
+            f.where = place_of<Real>(where, i);
             f.around = search(f.where);
             const Real blocker = Kernels::blocker(Kernels::region(f.around, Real(light_.most_texels())), f.where.depth);
             f.within = filter(f.where, light_.penumbra(f.where.depth, blocker), Real(0));
         });
         const auto kernels = [this, groups, values = std::move(values)](std::span<float> result) {
-            run<Real>(groups, result, [&](std::size_t i) {
+            run_groups<Real>(groups, result, [&](std::size_t i) {
                 const fetched<Real>& f = values[i];
                 return shadow(
                     f.where, [&](const auto&) -> const auto& { return f.around; },

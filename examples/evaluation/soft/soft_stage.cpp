@@ -68,7 +68,9 @@ std::vector<float> filtered_visibility(const soft_stage& stage, std::span<const 
     const soft_light light = stage.light(widest_search);
     std::vector<float> result(where.size());
     tbb::parallel_for(std::size_t(0), where.size(), [&](std::size_t i) {
-        result[i] = float(1 - percentage_closer_soft_intensity<double>(stage.samples, light, where[i], false));
+        const soft_receiver& r = where[i];
+        const soft_place<double> place{double(r.x), double(r.y), double(r.depth), double(r.slope_x), double(r.slope_y)};
+        result[i] = float(1 - percentage_closer_soft_intensity<double>(stage.samples, light, place, false));
     });
     return result;
 }

@@ -17,18 +17,30 @@ class depths_at_centres final : public soft_shadow_map {
 
     void intensities(std::span<const soft_receiver> where, std::span<float> result) const override
     {
-        for (std::size_t i = 0; i < where.size(); ++i)
-            result[i] = percentage_closer_soft_intensity<float>(depths_, light_, where[i], true);
+        run<float>(where, result);
     }
 
     // The kernel is the look-up.
     std::vector<timed_look_up> timed(std::span<const soft_receiver> where) const override
     {
-        const timed_run run{where.size(), [this, where](std::span<float> result) { intensities(where, result); }};
-        return {{1, run, run}};
+        return {timed_in<float>(where), timed_in<receiver_pack>(where)};
     }
 
   private:
+    template <class Real> void run(std::span<const soft_receiver> where, std::span<float> result) const
+    {
+        run_groups<Real>(where.size() / lanes_of<Real>, result, [&](std::size_t i) {
+            return percentage_closer_soft_intensity<Real>(depths_, light_, place_of<Real>(where, i), true);
+        });
+    }
+
+    template <class Real> timed_look_up timed_in(std::span<const soft_receiver> where) const
+    {
+        const timed_run all{where.size() / lanes_of<Real> * lanes_of<Real>,
+                            [this, where](std::span<float> result) { run<Real>(where, result); }};
+        return {int(lanes_of<Real>), all, all};
+    }
+
     const renderer::image<std::array<float, 1>>& depths_;
     soft_light light_;
 };
