@@ -1,5 +1,5 @@
 // Soft shadows of two occluders: one far from the receiver with a wide penumbra, and one near to it, whose shadow is hard
-// where the two overlap. One mean blocker makes one penumbra of both (Peters et al. 2017, Fig. 10).
+// in the penumbra of the other. One mean blocker makes one penumbra of both (Peters et al. 2017, Fig. 10).
 #include "rectangles.hpp"
 #include "sweep.hpp"
 
@@ -24,10 +24,10 @@ constexpr float search_texels = 784;
 constexpr float ground = 0.95f;
 constexpr int receivers = 65;
 
-// Two walls that cover all before their edges, seen along a line of the map. Lengths are such that the penumbra of an
-// occluder is as wide as its distance from the receiver.
+// Two walls with a gap between their edges, seen along a line of the map. Lengths are such that the penumbra of a wall is
+// as wide as its distance from the receiver.
 struct walls {
-    double far_distance, near_distance, near_edge; // the edge of the far wall is at 0
+    double far_distance, near_distance, near_edge; // the far wall is before 0, the near one behind its edge
 
     float depth(double distance) const { return float(double(ground) - distance); }
 
@@ -35,15 +35,16 @@ struct walls {
     std::array<layer, 3> seen(double x, double width) const
     {
         const auto before = [&](double edge) { return std::clamp((edge - x) / width + 0.5, 0.0, 1.0); };
-        const double far_share = before(0), both = before(near_edge);
-        return {layer{depth(far_distance), float(far_share)}, layer{depth(near_distance), float(both - far_share)},
-                layer{ground, float(1 - both)}};
+        const double far_share = before(0), gap_share = before(near_edge) - far_share;
+        return {layer{depth(far_distance), float(far_share)},
+                layer{depth(near_distance), float(1 - far_share - gap_share)}, layer{ground, float(gap_share)}};
     }
 
-    // The share of the light that a receiver at x does not see.
+    // The share of the light that a receiver at x does not see: the walls hide it from either side.
     double exact(double x) const
     {
-        return std::clamp(0.5 + std::max(-x / far_distance, (near_edge - x) / near_distance), 0.0, 1.0);
+        const double far_share = std::clamp(0.5 - x / far_distance, 0.0, 1.0);
+        return std::min(far_share + std::clamp(0.5 - (near_edge - x) / near_distance, 0.0, 1.0), 1.0);
     }
 };
 
@@ -117,9 +118,10 @@ const registered<sweep> entry{sweep{
     .id = "two_occluders",
     .label = "Soft shadows of two occluders",
     .order = 130,
-    .text = "The edge of a wall far from the receiver has a wide penumbra, in which the edge of a wall near to the "
-            "receiver casts a harder shadow. The exact intensity is the share of the light that either hides. "
-            "The error is the root mean square over both penumbrae.",
+    .text =
+        "There is a gap between a wall far from the receiver and one near to it: in the wide penumbra of the far wall "
+        "the edge of the near one casts a harder shadow. The exact intensity is the share of the light that either "
+        "hides. The error is the root mean square over both penumbrae.",
     .x = {"distance", "distance of the farther wall from the receiver", scale::log, 0.01, 1.9, 24},
     .y = {"ratio", "distance of the nearer wall, as a share of that", scale::log, 0.02, 1, 16},
     .error_label = "root mean square error",
