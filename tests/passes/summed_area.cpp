@@ -99,7 +99,7 @@ template <class T> constexpr T nan_of = std::numeric_limits<T>::quiet_NaN();
 TEST_CASE_TEMPLATE("any rectangle's sum is that of its texels, at every offset, after many wraps", Table,
                    moments4_summed, moments6_summed, variance_summed)
 {
-    for (const std::size_t most : {4, 9, 16, 100}) {
+    for (const std::size_t most : {4u, 9u, 16u, 100u}) {
         const summed_map<Table> map(37, 23, most, most);
         for (std::size_t k = 0; k < channel_count<Table>; ++k)
             for (const auto& [w, h] :
