@@ -7809,7 +7809,7 @@ float gnomon_summed_root_rest(float factor, float square)
 /// The four channels of the texel of a depth z, each in [0, 1].
 /// Domain: any z, limited to [-1, 1].
 /// NaN: the far plane, which shadows nothing.
-/// Error: one rounding.
+/// Error: of a channel, 0.51 2^-p.
 /// Source: Peters 2017, Eq. 3
 channels4 moments4_summed_encode(float z)
 {

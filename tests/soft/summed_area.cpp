@@ -5,6 +5,7 @@
 
 #include <gnomon/numerics/round.h>
 #include <gnomon/soft/summed_area.h>
+#include <gnomon/storage/moments4_summed.h>
 
 #include <doctest/doctest.h>
 
@@ -109,6 +110,30 @@ TEST_CASE_TEMPLATE("a clipped rectangle is in the map, touches no more than most
     const summed_area_rectangle<float> s =
         summed_area_clip(summed_area_around(50.25f, 50.5f, 29.0f, 29.0f), 99, 99, 784);
     CHECK((s.x0 == 36.75f && s.x1 == 63.75f && s.y0 == 37 && s.y1 == 64));
+}
+
+TEST_CASE_TEMPLATE("means and channels of four moments have their stated errors", T, float, double)
+{
+    using exact = long double;
+    bit_source bits(9);
+    double mean = 0, channel = 0;
+    for (std::int64_t i = 0; i < effort(200'000); ++i) {
+        const T scale = summed_area_scale(T(4 + bits.below(4093))), area = T(bits.uniform(1, 1000));
+        const T sum = T(bits.uniform(1e-3, 1) * double(area) * double(scale));
+        const exact want = std::min(exact(1), exact(sum) / (exact(area) * exact(scale)));
+        mean = std::max(mean, double(std::abs(exact(summed_area_mean(sum, area, scale)) / want - 1)) / u<T>);
+        const T z = bits.chance(0.1) ? T(int(bits.below(9)) - 4) / 4 : T(bits.uniform(-1, 1));
+        const exact x = exact(z), root = std::sqrt(exact(3));
+        const auto c = gnomon_bit_cast<std::array<T, 4>>(moments4_summed_encode(z));
+        const std::array<exact, 4> channels{(1 + 3 * x - 4 * x * x * x) / 2, 4 * (x * x - x * x * x * x),
+                                            exact(0.5) + root / 2 * x - 2 * root / 9 * x * x * x,
+                                            (x * x + x * x * x * x) / 2};
+        for (std::size_t k = 0; k < 4; ++k)
+            channel = std::max(channel, double(std::abs(exact(c[k]) - channels[k])) / u<T>);
+    }
+    CHECK(mean <= 1);
+    CHECK(channel <= 0.51);
+    if (!draws_few()) CHECK((mean > 0.5 && channel > 0.45)); // the measure sees errors
 }
 
 TEST_CASE_TEMPLATE("clipping and growing are total", T, float, double)
