@@ -8084,14 +8084,14 @@ fn moments6_summed_codes(c: channels6_, scale: f32) -> channels6_
 fn moments6_summed_channels(sums: channels6_, area: f32, scale: f32) -> channels6_
 {
     let some = 0.0 < area;
-    let border = moments6_summed_encode(1.0);
+    let border = moments6_summed_encode(1.0); // off by roundings, also beyond 1
     var r: channels6_;
-    r.c1_ = gnomon_select(some, summed_area_mean(sums.c1_, area, scale), border.c1_);
-    r.c2_ = gnomon_select(some, summed_area_mean(sums.c2_, area, scale), border.c2_);
-    r.c3_ = gnomon_select(some, summed_area_mean(sums.c3_, area, scale), border.c3_);
-    r.c4_ = gnomon_select(some, summed_area_mean(sums.c4_, area, scale), border.c4_);
-    r.c5_ = gnomon_select(some, summed_area_mean(sums.c5_, area, scale), border.c5_);
-    r.c6_ = gnomon_select(some, summed_area_mean(sums.c6_, area, scale), border.c6_);
+    r.c1_ = gnomon_select(some, summed_area_mean(sums.c1_, area, scale), saturate_or_zero(border.c1_));
+    r.c2_ = gnomon_select(some, summed_area_mean(sums.c2_, area, scale), saturate_or_zero(border.c2_));
+    r.c3_ = gnomon_select(some, summed_area_mean(sums.c3_, area, scale), saturate_or_zero(border.c3_));
+    r.c4_ = gnomon_select(some, summed_area_mean(sums.c4_, area, scale), saturate_or_zero(border.c4_));
+    r.c5_ = gnomon_select(some, summed_area_mean(sums.c5_, area, scale), saturate_or_zero(border.c5_));
+    r.c6_ = gnomon_select(some, summed_area_mean(sums.c6_, area, scale), saturate_or_zero(border.c6_));
     return r;
 }
 

@@ -1713,14 +1713,14 @@ inline channels6 moments6_summed_codes(channels6 c, float scale)
 inline channels6 moments6_summed_channels(channels6 sums, float area, float scale)
 {
     bool some = 0.0f < area;
-    channels6 border = moments6_summed_encode(1.0f);
+    channels6 border = moments6_summed_encode(1.0f); // off by roundings, also beyond 1
     channels6 r;
-    r.c1 = gnomon_select(some, summed_area_mean(sums.c1, area, scale), border.c1);
-    r.c2 = gnomon_select(some, summed_area_mean(sums.c2, area, scale), border.c2);
-    r.c3 = gnomon_select(some, summed_area_mean(sums.c3, area, scale), border.c3);
-    r.c4 = gnomon_select(some, summed_area_mean(sums.c4, area, scale), border.c4);
-    r.c5 = gnomon_select(some, summed_area_mean(sums.c5, area, scale), border.c5);
-    r.c6 = gnomon_select(some, summed_area_mean(sums.c6, area, scale), border.c6);
+    r.c1 = gnomon_select(some, summed_area_mean(sums.c1, area, scale), saturate_or_zero(border.c1));
+    r.c2 = gnomon_select(some, summed_area_mean(sums.c2, area, scale), saturate_or_zero(border.c2));
+    r.c3 = gnomon_select(some, summed_area_mean(sums.c3, area, scale), saturate_or_zero(border.c3));
+    r.c4 = gnomon_select(some, summed_area_mean(sums.c4, area, scale), saturate_or_zero(border.c4));
+    r.c5 = gnomon_select(some, summed_area_mean(sums.c5, area, scale), saturate_or_zero(border.c5));
+    r.c6 = gnomon_select(some, summed_area_mean(sums.c6, area, scale), saturate_or_zero(border.c6));
     return r;
 }
 
