@@ -143,7 +143,8 @@ inline constexpr input_family<T> input_families[] = {
     // Summed-area tables: the most texels of a look-up, the scale for them, rectangles in a map, and sums over rectangles
     // with their area and scale.
     {"texels", 1, [](auto put, const situation&, bit_source& bits) { put(double(4 + bits.below(4093))); }},
-    {"scale", 1, [](auto put, const situation&, bit_source& bits) { put(summed_area_scale(T(4 + bits.below(4093)))); }},
+    {"scale", 1,
+     [](auto put, const situation&, bit_source& bits) { put(double(summed_area_scale(T(4 + bits.below(4093))))); }},
     {"rectangle", 4,
      [](auto put, const situation&, bit_source& bits) {
          const double x = bits.uniform(-8, 1000), y = bits.uniform(-8, 1000), width = std::exp2(bits.uniform(-3, 7));
