@@ -51,9 +51,11 @@ class SoftShadows(unittest.TestCase):
             self.assertLess(self.row(scene, "msm4_soft")["rmse"], 1.5 * self.row(scene, "pcss_27")["rmse"], scene)
 
     def test_the_default_leaks_no_more_than_the_bias_of_the_paper(self):
-        for scene in SCENES:
-            leak, paper = (self.row(scene, method, "filtered")["leak"] for method in ("msm4_soft", "msm4_soft_paper"))
-            self.assertLessEqual(leak, 1.001 * paper, scene)  # blockers differ by the bias, too
+        ours, paper = ([self.row(scene, method, "filtered")["leak"] for scene in SCENES]
+                       for method in ("msm4_soft", "msm4_soft_paper"))
+        self.assertLessEqual(sum(ours), sum(paper))
+        for scene, one, other in zip(SCENES, ours, paper):
+            self.assertLess(one, 1.02 * other, scene)  # the search has the bias, too, which moves blockers on steep ground
 
     def test_two_moments_leak_more_than_four_and_six_leak_less(self):
         for scene in ("long_range", "models"):
