@@ -226,7 +226,7 @@ class comparison {
         const std::array found{shadows_of(m, *built.map, view_)};
         std::vector<report_row> result;
         for (report_row& row : rows_of(m, view_, parts_, known_, found, showings[0])) {
-            if (row.part != "" && row.part != "surfaces" && row.part != "smoke") continue;
+            if (!row.part.empty() && row.part != "surfaces" && row.part != "smoke") continue;
             row.parameters["least_alpha"] = 0.01;
             row.lanes = like.lanes, row.ns_kernel = like.ns_kernel, row.ns_per_receiver = like.ns_per_receiver;
             row.map_bytes = like.map_bytes, row.build_ms = built.build_ms;
