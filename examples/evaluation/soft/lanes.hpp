@@ -13,12 +13,16 @@ namespace gnomon::evaluation {
 template <class Real> inline constexpr std::size_t lanes_of = 1;
 template <> inline constexpr std::size_t lanes_of<receiver_pack> = receiver_pack::size;
 
+// The number of members of a struct of floats.
+template <template <class...> class Struct>
+inline constexpr std::size_t member_count = sizeof(std::array<Struct<float>, 1>) / sizeof(float);
+
 // A struct of packs whose lane i is the struct of floats fetch(i).
 template <template <class...> class Struct, class Real> Struct<Real> gathered(auto&& fetch)
 {
     if constexpr (std::is_same_v<Real, float>) return fetch(std::size_t(0));
     else {
-        constexpr std::size_t count = sizeof(Struct<float>) / sizeof(float);
+        constexpr std::size_t count = member_count<Struct>;
         alignas(Real) std::array<std::array<float, Real::size>, count> lanes;
         for (std::size_t i = 0; i < Real::size; ++i) {
             const auto one = std::bit_cast<std::array<float, count>>(fetch(i));
@@ -41,7 +45,7 @@ template <template <class...> class Struct, class Real> class scattered {
     }
 
   private:
-    static constexpr std::size_t count = sizeof(Struct<float>) / sizeof(float);
+    static constexpr std::size_t count = member_count<Struct>;
     std::array<std::array<float, lanes_of<Real>>, count> lanes_;
 };
 
