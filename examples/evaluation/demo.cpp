@@ -2,6 +2,7 @@
 #include "evaluation/core/driver.hpp"
 #include "evaluation/core/registry_facts.hpp"
 #include "evaluation/core/report.hpp"
+#include "renderer/import/model.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -93,6 +94,9 @@ try {
     };
     std::vector<const driver*> wanted;
     std::ranges::copy_if(drivers, std::back_inserter(wanted), [&](const driver* d) { return is_asked_for(*d); });
+    // A model that cannot be read is refused before a driver speaks.
+    if (std::ranges::any_of(wanted, [](const driver* d) { return d->of == subject::model; }))
+        gnomon::renderer::load_model(model);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         if (wanted.size() > 1) progress(wanted[i]->id, fmt::format("driver {} of {}", i + 1, wanted.size()));
         wanted[i]->run(how);
