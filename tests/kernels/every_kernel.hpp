@@ -47,7 +47,7 @@ template <class T, class Run> std::string first_mistake(const kernel_shape& k, R
     kernel_inputs<T> source(k.name, k.families, k.inputs);
     std::vector<T> in(blocks * block_rows * k.inputs), scalar(blocks * block_rows * k.outputs), lanes(scalar.size());
     const std::int64_t mixed = effort(200'000) / std::int64_t(blocks * block_rows) + 1;
-    const std::int64_t hostile = k.unit ? effort(10'000'000) / std::int64_t(blocks * block_rows) + 1 : 0;
+    const std::int64_t hostile = k.unit ? effort(4'000'000) / std::int64_t(blocks * block_rows) + 1 : 0;
     for (std::int64_t batch = 0; batch < mixed + hostile; ++batch) {
         source.draw(blocks, in.data(), batch < mixed ? row_kind::all : row_kind::hostile);
         run.template operator()<T>(blocks, in.data(), scalar.data());
