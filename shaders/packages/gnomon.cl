@@ -645,7 +645,9 @@ static inline percentage_closer_blocker percentage_closer_search_end(percentage_
     float weight = state.shadowed + percentage_closer_search_epsilon;
     float receiver = clamp_or_high(state.receiver, -1.0f, 1.0f);
     percentage_closer_blocker r;
-    r.depth = gnomon_max(-1.0f, gnomon_min(receiver - state.distance / weight, receiver));
+    float depth = gnomon_max(-1.0f, gnomon_min(receiver - state.distance / weight, receiver));
+    // Clang 14 makes one clamp, which lets a NaN pass, of this one and of that at the beginning.
+    r.depth = gnomon_select(state.receiver == state.receiver, depth, 1.0f);
     r.intensity = saturate_or_zero(state.shadowed);
     return r;
 }

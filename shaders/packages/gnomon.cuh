@@ -1118,7 +1118,9 @@ GNOMON_INLINE constexpr percentage_closer_blocker<Real>
     Real weight = state.shadowed + literal<Real>(percentage_closer_search_epsilon);
     Real receiver = clamp_or_high(state.receiver, Real(-1), Real(1));
     percentage_closer_blocker<Real> r;
-    r.depth = gnomon_max(Real(-1), gnomon_min(receiver - state.distance / weight, receiver));
+    Real depth = gnomon_max(Real(-1), gnomon_min(receiver - state.distance / weight, receiver));
+    // Clang 14 makes one clamp, which lets a NaN pass, of this one and of that at the beginning.
+    r.depth = gnomon_select(state.receiver == state.receiver, depth, Real(1));
     r.intensity = saturate_or_zero(state.shadowed);
     return r;
 }

@@ -629,7 +629,9 @@ percentage_closer_blocker percentage_closer_search_end(percentage_closer_search 
     float weight = state.shadowed + percentage_closer_search_epsilon;
     float receiver = clamp_or_high(state.receiver, -1.0, 1.0);
     percentage_closer_blocker r;
-    r.depth = gnomon_max(-1.0, gnomon_min(receiver - state.distance / weight, receiver));
+    float depth = gnomon_max(-1.0, gnomon_min(receiver - state.distance / weight, receiver));
+    // Clang 14 makes one clamp, which lets a NaN pass, of this one and of that at the beginning.
+    r.depth = gnomon_select(state.receiver == state.receiver, depth, 1.0);
     r.intensity = saturate_or_zero(state.shadowed);
     return r;
 }

@@ -587,7 +587,9 @@ fn percentage_closer_search_end(state: percentage_closer_search) -> percentage_c
     let weight = state.shadowed + percentage_closer_search_epsilon;
     let receiver = clamp_or_high(state.receiver, -1.0, 1.0);
     var r: percentage_closer_blocker;
-    r.depth = gnomon_max(-1.0, gnomon_min(receiver - state.distance / weight, receiver));
+    let depth = gnomon_max(-1.0, gnomon_min(receiver - state.distance / weight, receiver));
+    // Clang 14 makes one clamp, which lets a NaN pass, of this one and of that at the beginning.
+    r.depth = gnomon_select(state.receiver == state.receiver, depth, 1.0);
     r.intensity = saturate_or_zero(state.shadowed);
     return r;
 }
