@@ -1203,8 +1203,8 @@ float blocker4_depth(hankel4 h, float z_f)
 // soft/blocker6.h -----------------------------------------------------------------------------------------------------
 // The mean depth of blockers from six moments: blocker.h, for search regions that hold more surfaces.
 //
-// One node that is alone on its side of z_f is all that hamburger6.h finds. The mean of (x - z_f) over all nodes is -u,
-// so the sum A of w (z_f - x) over the nodes x before z_f is
+// hamburger6.h finds a single node, which is alone on its side of z_f. The mean of (x - z_f) over all nodes is -u, so
+// the sum A of w (z_f - x) over the nodes x before z_f is
 //     all before z_f:        u
 //     the lone one before:   w (z_f - x)            of that node
 //     the lone one behind:   u + w (x - z_f)

@@ -5416,9 +5416,9 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 // Shadow intensity from four moments of depths that are known to lie in [-1, 1], as all depths of a map do: the sharp
 // lower bound of the Hausdorff moment problem (Krein & Nudelman 1977), where hamburger4.h has that for any depths.
 //
-// Where both nodes of the canonical distribution beside z_f lie in [-1, 1], the bound is that of hamburger4.h.
-// Elsewhere the canonical distribution on [-1, 1] has the nodes -1, z_f, 1 and one more. About the mean, with s = -1 -
-// mean, t = 1 - mean, u = z_f - mean and e_k = E[(y - s) (y - t) y^k], the fourth node is
+// The bound is that of hamburger4.h where both nodes of the canonical distribution beside z_f lie in [-1, 1]. Elsewhere
+// the canonical distribution on [-1, 1] has the nodes -1, z_f, 1 and one more. About the mean, with s = -1 - mean,
+// t = 1 - mean, u = z_f - mean and e_k = E[(y - s) (y - t) y^k], the fourth node is
 //     x = (e2 - u e1) / (e1 - u e0)
 // and its weights follow by interpolation, such as
 //     w(s) = E[(y - u) (y - x) (y - t)] / ((s - u) (s - x) (s - t)),   w(x) = (e1 - u e0) / ((x - s) (x - u) (x - t))
@@ -7731,8 +7731,8 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 // soft/blocker6.h -----------------------------------------------------------------------------------------------------
 // The mean depth of blockers from six moments: blocker.h, for search regions that hold more surfaces.
 //
-// One node that is alone on its side of z_f is all that hamburger6.h finds. The mean of (x - z_f) over all nodes is -u,
-// so the sum A of w (z_f - x) over the nodes x before z_f is
+// hamburger6.h finds a single node, which is alone on its side of z_f. The mean of (x - z_f) over all nodes is -u, so
+// the sum A of w (z_f - x) over the nodes x before z_f is
 //     all before z_f:        u
 //     the lone one before:   w (z_f - x)            of that node
 //     the lone one behind:   u + w (x - z_f)
@@ -9201,7 +9201,8 @@ GNOMON_INLINE constexpr double_word<Real> summed_two_sum(Real a, Real b) { retur
 inline constexpr double summed_four_ninths = 0.44444444444444442;
 inline constexpr double summed_third = 0.33333333333333331;
 
-/// What a factor is short of a constant, root - factor, where root^2 = square: the digits that Real has no room for.
+/// The digits of a root for which Real has no room: root - factor, where factor is the rounded root and root^2 =
+/// square.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real summed_root_rest(Real factor, Real square)
 {

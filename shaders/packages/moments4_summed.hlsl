@@ -1660,7 +1660,8 @@ gnomon_double_word gnomon_summed_two_sum(float a, float b) { return two_differen
 static const float gnomon_summed_four_ninths = 0.44444444444444442;
 static const float gnomon_summed_third = 0.33333333333333331;
 
-/// What a factor is short of a constant, root - factor, where root^2 = square: the digits that float has no room for.
+/// The digits of a root for which float has no room: root - factor, where factor is the rounded root and root^2 =
+/// square.
 float gnomon_summed_root_rest(float factor, float square)
 {
     gnomon_double_word p = two_product(factor, factor);
@@ -1804,9 +1805,9 @@ float moments4_summed_blocker(channels4 c, float most_texels, float z_f)
 // Shadow intensity from four moments of depths that are known to lie in [-1, 1], as all depths of a map do: the sharp
 // lower bound of the Hausdorff moment problem (Krein & Nudelman 1977), where hamburger4.h has that for any depths.
 //
-// Where both nodes of the canonical distribution beside z_f lie in [-1, 1], the bound is that of hamburger4.h.
-// Elsewhere the canonical distribution on [-1, 1] has the nodes -1, z_f, 1 and one more. About the mean, with s = -1 -
-// mean, t = 1 - mean, u = z_f - mean and e_k = E[(y - s) (y - t) y^k], the fourth node is
+// The bound is that of hamburger4.h where both nodes of the canonical distribution beside z_f lie in [-1, 1]. Elsewhere
+// the canonical distribution on [-1, 1] has the nodes -1, z_f, 1 and one more. About the mean, with s = -1 - mean,
+// t = 1 - mean, u = z_f - mean and e_k = E[(y - s) (y - t) y^k], the fourth node is
 //     x = (e2 - u e1) / (e1 - u e0)
 // and its weights follow by interpolation, such as
 //     w(s) = E[(y - u) (y - x) (y - t)] / ((s - u) (s - x) (s - t)),   w(x) = (e1 - u e0) / ((x - s) (x - u) (x - t))

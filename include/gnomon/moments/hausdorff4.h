@@ -1,7 +1,7 @@
 // Shadow intensity from four moments of depths that are known to lie in [-1, 1], as all depths of a map do: the sharp
 // lower bound of the Hausdorff moment problem (Krein & Nudelman 1977), where hamburger4.h has that for any depths.
 //
-// Where both nodes of the canonical distribution beside z_f lie in [-1, 1], the bound is that of hamburger4.h. Elsewhere
+// The bound is that of hamburger4.h where both nodes of the canonical distribution beside z_f lie in [-1, 1]. Elsewhere
 // the canonical distribution on [-1, 1] has the nodes -1, z_f, 1 and one more. About the mean, with s = -1 - mean,
 // t = 1 - mean, u = z_f - mean and e_k = E[(y - s) (y - t) y^k], the fourth node is
 //     x = (e2 - u e1) / (e1 - u e0)

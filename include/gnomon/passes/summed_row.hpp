@@ -177,7 +177,7 @@ bool sum_known(std::span<const Source> source, double scale, const format_texel<
     return row.has_nan();
 }
 
-/// One row of a table: running sums of the codes on top of what is above, if there is anything. A row in which a channel is
+/// Sum up one row of a table: running sums of the codes on top of what is above, if there is anything. A row in which a channel is
 /// NaN is summed up again, with the border in place of such texels.
 template <summed_table Table>
 void sum_row(std::span<const format_channels<Table>> source, double scale, const format_texel<Table>* above,

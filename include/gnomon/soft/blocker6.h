@@ -1,6 +1,6 @@
 // The mean depth of blockers from six moments: blocker.h, for search regions that hold more surfaces.
 //
-// One node that is alone on its side of z_f is all that hamburger6.h finds. The mean of (x - z_f) over all nodes is -u, so
+// hamburger6.h finds a single node, which is alone on its side of z_f. The mean of (x - z_f) over all nodes is -u, so
 // the sum A of w (z_f - x) over the nodes x before z_f is
 //     all before z_f:        u
 //     the lone one before:   w (z_f - x)            of that node

@@ -29,7 +29,7 @@ GNOMON_DETAIL_KERNEL GNOMON_T(double_word) summed_two_sum(Real a, Real b) { retu
 GNOMON_CONSTANT(summed_four_ninths, 0.44444444444444442);
 GNOMON_CONSTANT(summed_third, 0.33333333333333331);
 
-/// What a factor is short of a constant, root - factor, where root^2 = square: the digits that Real has no room for.
+/// The digits of a root for which Real has no room: root - factor, where factor is the rounded root and root^2 = square.
 GNOMON_DETAIL_KERNEL Real summed_root_rest(Real factor, Real square)
 {
     double_word p = two_product(factor, factor);
