@@ -711,6 +711,41 @@ fn gnomon_hamburger6_distance(t: f32) -> f32
     return 1.0 / away;
 }
 
+/// Sums over the nodes x before the receiver: of their weights, and of their weights times z_f - x; and the receiver's
+/// weight.
+struct hamburger6_sums { lower: f32, distance: f32, weight: f32 }
+
+/// The sums for u = z_f - mean, not clamped. The mean of x - z_f over all nodes is -u, so the lone node tells the sums
+/// of the nodes on either side.
+fn gnomon_hamburger6_sums_at(h: hankel6_, u: f32) -> hamburger6_sums
+{
+    let p = gnomon_hamburger6_polynomials(h, u);
+    let inverse = 1.0 / gnomon_hamburger6_kernel(h, p);
+    let positive1 = p.p1_ > 0.0;
+    let positive2 = p.p2_ > 0.0;
+    let positive3 = p.p3_ > 0.0;
+    let all_below = positive1 && positive2 && positive3;
+    let all_above = (!positive1) && positive2 && (!positive3);
+    let outside = all_below || all_above;
+    var r: hamburger6_sums;
+    r.weight = h.whole * inverse;
+    r.lower = gnomon_select(all_below, 1.0 - r.weight, 0.0);
+    r.distance = gnomon_select(all_below, p.p1_, 0.0);
+    if (gnomon_any(!outside)) {
+        // P_3 > 0: two nodes above z_f and the lone one below. Else the lone one is above.
+        let side = gnomon_select(positive3, -1.0, 1.0);
+        let d = gnomon_hamburger6_derivatives(h, p);
+        let n = gnomon_hamburger6_other_nodes(h, p, d, inverse, side);
+        let t = gnomon_cubic_positive_root(n.b, n.c, n.d);
+        // Clamped to 1024, where a node that would be at infinity has no weight.
+        let away = t.denominator / gnomon_max(t.numerator, 0.0009765625 * t.denominator);
+        let w = h.whole / gnomon_hamburger6_kernel(h, gnomon_hamburger6_polynomials_shift(p, d, side * away));
+        r.lower = gnomon_select(outside, r.lower, gnomon_select(positive3, w, (1.0 - r.weight) - w));
+        r.distance = gnomon_select(outside, r.distance, gnomon_select(positive3, w * away, p.p1_ + w * away));
+    }
+    return r;
+}
+
 /// Both bounds on the shadow intensity at z_f and the weight of the receiver.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: 0, lit, for a NaN in h or z_f.
@@ -729,30 +764,10 @@ fn gnomon_hamburger6_distance(t: f32) -> f32
 /// Source: Peters 2017, Alg. 1; Peters 2017, Sec. 5.4
 fn hamburger6_bounds(h: hankel6_, z_f: f32) -> hamburger_bounds
 {
-    let p = gnomon_hamburger6_polynomials(h, clamp_or_nan(z_f, -1.0, 1.0) - h.mean);
-    let inverse = 1.0 / gnomon_hamburger6_kernel(h, p);
-    let w_f = h.whole * inverse;
-    let positive1 = p.p1_ > 0.0;
-    let positive2 = p.p2_ > 0.0;
-    let positive3 = p.p3_ > 0.0;
-    let all_below = positive1 && positive2 && positive3;
-    let all_above = (!positive1) && positive2 && (!positive3);
-    let outside = all_below || all_above;
-    var lower = gnomon_select(all_below, 1.0 - w_f, 0.0);
-    if (gnomon_any(!outside)) {
-        // P_3 > 0: two nodes above z_f and the lone one below. Else the lone one is above.
-        let side = gnomon_select(positive3, -1.0, 1.0);
-        let d = gnomon_hamburger6_derivatives(h, p);
-        let n = gnomon_hamburger6_other_nodes(h, p, d, inverse, side);
-        let t = gnomon_cubic_positive_root(n.b, n.c, n.d);
-        // Clamped to 1024, where a node that would be at infinity has no weight.
-        let distance_ = (side * t.denominator) / gnomon_max(t.numerator, 0.0009765625 * t.denominator);
-        let w = h.whole / gnomon_hamburger6_kernel(h, gnomon_hamburger6_polynomials_shift(p, d, distance_));
-        lower = gnomon_select(outside, lower, gnomon_select(positive3, w, (1.0 - w_f) - w));
-    }
+    let s = gnomon_hamburger6_sums_at(h, clamp_or_nan(z_f, -1.0, 1.0) - h.mean);
     var r: hamburger_bounds;
-    r.lower = saturate_or_zero(lower);
-    r.weight = gnomon_min(saturate_or_zero(w_f), 1.0 - r.lower);
+    r.lower = saturate_or_zero(s.lower);
+    r.weight = gnomon_min(saturate_or_zero(s.weight), 1.0 - r.lower);
     r.upper = r.lower + r.weight;
     return r;
 }
@@ -1137,26 +1152,6 @@ fn blocker4_depth(h: hankel4_, z_f: f32) -> f32
 fn blocker6_depth(h: hankel6_, z_f: f32) -> f32
 {
     let z = clamp_or_high(z_f, -1.0, 1.0);
-    let p = gnomon_hamburger6_polynomials(h, z - h.mean);
-    let inverse = 1.0 / gnomon_hamburger6_kernel(h, p);
-    let w_f = h.whole * inverse;
-    let positive1 = p.p1_ > 0.0;
-    let positive2 = p.p2_ > 0.0;
-    let positive3 = p.p3_ > 0.0;
-    let all_below = positive1 && positive2 && positive3;
-    let all_above = (!positive1) && positive2 && (!positive3);
-    let outside = all_below || all_above;
-    var rest = gnomon_select(all_below, p.p1_, 0.0);
-    var lower = gnomon_select(all_below, 1.0 - w_f, 0.0);
-    if (gnomon_any(!outside)) {
-        let side = gnomon_select(positive3, -1.0, 1.0);
-        let d = gnomon_hamburger6_derivatives(h, p);
-        let n = gnomon_hamburger6_other_nodes(h, p, d, inverse, side);
-        let t = gnomon_cubic_positive_root(n.b, n.c, n.d);
-        let away = t.denominator / gnomon_max(t.numerator, 0.0009765625 * t.denominator);
-        let w = h.whole / gnomon_hamburger6_kernel(h, gnomon_hamburger6_polynomials_shift(p, d, side * away));
-        rest = gnomon_select(outside, rest, gnomon_select(positive3, w * away, p.p1_ + w * away));
-        lower = gnomon_select(outside, lower, gnomon_select(positive3, w, (1.0 - w_f) - w));
-    }
-    return gnomon_blocker_depth_before(z, rest / (blocker_epsilon + gnomon_max(lower, 0.0)));
+    let s = gnomon_hamburger6_sums_at(h, z - h.mean);
+    return gnomon_blocker_depth_before(z, s.distance / (blocker_epsilon + gnomon_max(s.lower, 0.0)));
 }

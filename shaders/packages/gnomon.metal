@@ -4496,6 +4496,41 @@ inline float hamburger6_distance(float t)
     return 1.0f / away;
 }
 
+/// Sums over the nodes x before the receiver: of their weights, and of their weights times z_f - x; and the receiver's
+/// weight.
+struct hamburger6_sums { float lower, distance, weight; };
+
+/// The sums for u = z_f - mean, not clamped. The mean of x - z_f over all nodes is -u, so the lone node tells the sums
+/// of the nodes on either side.
+inline hamburger6_sums hamburger6_sums_at(hankel6 h, float u)
+{
+    polynomials6 p = hamburger6_polynomials(h, u);
+    float inverse = 1.0f / hamburger6_kernel(h, p);
+    bool positive1 = p.p1 > 0.0f;
+    bool positive2 = p.p2 > 0.0f;
+    bool positive3 = p.p3 > 0.0f;
+    bool all_below = positive1 && positive2 && positive3;
+    bool all_above = (!positive1) && positive2 && (!positive3);
+    bool outside = all_below || all_above;
+    hamburger6_sums r;
+    r.weight = h.whole * inverse;
+    r.lower = gnomon_select(all_below, 1.0f - r.weight, 0.0f);
+    r.distance = gnomon_select(all_below, p.p1, 0.0f);
+    if (gnomon_any(!outside)) {
+        // P_3 > 0: two nodes above z_f and the lone one below. Else the lone one is above.
+        float side = gnomon_select(positive3, -1.0f, 1.0f);
+        derivatives6 d = hamburger6_derivatives(h, p);
+        hamburger6_cubic n = hamburger6_other_nodes(h, p, d, inverse, side);
+        cubic_step t = cubic_positive_root(n.b, n.c, n.d);
+        // Clamped to 1024, where a node that would be at infinity has no weight.
+        float away = t.denominator / gnomon_max(t.numerator, 0.0009765625f * t.denominator);
+        float w = h.whole / hamburger6_kernel(h, hamburger6_polynomials_shift(p, d, side * away));
+        r.lower = gnomon_select(outside, r.lower, gnomon_select(positive3, w, (1.0f - r.weight) - w));
+        r.distance = gnomon_select(outside, r.distance, gnomon_select(positive3, w * away, p.p1 + w * away));
+    }
+    return r;
+}
+
 /// Both bounds on the shadow intensity at z_f and the weight of the receiver.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: 0, lit, for a NaN in h or z_f.
@@ -4514,30 +4549,10 @@ inline float hamburger6_distance(float t)
 /// Source: Peters 2017, Alg. 1; Peters 2017, Sec. 5.4
 inline hamburger_bounds hamburger6_bounds(hankel6 h, float z_f)
 {
-    polynomials6 p = hamburger6_polynomials(h, clamp_or_nan(z_f, -1.0f, 1.0f) - h.mean);
-    float inverse = 1.0f / hamburger6_kernel(h, p);
-    float w_f = h.whole * inverse;
-    bool positive1 = p.p1 > 0.0f;
-    bool positive2 = p.p2 > 0.0f;
-    bool positive3 = p.p3 > 0.0f;
-    bool all_below = positive1 && positive2 && positive3;
-    bool all_above = (!positive1) && positive2 && (!positive3);
-    bool outside = all_below || all_above;
-    float lower = gnomon_select(all_below, 1.0f - w_f, 0.0f);
-    if (gnomon_any(!outside)) {
-        // P_3 > 0: two nodes above z_f and the lone one below. Else the lone one is above.
-        float side = gnomon_select(positive3, -1.0f, 1.0f);
-        derivatives6 d = hamburger6_derivatives(h, p);
-        hamburger6_cubic n = hamburger6_other_nodes(h, p, d, inverse, side);
-        cubic_step t = cubic_positive_root(n.b, n.c, n.d);
-        // Clamped to 1024, where a node that would be at infinity has no weight.
-        float distance_ = (side * t.denominator) / gnomon_max(t.numerator, 0.0009765625f * t.denominator);
-        float w = h.whole / hamburger6_kernel(h, hamburger6_polynomials_shift(p, d, distance_));
-        lower = gnomon_select(outside, lower, gnomon_select(positive3, w, (1.0f - w_f) - w));
-    }
+    hamburger6_sums s = hamburger6_sums_at(h, clamp_or_nan(z_f, -1.0f, 1.0f) - h.mean);
     hamburger_bounds r;
-    r.lower = saturate_or_zero(lower);
-    r.weight = gnomon_min(saturate_or_zero(w_f), 1.0f - r.lower);
+    r.lower = saturate_or_zero(s.lower);
+    r.weight = gnomon_min(saturate_or_zero(s.weight), 1.0f - r.lower);
     r.upper = r.lower + r.weight;
     return r;
 }
@@ -6789,28 +6804,8 @@ namespace gnomon {
 inline float blocker6_depth(hankel6 h, float z_f)
 {
     float z = clamp_or_high(z_f, -1.0f, 1.0f);
-    polynomials6 p = hamburger6_polynomials(h, z - h.mean);
-    float inverse = 1.0f / hamburger6_kernel(h, p);
-    float w_f = h.whole * inverse;
-    bool positive1 = p.p1 > 0.0f;
-    bool positive2 = p.p2 > 0.0f;
-    bool positive3 = p.p3 > 0.0f;
-    bool all_below = positive1 && positive2 && positive3;
-    bool all_above = (!positive1) && positive2 && (!positive3);
-    bool outside = all_below || all_above;
-    float rest = gnomon_select(all_below, p.p1, 0.0f);
-    float lower = gnomon_select(all_below, 1.0f - w_f, 0.0f);
-    if (gnomon_any(!outside)) {
-        float side = gnomon_select(positive3, -1.0f, 1.0f);
-        derivatives6 d = hamburger6_derivatives(h, p);
-        hamburger6_cubic n = hamburger6_other_nodes(h, p, d, inverse, side);
-        cubic_step t = cubic_positive_root(n.b, n.c, n.d);
-        float away = t.denominator / gnomon_max(t.numerator, 0.0009765625f * t.denominator);
-        float w = h.whole / hamburger6_kernel(h, hamburger6_polynomials_shift(p, d, side * away));
-        rest = gnomon_select(outside, rest, gnomon_select(positive3, w * away, p.p1 + w * away));
-        lower = gnomon_select(outside, lower, gnomon_select(positive3, w, (1.0f - w_f) - w));
-    }
-    return blocker_depth_before(z, rest / (blocker_epsilon + gnomon_max(lower, 0.0f)));
+    hamburger6_sums s = hamburger6_sums_at(h, z - h.mean);
+    return blocker_depth_before(z, s.distance / (blocker_epsilon + gnomon_max(s.lower, 0.0f)));
 }
 
 } // namespace gnomon
@@ -8484,32 +8479,29 @@ inline channels6 moments6_float_encode(float z)
     return channels6_from_moments(moments6_from_depth(clamp_or_high(z, -1.0f, 1.0f)));
 }
 
-/// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for one rounding.
-inline hankel6 hankel6_from_unorm10(channels6 c)
+/// The factored matrix of the channels of theta6, with a constant bias of weight alpha.
+inline hankel6 hankel6_from_theta(channels6 c, float alpha)
 {
     return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6,
-                                                  stored6_unorm10_weight));
+                                                  alpha));
 }
+
+/// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for one rounding.
+inline hankel6 hankel6_from_unorm10(channels6 c) { return hankel6_from_theta(c, stored6_unorm10_weight); }
 
 /// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for a filter of two passes.
 inline hankel6 hankel6_from_unorm10_filtered(channels6 c)
 {
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6,
-                                                  stored6_unorm10_filtered_weight));
+    return hankel6_from_theta(c, stored6_unorm10_filtered_weight);
 }
 
 /// The factored matrix of the channels of a 6 x 16 UNORM texel, biased for one rounding.
-inline hankel6 hankel6_from_unorm16(channels6 c)
-{
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6,
-                                                  stored6_unorm16_weight));
-}
+inline hankel6 hankel6_from_unorm16(channels6 c) { return hankel6_from_theta(c, stored6_unorm16_weight); }
 
 /// The factored matrix of the channels of a 6 x 16 UNORM texel, biased for a filter of two passes.
 inline hankel6 hankel6_from_unorm16_filtered(channels6 c)
 {
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6,
-                                                  stored6_unorm16_filtered_weight));
+    return hankel6_from_theta(c, stored6_unorm16_filtered_weight);
 }
 
 /// The factored matrix of the channels of a 6 x float texel, biased for one rounding.
@@ -8597,9 +8589,7 @@ namespace gnomon {
 /// NaN: stays NaN.
 inline hankel6 hankel6_from_unorm10_blended(channels6 c, float roundings)
 {
-    float weight = bias_weight_of_roundings(stored6_unorm10_weight, blended_roundings(roundings, 1.0f));
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6,
-                                                  weight));
+    return hankel6_from_theta(c, bias_weight_of_roundings(stored6_unorm10_weight, blended_roundings(roundings, 1.0f)));
 }
 
 /// The factored matrix of the channels of a 6 x 16 UNORM texel, biased for blends.
@@ -8607,9 +8597,7 @@ inline hankel6 hankel6_from_unorm10_blended(channels6 c, float roundings)
 /// NaN: stays NaN.
 inline hankel6 hankel6_from_unorm16_blended(channels6 c, float roundings)
 {
-    float weight = bias_weight_of_roundings(stored6_unorm16_weight, blended_roundings(roundings, 1.0f));
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6,
-                                                  weight));
+    return hankel6_from_theta(c, bias_weight_of_roundings(stored6_unorm16_weight, blended_roundings(roundings, 1.0f)));
 }
 
 constant constexpr float blended6_float_weights = 1.5f;

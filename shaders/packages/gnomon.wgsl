@@ -2692,9 +2692,9 @@ const bias6_raw_b4_: f32 = 0x1.268268p-2; // 0.2876068288776971
 const bias6_raw_b6_: f32 = 0x1.077bbcp-2; // 0.25730795870391842
 
 // Six moments after the sparse transform: r = 0.14575; the paper's vector has 0.13990.
-const bias6_theta_b2_: f32 = 0x1.39c714p-1; // 0.61284694380550628
-const bias6_theta_b4_: f32 = 0x1.0ca57p-1; // 0.52469968779048582
-const bias6_theta_b6_: f32 = 0x1.025ee6p-1; // 0.50463026403505464
+const gnomon_bias6_theta_b2_: f32 = 0x1.39c714p-1; // 0.61284694380550628
+const gnomon_bias6_theta_b4_: f32 = 0x1.0ca57p-1; // 0.52469968779048582
+const gnomon_bias6_theta_b6_: f32 = 0x1.025ee6p-1; // 0.50463026403505464
 const bias6_paper_b2_: f32 = 0x1.1cfaacp-1; // 0.5566
 const bias6_paper_b4_: f32 = 0x1.f4bc6ap-2; // 0.489
 const bias6_paper_b6_: f32 = 0x1.ea2eb6p-2; // 0.47869382
@@ -4125,6 +4125,41 @@ fn gnomon_hamburger6_distance(t: f32) -> f32
     return 1.0 / away;
 }
 
+/// Sums over the nodes x before the receiver: of their weights, and of their weights times z_f - x; and the receiver's
+/// weight.
+struct hamburger6_sums { lower: f32, distance: f32, weight: f32 }
+
+/// The sums for u = z_f - mean, not clamped. The mean of x - z_f over all nodes is -u, so the lone node tells the sums
+/// of the nodes on either side.
+fn gnomon_hamburger6_sums_at(h: hankel6_, u: f32) -> hamburger6_sums
+{
+    let p = gnomon_hamburger6_polynomials(h, u);
+    let inverse = 1.0 / gnomon_hamburger6_kernel(h, p);
+    let positive1 = p.p1_ > 0.0;
+    let positive2 = p.p2_ > 0.0;
+    let positive3 = p.p3_ > 0.0;
+    let all_below = positive1 && positive2 && positive3;
+    let all_above = (!positive1) && positive2 && (!positive3);
+    let outside = all_below || all_above;
+    var r: hamburger6_sums;
+    r.weight = h.whole * inverse;
+    r.lower = gnomon_select(all_below, 1.0 - r.weight, 0.0);
+    r.distance = gnomon_select(all_below, p.p1_, 0.0);
+    if (gnomon_any(!outside)) {
+        // P_3 > 0: two nodes above z_f and the lone one below. Else the lone one is above.
+        let side = gnomon_select(positive3, -1.0, 1.0);
+        let d = gnomon_hamburger6_derivatives(h, p);
+        let n = gnomon_hamburger6_other_nodes(h, p, d, inverse, side);
+        let t = gnomon_cubic_positive_root(n.b, n.c, n.d);
+        // Clamped to 1024, where a node that would be at infinity has no weight.
+        let away = t.denominator / gnomon_max(t.numerator, 0.0009765625 * t.denominator);
+        let w = h.whole / gnomon_hamburger6_kernel(h, gnomon_hamburger6_polynomials_shift(p, d, side * away));
+        r.lower = gnomon_select(outside, r.lower, gnomon_select(positive3, w, (1.0 - r.weight) - w));
+        r.distance = gnomon_select(outside, r.distance, gnomon_select(positive3, w * away, p.p1_ + w * away));
+    }
+    return r;
+}
+
 /// Both bounds on the shadow intensity at z_f and the weight of the receiver.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: 0, lit, for a NaN in h or z_f.
@@ -4143,30 +4178,10 @@ fn gnomon_hamburger6_distance(t: f32) -> f32
 /// Source: Peters 2017, Alg. 1; Peters 2017, Sec. 5.4
 fn hamburger6_bounds(h: hankel6_, z_f: f32) -> hamburger_bounds
 {
-    let p = gnomon_hamburger6_polynomials(h, clamp_or_nan(z_f, -1.0, 1.0) - h.mean);
-    let inverse = 1.0 / gnomon_hamburger6_kernel(h, p);
-    let w_f = h.whole * inverse;
-    let positive1 = p.p1_ > 0.0;
-    let positive2 = p.p2_ > 0.0;
-    let positive3 = p.p3_ > 0.0;
-    let all_below = positive1 && positive2 && positive3;
-    let all_above = (!positive1) && positive2 && (!positive3);
-    let outside = all_below || all_above;
-    var lower = gnomon_select(all_below, 1.0 - w_f, 0.0);
-    if (gnomon_any(!outside)) {
-        // P_3 > 0: two nodes above z_f and the lone one below. Else the lone one is above.
-        let side = gnomon_select(positive3, -1.0, 1.0);
-        let d = gnomon_hamburger6_derivatives(h, p);
-        let n = gnomon_hamburger6_other_nodes(h, p, d, inverse, side);
-        let t = gnomon_cubic_positive_root(n.b, n.c, n.d);
-        // Clamped to 1024, where a node that would be at infinity has no weight.
-        let distance_ = (side * t.denominator) / gnomon_max(t.numerator, 0.0009765625 * t.denominator);
-        let w = h.whole / gnomon_hamburger6_kernel(h, gnomon_hamburger6_polynomials_shift(p, d, distance_));
-        lower = gnomon_select(outside, lower, gnomon_select(positive3, w, (1.0 - w_f) - w));
-    }
+    let s = gnomon_hamburger6_sums_at(h, clamp_or_nan(z_f, -1.0, 1.0) - h.mean);
     var r: hamburger_bounds;
-    r.lower = saturate_or_zero(lower);
-    r.weight = gnomon_min(saturate_or_zero(w_f), 1.0 - r.lower);
+    r.lower = saturate_or_zero(s.lower);
+    r.weight = gnomon_min(saturate_or_zero(s.weight), 1.0 - r.lower);
     r.upper = r.lower + r.weight;
     return r;
 }
@@ -6308,28 +6323,8 @@ fn blocker4_depth(h: hankel4_, z_f: f32) -> f32
 fn blocker6_depth(h: hankel6_, z_f: f32) -> f32
 {
     let z = clamp_or_high(z_f, -1.0, 1.0);
-    let p = gnomon_hamburger6_polynomials(h, z - h.mean);
-    let inverse = 1.0 / gnomon_hamburger6_kernel(h, p);
-    let w_f = h.whole * inverse;
-    let positive1 = p.p1_ > 0.0;
-    let positive2 = p.p2_ > 0.0;
-    let positive3 = p.p3_ > 0.0;
-    let all_below = positive1 && positive2 && positive3;
-    let all_above = (!positive1) && positive2 && (!positive3);
-    let outside = all_below || all_above;
-    var rest = gnomon_select(all_below, p.p1_, 0.0);
-    var lower = gnomon_select(all_below, 1.0 - w_f, 0.0);
-    if (gnomon_any(!outside)) {
-        let side = gnomon_select(positive3, -1.0, 1.0);
-        let d = gnomon_hamburger6_derivatives(h, p);
-        let n = gnomon_hamburger6_other_nodes(h, p, d, inverse, side);
-        let t = gnomon_cubic_positive_root(n.b, n.c, n.d);
-        let away = t.denominator / gnomon_max(t.numerator, 0.0009765625 * t.denominator);
-        let w = h.whole / gnomon_hamburger6_kernel(h, gnomon_hamburger6_polynomials_shift(p, d, side * away));
-        rest = gnomon_select(outside, rest, gnomon_select(positive3, w * away, p.p1_ + w * away));
-        lower = gnomon_select(outside, lower, gnomon_select(positive3, w, (1.0 - w_f) - w));
-    }
-    return gnomon_blocker_depth_before(z, rest / (blocker_epsilon + gnomon_max(lower, 0.0)));
+    let s = gnomon_hamburger6_sums_at(h, z - h.mean);
+    return gnomon_blocker_depth_before(z, s.distance / (blocker_epsilon + gnomon_max(s.lower, 0.0)));
 }
 
 // soft/depth_interval.h -----------------------------------------------------------------------------------------------
@@ -7877,32 +7872,31 @@ fn moments6_float_encode(z: f32) -> channels6_
     return channels6_from_moments(moments6_from_depth(clamp_or_high(z, -1.0, 1.0)));
 }
 
-/// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for one rounding.
-fn hankel6_from_unorm10_(c: channels6_) -> hankel6_
+/// The factored matrix of the channels of theta6_, with a constant bias of weight alpha.
+fn gnomon_hankel6_from_theta(c: channels6_, alpha: f32) -> hankel6_
 {
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2_, bias6_theta_b4_, bias6_theta_b6_,
-                                                  gnomon_stored6_unorm10_weight));
+    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), gnomon_bias6_theta_b2_, gnomon_bias6_theta_b4_,
+                                                  gnomon_bias6_theta_b6_, alpha));
 }
+
+/// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for one rounding.
+fn hankel6_from_unorm10_(c: channels6_) -> hankel6_ { return gnomon_hankel6_from_theta(c,
+                                                                                       gnomon_stored6_unorm10_weight); }
 
 /// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for a filter of two passes.
 fn hankel6_from_unorm10_filtered(c: channels6_) -> hankel6_
 {
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2_, bias6_theta_b4_, bias6_theta_b6_,
-                                                  gnomon_stored6_unorm10_filtered_weight));
+    return gnomon_hankel6_from_theta(c, gnomon_stored6_unorm10_filtered_weight);
 }
 
 /// The factored matrix of the channels of a 6 x 16 UNORM texel, biased for one rounding.
-fn hankel6_from_unorm16_(c: channels6_) -> hankel6_
-{
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2_, bias6_theta_b4_, bias6_theta_b6_,
-                                                  gnomon_stored6_unorm16_weight));
-}
+fn hankel6_from_unorm16_(c: channels6_) -> hankel6_ { return gnomon_hankel6_from_theta(c,
+                                                                                       gnomon_stored6_unorm16_weight); }
 
 /// The factored matrix of the channels of a 6 x 16 UNORM texel, biased for a filter of two passes.
 fn hankel6_from_unorm16_filtered(c: channels6_) -> hankel6_
 {
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2_, bias6_theta_b4_, bias6_theta_b6_,
-                                                  gnomon_stored6_unorm16_filtered_weight));
+    return gnomon_hankel6_from_theta(c, gnomon_stored6_unorm16_filtered_weight);
 }
 
 /// The factored matrix of the channels of a 6 x float texel, biased for one rounding.
@@ -7978,9 +7972,8 @@ fn moments6_float_filtered_intensity(c: channels6_, z_f: f32) -> f32
 /// NaN: stays NaN.
 fn hankel6_from_unorm10_blended(c: channels6_, roundings: f32) -> hankel6_
 {
-    let weight = bias_weight_of_roundings(gnomon_stored6_unorm10_weight, gnomon_blended_roundings(roundings, 1.0));
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2_, bias6_theta_b4_, bias6_theta_b6_,
-                                                  weight));
+    return gnomon_hankel6_from_theta(
+        c, bias_weight_of_roundings(gnomon_stored6_unorm10_weight, gnomon_blended_roundings(roundings, 1.0)));
 }
 
 /// The factored matrix of the channels of a 6 x 16 UNORM texel, biased for blends.
@@ -7988,9 +7981,8 @@ fn hankel6_from_unorm10_blended(c: channels6_, roundings: f32) -> hankel6_
 /// NaN: stays NaN.
 fn hankel6_from_unorm16_blended(c: channels6_, roundings: f32) -> hankel6_
 {
-    let weight = bias_weight_of_roundings(gnomon_stored6_unorm16_weight, gnomon_blended_roundings(roundings, 1.0));
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2_, bias6_theta_b4_, bias6_theta_b6_,
-                                                  weight));
+    return gnomon_hankel6_from_theta(
+        c, bias_weight_of_roundings(gnomon_stored6_unorm16_weight, gnomon_blended_roundings(roundings, 1.0)));
 }
 
 const gnomon_blended6_float_weights: f32 = 1.5;
@@ -8101,7 +8093,8 @@ fn moments6_summed_channels(sums: channels6_, area: f32, scale: f32) -> channels
 /// The factored matrix of the channels of a rectangle, with a constant bias of weight alpha.
 fn gnomon_hankel6_from_summed_theta(c: channels6_, alpha: f32) -> hankel6_
 {
-    return hankel6_constant_bias(theta6_inverse(c), bias6_theta_b2_, bias6_theta_b4_, bias6_theta_b6_, alpha);
+    return hankel6_constant_bias(theta6_inverse(c), gnomon_bias6_theta_b2_, gnomon_bias6_theta_b4_,
+                                 gnomon_bias6_theta_b6_, alpha);
 }
 
 /// The factored matrix of the channels of a rectangle, with the constant bias of a table for most_texels.

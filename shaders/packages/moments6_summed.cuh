@@ -1186,6 +1186,42 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real h
     return Real(1) / away;
 }
 
+/// Sums over the nodes x before the receiver: of their weights, and of their weights times z_f - x; and the receiver's
+/// weight.
+template <class Real, class = require_real<Real>> struct hamburger6_sums { Real lower, distance, weight; };
+
+/// The sums for u = z_f - mean, not clamped. The mean of x - z_f over all nodes is -u, so the lone node tells the sums
+/// of the nodes on either side.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hamburger6_sums<Real> hamburger6_sums_at(hankel6<Real> h, Real u)
+{
+    polynomials6 p = hamburger6_polynomials(h, u);
+    Real inverse = Real(1) / hamburger6_kernel(h, p);
+    mask_t<Real> positive1 = p.p1 > Real(0);
+    mask_t<Real> positive2 = p.p2 > Real(0);
+    mask_t<Real> positive3 = p.p3 > Real(0);
+    mask_t<Real> all_below = positive1 && positive2 && positive3;
+    mask_t<Real> all_above = (!positive1) && positive2 && (!positive3);
+    mask_t<Real> outside = all_below || all_above;
+    hamburger6_sums<Real> r;
+    r.weight = h.whole * inverse;
+    r.lower = gnomon_select(all_below, Real(1) - r.weight, Real(0));
+    r.distance = gnomon_select(all_below, p.p1, Real(0));
+    if (gnomon_any(!outside)) {
+        // P_3 > 0: two nodes above z_f and the lone one below. Else the lone one is above.
+        Real side = gnomon_select(positive3, Real(-1), Real(1));
+        derivatives6 d = hamburger6_derivatives(h, p);
+        hamburger6_cubic n = hamburger6_other_nodes(h, p, d, inverse, side);
+        cubic_step t = cubic_positive_root(n.b, n.c, n.d);
+        // Clamped to 1024, where a node that would be at infinity has no weight.
+        Real away = t.denominator / gnomon_max(t.numerator, Real(0.0009765625) * t.denominator);
+        Real w = h.whole / hamburger6_kernel(h, hamburger6_polynomials_shift(p, d, side * away));
+        r.lower = gnomon_select(outside, r.lower, gnomon_select(positive3, w, (Real(1) - r.weight) - w));
+        r.distance = gnomon_select(outside, r.distance, gnomon_select(positive3, w * away, p.p1 + w * away));
+    }
+    return r;
+}
+
 /// Both bounds on the shadow intensity at z_f and the weight of the receiver.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: 0, lit, for a NaN in h or z_f.
@@ -1205,30 +1241,10 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real h
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr hamburger_bounds<Real> hamburger6_bounds(hankel6<Real> h, Real z_f)
 {
-    polynomials6 p = hamburger6_polynomials(h, clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean);
-    Real inverse = Real(1) / hamburger6_kernel(h, p);
-    Real w_f = h.whole * inverse;
-    mask_t<Real> positive1 = p.p1 > Real(0);
-    mask_t<Real> positive2 = p.p2 > Real(0);
-    mask_t<Real> positive3 = p.p3 > Real(0);
-    mask_t<Real> all_below = positive1 && positive2 && positive3;
-    mask_t<Real> all_above = (!positive1) && positive2 && (!positive3);
-    mask_t<Real> outside = all_below || all_above;
-    Real lower = gnomon_select(all_below, Real(1) - w_f, Real(0));
-    if (gnomon_any(!outside)) {
-        // P_3 > 0: two nodes above z_f and the lone one below. Else the lone one is above.
-        Real side = gnomon_select(positive3, Real(-1), Real(1));
-        derivatives6 d = hamburger6_derivatives(h, p);
-        hamburger6_cubic n = hamburger6_other_nodes(h, p, d, inverse, side);
-        cubic_step t = cubic_positive_root(n.b, n.c, n.d);
-        // Clamped to 1024, where a node that would be at infinity has no weight.
-        Real distance_ = (side * t.denominator) / gnomon_max(t.numerator, Real(0.0009765625) * t.denominator);
-        Real w = h.whole / hamburger6_kernel(h, hamburger6_polynomials_shift(p, d, distance_));
-        lower = gnomon_select(outside, lower, gnomon_select(positive3, w, (Real(1) - w_f) - w));
-    }
+    hamburger6_sums s = hamburger6_sums_at(h, clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean);
     hamburger_bounds<Real> r;
-    r.lower = saturate_or_zero(lower);
-    r.weight = gnomon_min(saturate_or_zero(w_f), Real(1) - r.lower);
+    r.lower = saturate_or_zero(s.lower);
+    r.weight = gnomon_min(saturate_or_zero(s.weight), Real(1) - r.lower);
     r.upper = r.lower + r.weight;
     return r;
 }
@@ -1403,28 +1419,8 @@ GNOMON_WARNINGS_OFF namespace gnomon {
 template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real blocker6_depth(hankel6<Real> h, Real z_f)
 {
     Real z = clamp_or_high(z_f, Real(-1), Real(1));
-    polynomials6 p = hamburger6_polynomials(h, z - h.mean);
-    Real inverse = Real(1) / hamburger6_kernel(h, p);
-    Real w_f = h.whole * inverse;
-    mask_t<Real> positive1 = p.p1 > Real(0);
-    mask_t<Real> positive2 = p.p2 > Real(0);
-    mask_t<Real> positive3 = p.p3 > Real(0);
-    mask_t<Real> all_below = positive1 && positive2 && positive3;
-    mask_t<Real> all_above = (!positive1) && positive2 && (!positive3);
-    mask_t<Real> outside = all_below || all_above;
-    Real rest = gnomon_select(all_below, p.p1, Real(0));
-    Real lower = gnomon_select(all_below, Real(1) - w_f, Real(0));
-    if (gnomon_any(!outside)) {
-        Real side = gnomon_select(positive3, Real(-1), Real(1));
-        derivatives6 d = hamburger6_derivatives(h, p);
-        hamburger6_cubic n = hamburger6_other_nodes(h, p, d, inverse, side);
-        cubic_step t = cubic_positive_root(n.b, n.c, n.d);
-        Real away = t.denominator / gnomon_max(t.numerator, Real(0.0009765625) * t.denominator);
-        Real w = h.whole / hamburger6_kernel(h, hamburger6_polynomials_shift(p, d, side * away));
-        rest = gnomon_select(outside, rest, gnomon_select(positive3, w * away, p.p1 + w * away));
-        lower = gnomon_select(outside, lower, gnomon_select(positive3, w, (Real(1) - w_f) - w));
-    }
-    return blocker_depth_before(z, rest / (literal<Real>(blocker_epsilon) + gnomon_max(lower, Real(0))));
+    hamburger6_sums s = hamburger6_sums_at(h, z - h.mean);
+    return blocker_depth_before(z, s.distance / (literal<Real>(blocker_epsilon) + gnomon_max(s.lower, Real(0))));
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon
@@ -2040,40 +2036,40 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr channe
     return channels6_from_moments(moments6_from_depth(clamp_or_high(z, Real(-1), Real(1))));
 }
 
+/// The factored matrix of the channels of theta6, with a constant bias of weight alpha.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr hankel6<Real> hankel6_from_theta(channels6<Real> c, std::type_identity_t<Real> alpha)
+{
+    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), literal<Real>(bias6_theta_b2),
+                                                  literal<Real>(bias6_theta_b4), literal<Real>(bias6_theta_b6), alpha));
+}
+
 /// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for one rounding.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr hankel6<Real> hankel6_from_unorm10(channels6<Real> c)
 {
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), literal<Real>(bias6_theta_b2),
-                                                  literal<Real>(bias6_theta_b4), literal<Real>(bias6_theta_b6),
-                                                  literal<Real>(stored6_unorm10_weight)));
+    return hankel6_from_theta(c, literal<Real>(stored6_unorm10_weight));
 }
 
 /// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for a filter of two passes.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr hankel6<Real> hankel6_from_unorm10_filtered(channels6<Real> c)
 {
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), literal<Real>(bias6_theta_b2),
-                                                  literal<Real>(bias6_theta_b4), literal<Real>(bias6_theta_b6),
-                                                  literal<Real>(stored6_unorm10_filtered_weight)));
+    return hankel6_from_theta(c, literal<Real>(stored6_unorm10_filtered_weight));
 }
 
 /// The factored matrix of the channels of a 6 x 16 UNORM texel, biased for one rounding.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr hankel6<Real> hankel6_from_unorm16(channels6<Real> c)
 {
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), literal<Real>(bias6_theta_b2),
-                                                  literal<Real>(bias6_theta_b4), literal<Real>(bias6_theta_b6),
-                                                  literal<Real>(stored6_unorm16_weight)));
+    return hankel6_from_theta(c, literal<Real>(stored6_unorm16_weight));
 }
 
 /// The factored matrix of the channels of a 6 x 16 UNORM texel, biased for a filter of two passes.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr hankel6<Real> hankel6_from_unorm16_filtered(channels6<Real> c)
 {
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), literal<Real>(bias6_theta_b2),
-                                                  literal<Real>(bias6_theta_b4), literal<Real>(bias6_theta_b6),
-                                                  literal<Real>(stored6_unorm16_filtered_weight)));
+    return hankel6_from_theta(c, literal<Real>(stored6_unorm16_filtered_weight));
 }
 
 /// The factored matrix of the channels of a 6 x float texel, biased for one rounding.

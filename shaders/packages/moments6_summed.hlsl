@@ -706,6 +706,41 @@ float gnomon_hamburger6_distance(float t)
     return 1.0 / away;
 }
 
+/// Sums over the nodes x before the receiver: of their weights, and of their weights times z_f - x; and the receiver's
+/// weight.
+struct hamburger6_sums { float lower, distance, weight; };
+
+/// The sums for u = z_f - mean, not clamped. The mean of x - z_f over all nodes is -u, so the lone node tells the sums
+/// of the nodes on either side.
+hamburger6_sums gnomon_hamburger6_sums_at(hankel6 h, float u)
+{
+    gnomon_polynomials6 p = gnomon_hamburger6_polynomials(h, u);
+    float inverse = 1.0 / gnomon_hamburger6_kernel(h, p);
+    bool positive1 = p.p1 > 0.0;
+    bool positive2 = p.p2 > 0.0;
+    bool positive3 = p.p3 > 0.0;
+    bool all_below = positive1 && positive2 && positive3;
+    bool all_above = (!positive1) && positive2 && (!positive3);
+    bool outside = all_below || all_above;
+    hamburger6_sums r;
+    r.weight = h.whole * inverse;
+    r.lower = gnomon_select(all_below, 1.0 - r.weight, 0.0);
+    r.distance = gnomon_select(all_below, p.p1, 0.0);
+    if (gnomon_any(!outside)) {
+        // P_3 > 0: two nodes above z_f and the lone one below. Else the lone one is above.
+        float side = gnomon_select(positive3, -1.0, 1.0);
+        gnomon_derivatives6 d = gnomon_hamburger6_derivatives(h, p);
+        hamburger6_cubic n = gnomon_hamburger6_other_nodes(h, p, d, inverse, side);
+        gnomon_cubic_step t = gnomon_cubic_positive_root(n.b, n.c, n.d);
+        // Clamped to 1024, where a node that would be at infinity has no weight.
+        float away = t.denominator / gnomon_max(t.numerator, 0.0009765625 * t.denominator);
+        float w = h.whole / gnomon_hamburger6_kernel(h, gnomon_hamburger6_polynomials_shift(p, d, side * away));
+        r.lower = gnomon_select(outside, r.lower, gnomon_select(positive3, w, (1.0 - r.weight) - w));
+        r.distance = gnomon_select(outside, r.distance, gnomon_select(positive3, w * away, p.p1 + w * away));
+    }
+    return r;
+}
+
 /// Both bounds on the shadow intensity at z_f and the weight of the receiver.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: 0, lit, for a NaN in h or z_f.
@@ -724,30 +759,10 @@ float gnomon_hamburger6_distance(float t)
 /// Source: Peters 2017, Alg. 1; Peters 2017, Sec. 5.4
 hamburger_bounds hamburger6_bounds(hankel6 h, float z_f)
 {
-    gnomon_polynomials6 p = gnomon_hamburger6_polynomials(h, clamp_or_nan(z_f, -1.0, 1.0) - h.mean);
-    float inverse = 1.0 / gnomon_hamburger6_kernel(h, p);
-    float w_f = h.whole * inverse;
-    bool positive1 = p.p1 > 0.0;
-    bool positive2 = p.p2 > 0.0;
-    bool positive3 = p.p3 > 0.0;
-    bool all_below = positive1 && positive2 && positive3;
-    bool all_above = (!positive1) && positive2 && (!positive3);
-    bool outside = all_below || all_above;
-    float lower = gnomon_select(all_below, 1.0 - w_f, 0.0);
-    if (gnomon_any(!outside)) {
-        // P_3 > 0: two nodes above z_f and the lone one below. Else the lone one is above.
-        float side = gnomon_select(positive3, -1.0, 1.0);
-        gnomon_derivatives6 d = gnomon_hamburger6_derivatives(h, p);
-        hamburger6_cubic n = gnomon_hamburger6_other_nodes(h, p, d, inverse, side);
-        gnomon_cubic_step t = gnomon_cubic_positive_root(n.b, n.c, n.d);
-        // Clamped to 1024, where a node that would be at infinity has no weight.
-        float distance_ = (side * t.denominator) / gnomon_max(t.numerator, 0.0009765625 * t.denominator);
-        float w = h.whole / gnomon_hamburger6_kernel(h, gnomon_hamburger6_polynomials_shift(p, d, distance_));
-        lower = gnomon_select(outside, lower, gnomon_select(positive3, w, (1.0 - w_f) - w));
-    }
+    hamburger6_sums s = gnomon_hamburger6_sums_at(h, clamp_or_nan(z_f, -1.0, 1.0) - h.mean);
     hamburger_bounds r;
-    r.lower = saturate_or_zero(lower);
-    r.weight = gnomon_min(saturate_or_zero(w_f), 1.0 - r.lower);
+    r.lower = saturate_or_zero(s.lower);
+    r.weight = gnomon_min(saturate_or_zero(s.weight), 1.0 - r.lower);
     r.upper = r.lower + r.weight;
     return r;
 }
@@ -905,28 +920,8 @@ float blocker2_depth(float mean, float variance, float z_f)
 float blocker6_depth(hankel6 h, float z_f)
 {
     float z = clamp_or_high(z_f, -1.0, 1.0);
-    gnomon_polynomials6 p = gnomon_hamburger6_polynomials(h, z - h.mean);
-    float inverse = 1.0 / gnomon_hamburger6_kernel(h, p);
-    float w_f = h.whole * inverse;
-    bool positive1 = p.p1 > 0.0;
-    bool positive2 = p.p2 > 0.0;
-    bool positive3 = p.p3 > 0.0;
-    bool all_below = positive1 && positive2 && positive3;
-    bool all_above = (!positive1) && positive2 && (!positive3);
-    bool outside = all_below || all_above;
-    float rest = gnomon_select(all_below, p.p1, 0.0);
-    float lower = gnomon_select(all_below, 1.0 - w_f, 0.0);
-    if (gnomon_any(!outside)) {
-        float side = gnomon_select(positive3, -1.0, 1.0);
-        gnomon_derivatives6 d = gnomon_hamburger6_derivatives(h, p);
-        hamburger6_cubic n = gnomon_hamburger6_other_nodes(h, p, d, inverse, side);
-        gnomon_cubic_step t = gnomon_cubic_positive_root(n.b, n.c, n.d);
-        float away = t.denominator / gnomon_max(t.numerator, 0.0009765625 * t.denominator);
-        float w = h.whole / gnomon_hamburger6_kernel(h, gnomon_hamburger6_polynomials_shift(p, d, side * away));
-        rest = gnomon_select(outside, rest, gnomon_select(positive3, w * away, p.p1 + w * away));
-        lower = gnomon_select(outside, lower, gnomon_select(positive3, w, (1.0 - w_f) - w));
-    }
-    return gnomon_blocker_depth_before(z, rest / (blocker_epsilon + gnomon_max(lower, 0.0)));
+    hamburger6_sums s = gnomon_hamburger6_sums_at(h, z - h.mean);
+    return gnomon_blocker_depth_before(z, s.distance / (blocker_epsilon + gnomon_max(s.lower, 0.0)));
 }
 
 #endif
@@ -1261,9 +1256,9 @@ static const float bias6_raw_b4 = 0.2876068288776971;
 static const float bias6_raw_b6 = 0.25730795870391842;
 
 // Six moments after the sparse transform: r = 0.14575; the paper's vector has 0.13990.
-static const float bias6_theta_b2 = 0.61284694380550628;
-static const float bias6_theta_b4 = 0.52469968779048582;
-static const float bias6_theta_b6 = 0.50463026403505464;
+static const float gnomon_bias6_theta_b2 = 0.61284694380550628;
+static const float gnomon_bias6_theta_b4 = 0.52469968779048582;
+static const float gnomon_bias6_theta_b6 = 0.50463026403505464;
 static const float bias6_paper_b2 = 0.5566;
 static const float bias6_paper_b4 = 0.489;
 static const float bias6_paper_b6 = 0.47869382;
@@ -1464,32 +1459,29 @@ channels6 moments6_float_encode(float z)
     return channels6_from_moments(moments6_from_depth(clamp_or_high(z, -1.0, 1.0)));
 }
 
-/// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for one rounding.
-hankel6 hankel6_from_unorm10(channels6 c)
+/// The factored matrix of the channels of theta6, with a constant bias of weight alpha.
+hankel6 gnomon_hankel6_from_theta(channels6 c, float alpha)
 {
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6,
-                                                  gnomon_stored6_unorm10_weight));
+    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), gnomon_bias6_theta_b2, gnomon_bias6_theta_b4,
+                                                  gnomon_bias6_theta_b6, alpha));
 }
+
+/// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for one rounding.
+hankel6 hankel6_from_unorm10(channels6 c) { return gnomon_hankel6_from_theta(c, gnomon_stored6_unorm10_weight); }
 
 /// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for a filter of two passes.
 hankel6 hankel6_from_unorm10_filtered(channels6 c)
 {
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6,
-                                                  gnomon_stored6_unorm10_filtered_weight));
+    return gnomon_hankel6_from_theta(c, gnomon_stored6_unorm10_filtered_weight);
 }
 
 /// The factored matrix of the channels of a 6 x 16 UNORM texel, biased for one rounding.
-hankel6 hankel6_from_unorm16(channels6 c)
-{
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6,
-                                                  gnomon_stored6_unorm16_weight));
-}
+hankel6 hankel6_from_unorm16(channels6 c) { return gnomon_hankel6_from_theta(c, gnomon_stored6_unorm16_weight); }
 
 /// The factored matrix of the channels of a 6 x 16 UNORM texel, biased for a filter of two passes.
 hankel6 hankel6_from_unorm16_filtered(channels6 c)
 {
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6,
-                                                  gnomon_stored6_unorm16_filtered_weight));
+    return gnomon_hankel6_from_theta(c, gnomon_stored6_unorm16_filtered_weight);
 }
 
 /// The factored matrix of the channels of a 6 x float texel, biased for one rounding.
@@ -1621,7 +1613,8 @@ channels6 moments6_summed_channels(channels6 sums, float area, float scale)
 /// The factored matrix of the channels of a rectangle, with a constant bias of weight alpha.
 hankel6 gnomon_hankel6_from_summed_theta(channels6 c, float alpha)
 {
-    return hankel6_constant_bias(theta6_inverse(c), bias6_theta_b2, bias6_theta_b4, bias6_theta_b6, alpha);
+    return hankel6_constant_bias(theta6_inverse(c), gnomon_bias6_theta_b2, gnomon_bias6_theta_b4, gnomon_bias6_theta_b6,
+                                 alpha);
 }
 
 /// The factored matrix of the channels of a rectangle, with the constant bias of a table for most_texels.

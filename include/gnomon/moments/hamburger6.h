@@ -93,6 +93,40 @@ GNOMON_DETAIL_KERNEL Real hamburger6_distance(Real t)
     return Real(1) / away;
 }
 
+/// Sums over the nodes x before the receiver: of their weights, and of their weights times z_f - x; and the receiver's weight.
+GNOMON_STRUCT(hamburger6_sums) { Real lower, distance, weight; };
+
+/// The sums for u = z_f - mean, not clamped. The mean of x - z_f over all nodes is -u, so the lone node tells the sums of
+/// the nodes on either side.
+GNOMON_DETAIL_KERNEL GNOMON_T(hamburger6_sums) hamburger6_sums_at(GNOMON_T(hankel6) h, Real u)
+{
+    polynomials6 p = hamburger6_polynomials(h, u);
+    Real inverse = Real(1) / hamburger6_kernel(h, p);
+    GNOMON_MASK positive1 = p.p1 > Real(0);
+    GNOMON_MASK positive2 = p.p2 > Real(0);
+    GNOMON_MASK positive3 = p.p3 > Real(0);
+    GNOMON_MASK all_below = positive1 && positive2 && positive3;
+    GNOMON_MASK all_above = (!positive1) && positive2 && (!positive3);
+    GNOMON_MASK outside = all_below || all_above;
+    GNOMON_T(hamburger6_sums) r;
+    r.weight = h.whole * inverse;
+    r.lower = gnomon_select(all_below, Real(1) - r.weight, Real(0));
+    r.distance = gnomon_select(all_below, p.p1, Real(0));
+    if (gnomon_any(!outside)) {
+        // P_3 > 0: two nodes above z_f and the lone one below. Else the lone one is above.
+        Real side = gnomon_select(positive3, Real(-1), Real(1));
+        derivatives6 d = hamburger6_derivatives(h, p);
+        hamburger6_cubic n = hamburger6_other_nodes(h, p, d, inverse, side);
+        cubic_step t = cubic_positive_root(n.b, n.c, n.d);
+        // Clamped to 1024, where a node that would be at infinity has no weight.
+        Real away = t.denominator / gnomon_max(t.numerator, Real(0.0009765625) * t.denominator);
+        Real w = h.whole / hamburger6_kernel(h, hamburger6_polynomials_shift(p, d, side * away));
+        r.lower = gnomon_select(outside, r.lower, gnomon_select(positive3, w, (Real(1) - r.weight) - w));
+        r.distance = gnomon_select(outside, r.distance, gnomon_select(positive3, w * away, p.p1 + w * away));
+    }
+    return r;
+}
+
 /// Both bounds on the shadow intensity at z_f and the weight of the receiver.
 /// Domain: z_f in [-1, 1], clamped.
 /// NaN: 0, lit, for a NaN in h or z_f.
@@ -111,30 +145,10 @@ GNOMON_DETAIL_KERNEL Real hamburger6_distance(Real t)
 /// Source: Peters 2017, Alg. 1; Peters 2017, Sec. 5.4
 GNOMON_KERNEL GNOMON_T(hamburger_bounds) hamburger6_bounds(GNOMON_T(hankel6) h, Real z_f)
 {
-    polynomials6 p = hamburger6_polynomials(h, clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean);
-    Real inverse = Real(1) / hamburger6_kernel(h, p);
-    Real w_f = h.whole * inverse;
-    GNOMON_MASK positive1 = p.p1 > Real(0);
-    GNOMON_MASK positive2 = p.p2 > Real(0);
-    GNOMON_MASK positive3 = p.p3 > Real(0);
-    GNOMON_MASK all_below = positive1 && positive2 && positive3;
-    GNOMON_MASK all_above = (!positive1) && positive2 && (!positive3);
-    GNOMON_MASK outside = all_below || all_above;
-    Real lower = gnomon_select(all_below, Real(1) - w_f, Real(0));
-    if (gnomon_any(!outside)) {
-        // P_3 > 0: two nodes above z_f and the lone one below. Else the lone one is above.
-        Real side = gnomon_select(positive3, Real(-1), Real(1));
-        derivatives6 d = hamburger6_derivatives(h, p);
-        hamburger6_cubic n = hamburger6_other_nodes(h, p, d, inverse, side);
-        cubic_step t = cubic_positive_root(n.b, n.c, n.d);
-        // Clamped to 1024, where a node that would be at infinity has no weight.
-        Real distance_ = (side * t.denominator) / gnomon_max(t.numerator, Real(0.0009765625) * t.denominator);
-        Real w = h.whole / hamburger6_kernel(h, hamburger6_polynomials_shift(p, d, distance_));
-        lower = gnomon_select(outside, lower, gnomon_select(positive3, w, (Real(1) - w_f) - w));
-    }
+    hamburger6_sums s = hamburger6_sums_at(h, clamp_or_nan(z_f, Real(-1), Real(1)) - h.mean);
     GNOMON_T(hamburger_bounds) r;
-    r.lower = saturate_or_zero(lower);
-    r.weight = gnomon_min(saturate_or_zero(w_f), Real(1) - r.lower);
+    r.lower = saturate_or_zero(s.lower);
+    r.weight = gnomon_min(saturate_or_zero(s.weight), Real(1) - r.lower);
     r.upper = r.lower + r.weight;
     return r;
 }

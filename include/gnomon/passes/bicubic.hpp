@@ -24,7 +24,7 @@ inline spline_positions spline_positions_of(float coordinate, std::size_t extent
     return {whole + 0.5f + taps.first, whole + 0.5f + taps.second, taps.weight};
 }
 
-template <storage_format Format>
+template <texel_format Format>
 channel_array<Format> bicubic_channels(map_view<const format_texel<Format>> map, float x, float y, border_mode mode)
 {
     const spline_positions px = spline_positions_of(x, map.width), py = spline_positions_of(y, map.height);
@@ -40,7 +40,7 @@ channel_array<Format> bicubic_channels(map_view<const format_texel<Format>> map,
 /// Channels at position (x, y), filtered by a cubic B-spline over 4 x 4 texels.
 /// Domain: any position. A map without texels gives the border, lit.
 /// NaN: the border, for a coordinate of NaN.
-template <storage_format Format>
+template <texel_format Format>
 format_channels<Format> bicubic(map_view<const format_texel<Format>> map, float x, float y,
                                 border_mode mode = border_mode::clamp)
 {
@@ -52,21 +52,13 @@ format_channels<Format> bicubic(map_view<const format_texel<Format>> map, float 
 /// mip_filter_level gives the level of a width. The level is clamped to the chain.
 /// Domain: any position and level. A map without texels gives the border, lit.
 /// NaN: the border, for a coordinate or level of NaN.
-template <storage_format Format>
+template <texel_format Format>
 format_channels<Format> bicubic(mip_view<const format_texel<Format>> mips, float x, float y, float level,
                                 border_mode mode = border_mode::clamp)
 {
-    if ((std::isunordered)(x, y) || (std::isnan)(level) || mips.width == 0 || mips.height == 0)
-        return stored_border<Format>();
-    const detail::neighbours nl = detail::neighbours_of<border_mode::clamp>(level, mips.levels());
-    const auto at = [&](std::size_t k) {
-        const map_view<const format_texel<Format>> map = mips.level(k);
-        const float sx = float(map.width) / float(mips.width), sy = float(map.height) / float(mips.height);
-        return detail::bicubic_channels<Format>(map, x * sx, y * sy, mode);
-    };
-    channel_array<Format> c = at(nl.lower);
-    if (nl.fraction > 0) c = detail::mix(c, at(nl.upper), nl.fraction);
-    return gnomon_bit_cast<format_channels<Format>>(c);
+    return detail::between_levels<Format>(mips, x, y, level, [&](const auto& map, float at_x, float at_y) {
+        return detail::bicubic_channels<Format>(map, at_x, at_y, mode);
+    });
 }
 
 GNOMON_NAMESPACE_END

@@ -59,6 +59,23 @@ channel_array<Format> bilinear_channels(map_view<const format_texel<Format>> map
                                     : bilinear_channels<Format, border_mode::clamp>(map, x, y);
 }
 
+/// Channels of a filter, look_up(map, x, y), interpolated between the two levels next to level.
+template <texel_format Format>
+format_channels<Format> between_levels(mip_view<const format_texel<Format>> mips, float x, float y, float level,
+                                       const auto& look_up)
+{
+    if ((std::isunordered)(x, y) || (std::isnan)(level) || mips.width == 0 || mips.height == 0)
+        return stored_border<Format>();
+    const neighbours nl = neighbours_of<border_mode::clamp>(level, mips.levels());
+    const auto at = [&](std::size_t k) {
+        const map_view<const format_texel<Format>> map = mips.level(k);
+        return look_up(map, x * (float(map.width) / float(mips.width)), y * (float(map.height) / float(mips.height)));
+    };
+    channel_array<Format> c = at(nl.lower);
+    if (nl.fraction > 0) c = mix(c, at(nl.upper), nl.fraction);
+    return gnomon_bit_cast<format_channels<Format>>(c);
+}
+
 } // namespace detail
 
 /// Filtered channels at position (x, y), for the intensity or factor of a format.
@@ -80,18 +97,9 @@ template <texel_format Format>
 format_channels<Format> trilinear(mip_view<const format_texel<Format>> mips, float x, float y, float level,
                                   border_mode mode = border_mode::clamp)
 {
-    if ((std::isunordered)(x, y) || (std::isnan)(level) || mips.width == 0 || mips.height == 0)
-        return stored_border<Format>();
-    const detail::neighbours nl = detail::neighbours_of<border_mode::clamp>(level, mips.levels());
-    const auto at = [&](std::size_t k) {
-        const map_view<const format_texel<Format>> map = mips.level(k);
-        const float sx = float(map.width) / float(mips.width);
-        const float sy = float(map.height) / float(mips.height);
-        return detail::bilinear_channels<Format>(map, x * sx, y * sy, mode);
-    };
-    channel_array<Format> c = at(nl.lower);
-    if (nl.fraction > 0) c = detail::mix(c, at(nl.upper), nl.fraction);
-    return gnomon_bit_cast<format_channels<Format>>(c);
+    return detail::between_levels<Format>(mips, x, y, level, [&](const auto& map, float at_x, float at_y) {
+        return detail::bilinear_channels<Format>(map, at_x, at_y, mode);
+    });
 }
 
 GNOMON_NAMESPACE_END

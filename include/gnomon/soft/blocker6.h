@@ -23,28 +23,8 @@ GNOMON_NAMESPACE_BEGIN
 GNOMON_KERNEL Real blocker6_depth(GNOMON_T(hankel6) h, Real z_f)
 {
     Real z = clamp_or_high(z_f, Real(-1), Real(1));
-    polynomials6 p = hamburger6_polynomials(h, z - h.mean);
-    Real inverse = Real(1) / hamburger6_kernel(h, p);
-    Real w_f = h.whole * inverse;
-    GNOMON_MASK positive1 = p.p1 > Real(0);
-    GNOMON_MASK positive2 = p.p2 > Real(0);
-    GNOMON_MASK positive3 = p.p3 > Real(0);
-    GNOMON_MASK all_below = positive1 && positive2 && positive3;
-    GNOMON_MASK all_above = (!positive1) && positive2 && (!positive3);
-    GNOMON_MASK outside = all_below || all_above;
-    Real rest = gnomon_select(all_below, p.p1, Real(0));
-    Real lower = gnomon_select(all_below, Real(1) - w_f, Real(0));
-    if (gnomon_any(!outside)) {
-        Real side = gnomon_select(positive3, Real(-1), Real(1));
-        derivatives6 d = hamburger6_derivatives(h, p);
-        hamburger6_cubic n = hamburger6_other_nodes(h, p, d, inverse, side);
-        cubic_step t = cubic_positive_root(n.b, n.c, n.d);
-        Real away = t.denominator / gnomon_max(t.numerator, Real(0.0009765625) * t.denominator);
-        Real w = h.whole / hamburger6_kernel(h, hamburger6_polynomials_shift(p, d, side * away));
-        rest = gnomon_select(outside, rest, gnomon_select(positive3, w * away, p.p1 + w * away));
-        lower = gnomon_select(outside, lower, gnomon_select(positive3, w, (Real(1) - w_f) - w));
-    }
-    return blocker_depth_before(z, rest / (GNOMON_LITERAL(blocker_epsilon) + gnomon_max(lower, Real(0))));
+    hamburger6_sums s = hamburger6_sums_at(h, z - h.mean);
+    return blocker_depth_before(z, s.distance / (GNOMON_LITERAL(blocker_epsilon) + gnomon_max(s.lower, Real(0))));
 }
 
 GNOMON_NAMESPACE_END

@@ -63,36 +63,36 @@ GNOMON_KERNEL GNOMON_T(channels6) moments6_float_encode(Real z)
     return channels6_from_moments(moments6_from_depth(clamp_or_high(z, Real(-1), Real(1))));
 }
 
-/// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for one rounding.
-GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm10(GNOMON_T(channels6) c)
+/// The factored matrix of the channels of theta6, with a constant bias of weight alpha.
+GNOMON_DETAIL_KERNEL GNOMON_T(hankel6) hankel6_from_theta(GNOMON_T(channels6) c, GNOMON_SETTING alpha)
 {
     return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), GNOMON_LITERAL(bias6_theta_b2),
                                                   GNOMON_LITERAL(bias6_theta_b4), GNOMON_LITERAL(bias6_theta_b6),
-                                                  GNOMON_LITERAL(stored6_unorm10_weight)));
+                                                  alpha));
+}
+
+/// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for one rounding.
+GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm10(GNOMON_T(channels6) c)
+{
+    return hankel6_from_theta(c, GNOMON_LITERAL(stored6_unorm10_weight));
 }
 
 /// The factored matrix of the channels of a 6 x 10 UNORM texel, biased for a filter of two passes.
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm10_filtered(GNOMON_T(channels6) c)
 {
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), GNOMON_LITERAL(bias6_theta_b2),
-                                                  GNOMON_LITERAL(bias6_theta_b4), GNOMON_LITERAL(bias6_theta_b6),
-                                                  GNOMON_LITERAL(stored6_unorm10_filtered_weight)));
+    return hankel6_from_theta(c, GNOMON_LITERAL(stored6_unorm10_filtered_weight));
 }
 
 /// The factored matrix of the channels of a 6 x 16 UNORM texel, biased for one rounding.
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm16(GNOMON_T(channels6) c)
 {
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), GNOMON_LITERAL(bias6_theta_b2),
-                                                  GNOMON_LITERAL(bias6_theta_b4), GNOMON_LITERAL(bias6_theta_b6),
-                                                  GNOMON_LITERAL(stored6_unorm16_weight)));
+    return hankel6_from_theta(c, GNOMON_LITERAL(stored6_unorm16_weight));
 }
 
 /// The factored matrix of the channels of a 6 x 16 UNORM texel, biased for a filter of two passes.
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm16_filtered(GNOMON_T(channels6) c)
 {
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), GNOMON_LITERAL(bias6_theta_b2),
-                                                  GNOMON_LITERAL(bias6_theta_b4), GNOMON_LITERAL(bias6_theta_b6),
-                                                  GNOMON_LITERAL(stored6_unorm16_filtered_weight)));
+    return hankel6_from_theta(c, GNOMON_LITERAL(stored6_unorm16_filtered_weight));
 }
 
 /// The factored matrix of the channels of a 6 x float texel, biased for one rounding.

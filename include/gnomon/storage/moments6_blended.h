@@ -20,11 +20,8 @@ GNOMON_NAMESPACE_BEGIN
 /// NaN: stays NaN.
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm10_blended(GNOMON_T(channels6) c, GNOMON_SETTING roundings)
 {
-    Real weight =
-        bias_weight_of_roundings(GNOMON_LITERAL(stored6_unorm10_weight), blended_roundings(roundings, Real(1)));
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), GNOMON_LITERAL(bias6_theta_b2),
-                                                  GNOMON_LITERAL(bias6_theta_b4), GNOMON_LITERAL(bias6_theta_b6),
-                                                  weight));
+    return hankel6_from_theta(
+        c, bias_weight_of_roundings(GNOMON_LITERAL(stored6_unorm10_weight), blended_roundings(roundings, Real(1))));
 }
 
 /// The factored matrix of the channels of a 6 x 16 UNORM texel, biased for blends.
@@ -32,11 +29,8 @@ GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm10_blended(GNOMON_T(channels6)
 /// NaN: stays NaN.
 GNOMON_KERNEL GNOMON_T(hankel6) hankel6_from_unorm16_blended(GNOMON_T(channels6) c, GNOMON_SETTING roundings)
 {
-    Real weight =
-        bias_weight_of_roundings(GNOMON_LITERAL(stored6_unorm16_weight), blended_roundings(roundings, Real(1)));
-    return hankel6_from_moments(moments6_add_bias(theta6_inverse(c), GNOMON_LITERAL(bias6_theta_b2),
-                                                  GNOMON_LITERAL(bias6_theta_b4), GNOMON_LITERAL(bias6_theta_b6),
-                                                  weight));
+    return hankel6_from_theta(
+        c, bias_weight_of_roundings(GNOMON_LITERAL(stored6_unorm16_weight), blended_roundings(roundings, Real(1))));
 }
 
 GNOMON_CONSTANT(blended6_float_weights, 1.5);
