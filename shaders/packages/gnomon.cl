@@ -7094,6 +7094,8 @@ static inline float fusion_intensity(float blocked, float covered, float either)
 
 __constant float mip_filter_fifth = 0.2f;
 __constant float mip_filter_per_octave = 0.72134752044448170f; // 1 / ln 4
+__constant float mip_filter_third = 0.33333333333333333f;
+__constant float mip_filter_sixth = 0.16666666666666667f;
 
 /// The level of a mip chain whose cubic B-spline has the variance of a box of this width in texels of the map; its
 /// fraction is the share of the level above. At least 0, the level for widths up to sqrt 5.
@@ -7105,7 +7107,7 @@ static inline float mip_filter_level(float width)
     float squares = gnomon_max(mip_filter_fifth * (w * w), 1.0f);
     float whole = texel_below(polynomial_log(squares) * mip_filter_per_octave);
     float power = gnomon_power_of_two(whole);
-    float share = (squares / (power * power) - 1.0f) / 3.0f;
+    float share = (squares / (power * power) - 1.0f) * mip_filter_third;
     return whole + saturate_or_zero(share);
 }
 
@@ -7130,7 +7132,7 @@ static inline mip_filter_taps mip_filter_taps_at(float share)
     mip_filter_taps r;
     r.first = w1 / (w0 + w1) - 1.0f;
     r.second = w3 / (w2 + w3) + 1.0f;
-    r.weight = (w2 + w3) / 6.0f;
+    r.weight = (w2 + w3) * mip_filter_sixth;
     return r;
 }
 

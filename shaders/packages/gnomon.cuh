@@ -8204,6 +8204,8 @@ GNOMON_WARNINGS_OFF namespace gnomon {
 
 inline constexpr double mip_filter_fifth = 0.2;
 inline constexpr double mip_filter_per_octave = 0.72134752044448170; // 1 / ln 4
+inline constexpr double mip_filter_third = 0.33333333333333333;
+inline constexpr double mip_filter_sixth = 0.16666666666666667;
 
 /// The level of a mip chain whose cubic B-spline has the variance of a box of this width in texels of the map; its
 /// fraction is the share of the level above. At least 0, the level for widths up to sqrt 5.
@@ -8215,7 +8217,7 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real m
     Real squares = gnomon_max(literal<Real>(mip_filter_fifth) * (w * w), Real(1));
     Real whole = texel_below(polynomial_log(squares) * literal<Real>(mip_filter_per_octave));
     Real power = gnomon_power_of_two(whole);
-    Real share = (squares / (power * power) - Real(1)) / Real(3);
+    Real share = (squares / (power * power) - Real(1)) * literal<Real>(mip_filter_third);
     return whole + saturate_or_zero(share);
 }
 
@@ -8240,7 +8242,7 @@ GNOMON_INLINE constexpr mip_filter_taps<Real> mip_filter_taps_at(Real share)
     mip_filter_taps<Real> r;
     r.first = w1 / (w0 + w1) - Real(1);
     r.second = w3 / (w2 + w3) + Real(1);
-    r.weight = (w2 + w3) / Real(6);
+    r.weight = (w2 + w3) * literal<Real>(mip_filter_sixth);
     return r;
 }
 

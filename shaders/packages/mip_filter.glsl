@@ -250,6 +250,8 @@ float texel_weight(float u, float i, float look_ups)
 
 const float mip_filter_fifth = 0.2;
 const float mip_filter_per_octave = 0.72134752044448170; // 1 / ln 4
+const float mip_filter_third = 0.33333333333333333;
+const float mip_filter_sixth = 0.16666666666666667;
 
 /// The level of a mip chain whose cubic B-spline has the variance of a box of this width in texels of the map; its
 /// fraction is the share of the level above. At least 0, the level for widths up to sqrt 5.
@@ -261,7 +263,7 @@ float mip_filter_level(float width)
     float squares = gnomon_max(mip_filter_fifth * (w * w), 1.0);
     float whole = texel_below(polynomial_log(squares) * mip_filter_per_octave);
     float power = gnomon_power_of_two(whole);
-    float share = (squares / (power * power) - 1.0) / 3.0;
+    float share = (squares / (power * power) - 1.0) * mip_filter_third;
     return whole + saturate_or_zero(share);
 }
 
@@ -285,7 +287,7 @@ mip_filter_taps mip_filter_taps_at(float share)
     mip_filter_taps r;
     r.first = w1 / (w0 + w1) - 1.0;
     r.second = w3 / (w2 + w3) + 1.0;
-    r.weight = (w2 + w3) / 6.0;
+    r.weight = (w2 + w3) * mip_filter_sixth;
     return r;
 }
 

@@ -204,6 +204,8 @@ fn texel_weight(u: f32, i: f32, look_ups: f32) -> f32
 
 const mip_filter_fifth: f32 = 0x1.99999ap-3; // 0.2
 const mip_filter_per_octave: f32 = 0x1.715476p-1; // 0.72134752044448170, 1 / ln 4
+const mip_filter_third: f32 = 0x1.555556p-2; // 0.33333333333333333
+const mip_filter_sixth: f32 = 0x1.555556p-3; // 0.16666666666666667
 
 /// The level of a mip chain whose cubic B-spline has the variance of a box of this width in texels of the map; its
 /// fraction is the share of the level above. At least 0, the level for widths up to sqrt 5.
@@ -215,7 +217,7 @@ fn mip_filter_level(width: f32) -> f32
     let squares = gnomon_max(mip_filter_fifth * (w * w), 1.0);
     let whole = texel_below(polynomial_log(squares) * mip_filter_per_octave);
     let power = gnomon_power_of_two(whole);
-    let share = (squares / (power * power) - 1.0) / 3.0;
+    let share = (squares / (power * power) - 1.0) * mip_filter_third;
     return whole + saturate_or_zero(share);
 }
 
@@ -239,6 +241,6 @@ fn mip_filter_taps_at(share: f32) -> mip_filter_taps
     var r: mip_filter_taps;
     r.first = w1 / (w0 + w1) - 1.0;
     r.second = w3 / (w2 + w3) + 1.0;
-    r.weight = (w2 + w3) / 6.0;
+    r.weight = (w2 + w3) * mip_filter_sixth;
     return r;
 }

@@ -14,6 +14,8 @@ GNOMON_NAMESPACE_BEGIN
 
 GNOMON_CONSTANT(mip_filter_fifth, 0.2);
 GNOMON_CONSTANT(mip_filter_per_octave, 0.72134752044448170); // 1 / ln 4
+GNOMON_CONSTANT(mip_filter_third, 0.33333333333333333);
+GNOMON_CONSTANT(mip_filter_sixth, 0.16666666666666667);
 
 /// The level of a mip chain whose cubic B-spline has the variance of a box of this width in texels of the map; its fraction
 /// is the share of the level above. At least 0, the level for widths up to sqrt 5.
@@ -25,7 +27,7 @@ GNOMON_KERNEL Real mip_filter_level(Real width)
     Real squares = gnomon_max(GNOMON_LITERAL(mip_filter_fifth) * (w * w), Real(1));
     Real whole = texel_below(polynomial_log(squares) * GNOMON_LITERAL(mip_filter_per_octave));
     Real power = gnomon_power_of_two(whole);
-    Real share = (squares / (power * power) - Real(1)) / Real(3);
+    Real share = (squares / (power * power) - Real(1)) * GNOMON_LITERAL(mip_filter_third);
     return whole + saturate_or_zero(share);
 }
 
@@ -49,7 +51,7 @@ GNOMON_KERNEL GNOMON_T(mip_filter_taps) mip_filter_taps_at(Real share)
     GNOMON_T(mip_filter_taps) r;
     r.first = w1 / (w0 + w1) - Real(1);
     r.second = w3 / (w2 + w3) + Real(1);
-    r.weight = (w2 + w3) / Real(6);
+    r.weight = (w2 + w3) * GNOMON_LITERAL(mip_filter_sixth);
     return r;
 }
 
