@@ -1,5 +1,5 @@
 // Everything in the kernel dialect, in the order in which data flows: depth -> moments -> factored moments -> bounds and
-// certified bounds -> storage formats; the other filters; soft shadows; then moving triangles -> ranges -> lists ->
+// certified bounds -> storage formats; the other filters; single scattering; soft shadows; then moving triangles -> ranges -> lists ->
 // receivers; last the comparators. What is C++ only (.hpp: formats as types, passes over maps, adapters, packs) is included by name.
 #ifndef GNOMON_GNOMON_H
 #define GNOMON_GNOMON_H
@@ -47,6 +47,10 @@
 #include "motion/triangle/edge_widening.h"
 #include "motion/triangle/moving_triangle.h"
 #include "motion/triangle/triangle_setup.h"
+#include "scattering/rectified.h"
+#include "scattering/rectified_frustum.h"
+#include "scattering/single_scattering.h"
+#include "scattering/transmittance_weights.h"
 #include "soft/blocker.h"
 #include "soft/blocker6.h"
 #include "soft/depth_interval.h"

@@ -526,6 +526,27 @@ inline constexpr double log_double_4 = 0.1818356240364567;
 inline constexpr double log_double_5 = 0.15314098871014789;
 inline constexpr double log_double_6 = 0.14795474816803084;
 
+/// (e^r - 1 - r) / r^2.
+/// Domain: |r| <= ln 2 / 2.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real exp_remainder(Real r)
+{
+    Real p = literal<Real>(exp_float_0) + r *
+             (literal<Real>(exp_float_1) + r *
+              (literal<Real>(exp_float_2) + r * (literal<Real>(exp_float_3) + r * literal<Real>(exp_float_4))));
+    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
+        p = literal<Real>(exp_double_0) + r *
+            (literal<Real>(exp_double_1) + r *
+             (literal<Real>(exp_double_2) + r *
+              (literal<Real>(exp_double_3) + r *
+               (literal<Real>(exp_double_4) + r *
+                (literal<Real>(exp_double_5) + r *
+                 (literal<Real>(exp_double_6) + r *
+                  (literal<Real>(exp_double_7) + r *
+                   (literal<Real>(exp_double_8) + r * literal<Real>(exp_double_9)))))))));
+    }
+    return p;
+}
+
 /// e^x, always a finite, normal number.
 /// Domain: [-87, 88] in float, [-708, 709] in double; x is clamped.
 /// NaN: stays NaN.
@@ -543,21 +564,7 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real p
     x = clamp_or_nan(x, low, high);
     Real n = nearest_integer(x * literal<Real>(exp_log2_e));
     Real r = gnomon_difference(x, n * Real(0.693359375)) - n * literal<Real>(exp_ln2_low);
-    Real p = literal<Real>(exp_float_0) + r *
-             (literal<Real>(exp_float_1) + r *
-              (literal<Real>(exp_float_2) + r * (literal<Real>(exp_float_3) + r * literal<Real>(exp_float_4))));
-    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
-        p = literal<Real>(exp_double_0) + r *
-            (literal<Real>(exp_double_1) + r *
-             (literal<Real>(exp_double_2) + r *
-              (literal<Real>(exp_double_3) + r *
-               (literal<Real>(exp_double_4) + r *
-                (literal<Real>(exp_double_5) + r *
-                 (literal<Real>(exp_double_6) + r *
-                  (literal<Real>(exp_double_7) + r *
-                   (literal<Real>(exp_double_8) + r * literal<Real>(exp_double_9)))))))));
-    }
-    return (Real(1) + (r + r * r * p)) * gnomon_power_of_two(n);
+    return (Real(1) + (r + r * r * exp_remainder(r))) * gnomon_power_of_two(n);
 }
 
 /// The number significand 2^exponent.

@@ -121,6 +121,15 @@ static const float gnomon_log_float_0 = 0.66666776085218282;
 static const float gnomon_log_float_1 = 0.39977574040563962;
 static const float gnomon_log_float_2 = 0.29870936689734456;
 
+/// (e^r - 1 - r) / r^2.
+/// Domain: |r| <= ln 2 / 2.
+float gnomon_exp_remainder(float r)
+{
+    float p = gnomon_exp_float_0 + r *
+              (gnomon_exp_float_1 + r * (gnomon_exp_float_2 + r * (gnomon_exp_float_3 + r * gnomon_exp_float_4)));
+    return p;
+}
+
 /// e^x, always a finite, normal number.
 /// Domain: [-87, 88] in float, [-708, 709] in double; x is clamped.
 /// NaN: stays NaN.
@@ -134,9 +143,7 @@ float polynomial_exp(float x)
     x = clamp_or_nan(x, low, high);
     float n = nearest_integer(x * gnomon_exp_log2_e);
     float r = gnomon_difference(x, n * 0.693359375) - n * gnomon_exp_ln2_low;
-    float p = gnomon_exp_float_0 + r *
-              (gnomon_exp_float_1 + r * (gnomon_exp_float_2 + r * (gnomon_exp_float_3 + r * gnomon_exp_float_4)));
-    return (1.0 + (r + r * r * p)) * gnomon_power_of_two(n);
+    return (1.0 + (r + r * r * gnomon_exp_remainder(r))) * gnomon_power_of_two(n);
 }
 
 /// The number significand 2^exponent.

@@ -94,6 +94,15 @@ const gnomon_log_float_0_: f32 = 0x1.55557ap-1; // 0.66666776085218282
 const gnomon_log_float_1_: f32 = 0x1.995edp-2; // 0.39977574040563962
 const gnomon_log_float_2_: f32 = 0x1.31e0dep-2; // 0.29870936689734456
 
+/// (e^r - 1 - r) / r^2.
+/// Domain: |r| <= ln 2 / 2.
+fn gnomon_exp_remainder(r: f32) -> f32
+{
+    let p = gnomon_exp_float_0_ + r *
+            (gnomon_exp_float_1_ + r * (gnomon_exp_float_2_ + r * (gnomon_exp_float_3_ + r * gnomon_exp_float_4_)));
+    return p;
+}
+
 /// e^x, always a finite, normal number.
 /// Domain: [-87, 88] in float, [-708, 709] in double; x is clamped.
 /// NaN: stays NaN.
@@ -108,9 +117,7 @@ fn polynomial_exp(given_x: f32) -> f32
     x = clamp_or_nan(x, low, high);
     let n = nearest_integer(x * gnomon_exp_log2_e);
     let r = gnomon_difference(x, n * 0.693359375) - n * gnomon_exp_ln2_low;
-    let p = gnomon_exp_float_0_ + r *
-            (gnomon_exp_float_1_ + r * (gnomon_exp_float_2_ + r * (gnomon_exp_float_3_ + r * gnomon_exp_float_4_)));
-    return (1.0 + (r + r * r * p)) * gnomon_power_of_two(n);
+    return (1.0 + (r + r * r * gnomon_exp_remainder(r))) * gnomon_power_of_two(n);
 }
 
 /// The number significand 2^exponent.

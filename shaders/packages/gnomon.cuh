@@ -2472,6 +2472,27 @@ inline constexpr double log_double_4 = 0.1818356240364567;
 inline constexpr double log_double_5 = 0.15314098871014789;
 inline constexpr double log_double_6 = 0.14795474816803084;
 
+/// (e^r - 1 - r) / r^2.
+/// Domain: |r| <= ln 2 / 2.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real exp_remainder(Real r)
+{
+    Real p = literal<Real>(exp_float_0) + r *
+             (literal<Real>(exp_float_1) + r *
+              (literal<Real>(exp_float_2) + r * (literal<Real>(exp_float_3) + r * literal<Real>(exp_float_4))));
+    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
+        p = literal<Real>(exp_double_0) + r *
+            (literal<Real>(exp_double_1) + r *
+             (literal<Real>(exp_double_2) + r *
+              (literal<Real>(exp_double_3) + r *
+               (literal<Real>(exp_double_4) + r *
+                (literal<Real>(exp_double_5) + r *
+                 (literal<Real>(exp_double_6) + r *
+                  (literal<Real>(exp_double_7) + r *
+                   (literal<Real>(exp_double_8) + r * literal<Real>(exp_double_9)))))))));
+    }
+    return p;
+}
+
 /// e^x, always a finite, normal number.
 /// Domain: [-87, 88] in float, [-708, 709] in double; x is clamped.
 /// NaN: stays NaN.
@@ -2489,21 +2510,7 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real p
     x = clamp_or_nan(x, low, high);
     Real n = nearest_integer(x * literal<Real>(exp_log2_e));
     Real r = gnomon_difference(x, n * Real(0.693359375)) - n * literal<Real>(exp_ln2_low);
-    Real p = literal<Real>(exp_float_0) + r *
-             (literal<Real>(exp_float_1) + r *
-              (literal<Real>(exp_float_2) + r * (literal<Real>(exp_float_3) + r * literal<Real>(exp_float_4))));
-    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
-        p = literal<Real>(exp_double_0) + r *
-            (literal<Real>(exp_double_1) + r *
-             (literal<Real>(exp_double_2) + r *
-              (literal<Real>(exp_double_3) + r *
-               (literal<Real>(exp_double_4) + r *
-                (literal<Real>(exp_double_5) + r *
-                 (literal<Real>(exp_double_6) + r *
-                  (literal<Real>(exp_double_7) + r *
-                   (literal<Real>(exp_double_8) + r * literal<Real>(exp_double_9)))))))));
-    }
-    return (Real(1) + (r + r * r * p)) * gnomon_power_of_two(n);
+    return (Real(1) + (r + r * r * exp_remainder(r))) * gnomon_power_of_two(n);
 }
 
 /// The number significand 2^exponent.
@@ -7648,6 +7655,636 @@ GNOMON_INLINE constexpr edge_equation<Real> edge_equation_widen(edge_equation<Re
     f.e1.c = f.e1.c + by;
     f.e2.c = f.e2.c + by;
     return f;
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// scattering/rectified.h ----------------------------------------------------------------------------------------------
+// Rectified coordinates of a shadow map of a directional light, in which all points of a view ray lie in one row and at
+// one depth (Peters et al. 2017, Sec. 5.1.1 and App. A; Baran et al. 2010).
+//
+// Axes: x and y along the map, z along the propagation of light. Origin: the eye. Any unit of length.
+//
+//     radius  = |(x, y)|            distance between the eye and a light ray: column of the rectified map
+//     azimuth = angle of (x, y)     slice that holds the light direction and the eye: row of the rectified map
+//     polar   = atan2(radius, z)    angle between the view ray and the propagation of light, in [0, pi]
+//
+// Looking into the light is polar = pi. On a light ray z grows with depth, and polar falls with it. Hence a depth of
+// the rectified map is a falling function of polar, signed as all depths of this library: -1 looking into the light, +1
+// along it. Two measures of depth are there: the angle itself, as in the paper, and its cosine, which needs no inverse
+// trigonometry. Both are stretched to [-1, 1] over the range of the view rays and a guard band of 10%: an occluder
+// outside the range of the view rays then keeps a distance to all of them.
+//
+//     omega_l    the direction to the light:  (0, 0, -1)
+//     omega_p    the direction from a point of the view ray to the camera
+//     dot product of the two = cosine of polar;  cosine of the scattering angle = -cosine of polar
+//
+// One texel of the rectified map is one light ray: position eye + radius (cos azimuth, sin azimuth) in the map, and its
+// depth there as z leads to polar.
+#ifndef GNOMON_SCATTERING_RECTIFIED_H
+#define GNOMON_SCATTERING_RECTIFIED_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+inline constexpr double rectified_guard = 0.55; // half of a range with a guard band of 10%
+inline constexpr double rectified_pi = 3.1415926535897932;
+inline constexpr double rectified_two_pi = 6.2831853071795865;
+
+/// A distance from the eye across the light, and two angles.
+template <class Real, class = require_real<Real>> struct rectified_position { Real radius, azimuth, polar; };
+
+/// A map of angles, or of cosines, to depths: the value of depth 0, and depth per unit.
+template <class Real, class = require_real<Real>> struct rectified_range { Real middle, scale; };
+
+/// The rectified coordinates of a point: radius at least 0, azimuth in [-pi, pi], polar in [0, pi]. On the axis azimuth
+/// is 0; polar of the eye is 0.
+/// Domain: |x|, |y| and |z| are 0 or in [2^-60, 2^60] in float, [2^-500, 2^500] in double.
+/// NaN: a NaN in each coordinate that depends on it.
+/// Error: radius 2 2^-p relative; azimuth 2.6 ulp, polar 3.6 ulp.
+/// Source: Peters 2017, Sec. 5.1.1; Baran 2010
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr rectified_position<Real> rectified_from_position(Real x, Real y, Real z)
+{
+    rectified_position<Real> r;
+    r.radius = gnomon_sqrt(x * x + y * y);
+    r.azimuth = polynomial_atan2(y, x);
+    r.polar = polynomial_atan2(r.radius, z);
+    return r;
+}
+
+/// The cosine of polar at a point, in [-1, 1]; 1 at the eye.
+/// Domain: as for rectified_from_position.
+/// NaN: NaN.
+/// Error: 4 2^-p.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real rectified_cosine(Real x, Real y, Real z)
+{
+    Real distance_ = gnomon_sqrt((x * x + y * y) + z * z);
+    mask_t<Real> at_eye = distance_ == Real(0);
+    Real cosine = z / gnomon_select(at_eye, Real(1), distance_);
+    return clamp_or_nan(gnomon_select(at_eye, Real(1), cosine), Real(-1), Real(1));
+}
+
+/// The range whose depths are in [-1 / 1.1, 1 / 1.1] from least to most, or in a part of that if most - least is below
+/// narrowest.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr rectified_range<Real> rectified_range_over(Real least, Real most,
+                                                                   std::type_identity_t<Real> narrowest)
+{
+    rectified_range<Real> r;
+    r.middle = Real(0.5) * (least + most);
+    r.scale = Real(1) / (literal<Real>(rectified_guard) * gnomon_max(most - least, narrowest));
+    return r;
+}
+
+/// The range of depth for polar angles of view rays in [least, most].
+/// Domain: least <= most, in [0, pi]. A range narrower than 2^-10, or turned around, counts as one of 2^-10 around its
+/// middle.
+/// NaN: a middle of NaN.
+/// Source: Peters 2017, Sec. 5.1.1
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr rectified_range<Real> rectified_polar_range(Real least, Real most)
+{
+    return rectified_range_over(least, most, Real(0.0009765625));
+}
+
+/// The range of depth for cosines of polar angles of view rays in [least, most], which are those of the greatest and of
+/// the least angle.
+/// Domain: least <= most, in [-1, 1]. A range narrower than 2^-16, or turned around, counts as one of 2^-16 around its
+/// middle.
+/// NaN: a middle of NaN.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr rectified_range<Real> rectified_cosine_range(Real least, Real most)
+{
+    return rectified_range_over(least, most, Real(0.0000152587890625));
+}
+
+/// Signed depth of a polar angle, in [-1, 1]: falls with the angle, -1 on the side of rays that look into the light.
+/// Domain: polar in [0, pi], a range by rectified_polar_range.
+/// NaN: NaN, which encoders store as the far plane.
+/// Source: Peters 2017, Sec. 5.1.1
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real rectified_polar_depth(Real polar, rectified_range<Real> range)
+{
+    return clamp_or_nan((range.middle - polar) * range.scale, Real(-1), Real(1));
+}
+
+/// Signed depth of the cosine of a polar angle, in [-1, 1]: grows with the cosine, -1 on the side of rays that look
+/// into the light.
+/// Domain: cosine in [-1, 1], a range by rectified_cosine_range.
+/// NaN: NaN, which encoders store as the far plane.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real rectified_cosine_depth(Real cosine, rectified_range<Real> range)
+{
+    return clamp_or_nan((cosine - range.middle) * range.scale, Real(-1), Real(1));
+}
+
+/// An angle within three half turns of 0, moved by a full turn to at most half a turn from 0.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real rectified_wrapped(Real angle)
+{
+    Real turn = literal<Real>(rectified_two_pi);
+    Real half_turn = literal<Real>(rectified_pi);
+    Real up = gnomon_select(angle + half_turn < Real(0), angle + turn, angle);
+    return gnomon_select(half_turn < up, up - turn, up);
+}
+
+/// The position across the rows of a map, in [0, rows], of an azimuth; the centre of the first row is at 0.5. The map
+/// begins at the azimuth start and spans an angle of span; an azimuth outside goes to the nearer end.
+/// Domain: azimuth and start in [-pi, pi], span in [2^-20, 2 pi]; elsewhere a number in [0, rows].
+/// NaN: NaN for an azimuth of NaN.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real rectified_row_of(Real azimuth, std::type_identity_t<Real> start,
+                                              std::type_identity_t<Real> span, std::type_identity_t<Real> rows)
+{
+    Real whole = gnomon_max(span, Real(0.00000095367431640625));
+    Real from_middle = rectified_wrapped((azimuth - start) - Real(0.5) * whole);
+    return clamp_or_nan((from_middle / whole + Real(0.5)) * rows, Real(0), rows);
+}
+
+/// The position along a row of prefix averages, at least 0, of a ray that ends at radius; the centre of the first texel
+/// is at 0.5. The average up to the far side of texel u, radius (u + 1) radius_step, stands at its centre, u + 1/2: so
+/// the position is half a texel before that of the light ray itself.
+/// Domain: radius at least 0, radius_step above 0.
+/// NaN: NaN.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real rectified_column_of(Real radius, std::type_identity_t<Real> radius_step)
+{
+    return gnomon_max(Real(0), radius / radius_step - Real(0.5));
+}
+
+/// The greater extent of a texel of the rectified map at radius, in texels of the shadow map: along the row
+/// radius_step, across it radius times azimuth_step, the angle between rows.
+/// Domain: at least 0 each.
+/// NaN: NaN.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real rectified_footprint(Real radius, std::type_identity_t<Real> radius_step,
+                                                 std::type_identity_t<Real> azimuth_step,
+                                                 std::type_identity_t<Real> texels_per_length)
+{
+    return gnomon_max(radius_step, radius * azimuth_step) * texels_per_length;
+}
+
+/// The mip level, in [0, 16], whose texels are as wide as a footprint of so many texels of level 0.
+/// Domain: any footprint.
+/// NaN: 0.
+/// Error: 4 2^-p of the largest level.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real rectified_level(Real footprint)
+{
+    Real wide = clamp_or_nan(footprint, Real(1), Real(65536));
+    return clamp_or_high(polynomial_log(gnomon_max(wide, Real(1))) * literal<Real>(exp_log2_e), Real(0), Real(16));
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// scattering/rectified_frustum.h --------------------------------------------------------------------------------------
+// Bounds of rectified coordinates (rectified.h) over the view rays of a camera (Peters et al. 2017, App. A), from the
+// four corners of its far plane, in order around it, in light axes with the eye for origin.
+//
+//     radius     largest radius of a corner
+//     azimuth    angles of the corners relative to that of the farthest one: no two differ by more than half a turn
+//     axis       where the light direction, or its opposite, is strictly within the four side planes: a full turn, and
+// polar
+//                begins at 0, or ends at pi
+//     polar      extreme on the border of the far plane, else on the axis. On the edge a + t c the cosine z / |a + t c|
+// is
+//                extreme at   t = (a_z a.c - c_z a.a) / (c_z a.c - a_z c.c)
+//                or at an end. Any point of the edge is within the bounds, so t needs no test: it is clamped.
+//
+// The angles of one row are the same over edges that are cut off at the row's two azimuths, each by the side on which
+// a point of the edge lies: a fold over the far plane's border, whether the row holds corners or not.
+#ifndef GNOMON_SCATTERING_RECTIFIED_FRUSTUM_H
+#define GNOMON_SCATTERING_RECTIFIED_FRUSTUM_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// A corner of the far plane.
+template <class Real, class = require_real<Real>> struct rectified_corner { Real x, y, z; };
+
+/// Corners of the far plane, in order around it, either way.
+template <class Real, class = require_real<Real>> struct rectified_corners { rectified_corner<Real> a, b, c, d; };
+
+/// The bounds of a camera's view rays: radius in [0, radius], azimuth from azimuth_start on over azimuth_length, polar
+/// from polar_least to polar_most.
+template <class Real, class = require_real<Real>>
+struct rectified_frustum { Real radius, azimuth_start, azimuth_length, polar_least, polar_most; };
+
+/// An interval of polar angles.
+template <class Real, class = require_real<Real>> struct rectified_interval { Real least, most; };
+
+/// A part of an edge, from a fraction begin to a fraction end.
+template <class Real, class = require_real<Real>> struct rectified_part { Real begin, end; };
+
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real rectified_dot(rectified_corner<Real> a, rectified_corner<Real> b)
+{
+    return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+
+/// b - a.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr rectified_corner<Real> rectified_from_to(rectified_corner<Real> a, rectified_corner<Real> b)
+{
+    rectified_corner<Real> r;
+    r.x = b.x - a.x;
+    r.y = b.y - a.y;
+    r.z = b.z - a.z;
+    return r;
+}
+
+/// The z of the cross product of a and b: positive where the azimuth of b is up to half a turn beyond that of a.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real rectified_turn(rectified_corner<Real> a, rectified_corner<Real> b)
+{
+    return a.x * b.y - a.y * b.x;
+}
+
+/// 1 if the light direction is strictly within the far plane as seen from the eye, -1 if its opposite is, else 0.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real rectified_axis_side(rectified_corners<Real> q)
+{
+    Real ab = rectified_turn(q.a, q.b);
+    Real bc = rectified_turn(q.b, q.c);
+    Real cd = rectified_turn(q.c, q.d);
+    Real da = rectified_turn(q.d, q.a);
+    mask_t<Real> left = Real(0) < ab && Real(0) < bc && Real(0) < cd && Real(0) < da;
+    mask_t<Real> right = ab < Real(0) && bc < Real(0) && cd < Real(0) && da < Real(0);
+    // The normal of the far plane, by its diagonals, and the side of it on which the plane lies.
+    rectified_corner s = rectified_from_to(q.a, q.c);
+    rectified_corner t = rectified_from_to(q.b, q.d);
+    Real nx = s.y * t.z - s.z * t.y;
+    Real ny = s.z * t.x - s.x * t.z;
+    Real side = (nx * q.a.x + ny * q.a.y) + rectified_turn(s, t) * q.a.z;
+    Real sign = gnomon_select(side < Real(0), Real(-1), Real(1));
+    return gnomon_select(left, sign, gnomon_select(right, Real(-1) * sign, Real(0)));
+}
+
+/// The angles so far and that of the point a + t c.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr rectified_interval<Real> rectified_interval_add(rectified_interval<Real> bounds,
+                                                                        rectified_corner<Real> a,
+                                                                        rectified_corner<Real> c, Real t)
+{
+    Real x = a.x + t * c.x;
+    Real y = a.y + t * c.y;
+    Real polar = polynomial_atan2(gnomon_sqrt(x * x + y * y), a.z + t * c.z);
+    bounds.least = gnomon_min(polar, bounds.least);
+    bounds.most = gnomon_max(polar, bounds.most);
+    return bounds;
+}
+
+/// The angles so far and those of a part of the edge from a to b; an empty part has none.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr rectified_interval<Real> rectified_interval_edge(rectified_interval<Real> bounds,
+                                                                         rectified_corner<Real> a,
+                                                                         rectified_corner<Real> b,
+                                                                         rectified_part<Real> part)
+{
+    rectified_corner c = rectified_from_to(a, b);
+    Real ac = rectified_dot(a, c);
+    Real t = (a.z * ac - c.z * rectified_dot(a, a)) / (c.z * ac - a.z * rectified_dot(c, c));
+    rectified_interval r = rectified_interval_add(bounds, a, c, part.begin);
+    r = rectified_interval_add(r, a, c, part.end);
+    r = rectified_interval_add(r, a, c, clamp_or_high(t, part.begin, part.end));
+    mask_t<Real> empty = part.end < part.begin;
+    r.least = gnomon_select(empty, bounds.least, r.least);
+    r.most = gnomon_select(empty, bounds.most, r.most);
+    return r;
+}
+
+/// The bounds before any edge, where axis is that of rectified_axis_side.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr rectified_interval<Real> rectified_interval_begin(Real axis)
+{
+    rectified_interval<Real> r;
+    r.least = gnomon_select(Real(0) < axis, Real(0), literal<Real>(rectified_pi));
+    r.most = gnomon_select(axis < Real(0), literal<Real>(rectified_pi), Real(0));
+    return r;
+}
+
+/// The interval, or [0, pi] if no angle was added.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr rectified_interval<Real> rectified_interval_end(rectified_interval<Real> bounds)
+{
+    mask_t<Real> none = bounds.most < bounds.least;
+    bounds.least = gnomon_select(none, Real(0), bounds.least);
+    bounds.most = gnomon_select(none, literal<Real>(rectified_pi), bounds.most);
+    return bounds;
+}
+
+/// The farther from the axis of two corners, the first where they are equal or the second has a NaN.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr rectified_corner<Real> rectified_farther(rectified_corner<Real> a, rectified_corner<Real> b)
+{
+    mask_t<Real> second = a.x * a.x + a.y * a.y < b.x * b.x + b.y * b.y;
+    rectified_corner<Real> r;
+    r.x = gnomon_select(second, b.x, a.x);
+    r.y = gnomon_select(second, b.y, a.y);
+    r.z = gnomon_select(second, b.z, a.z);
+    return r;
+}
+
+/// The azimuth of b relative to that of a, in [-pi, pi]; 0 on the axis.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real rectified_azimuth_between(rectified_corner<Real> a, rectified_corner<Real> b)
+{
+    return polynomial_atan2(rectified_turn(a, b), a.x * b.x + a.y * b.y);
+}
+
+/// The bounds of rectified coordinates over all view rays to a far plane with these corners: sharp, so that rays touch
+/// each. azimuth_start is in [-pi, pi], azimuth_length in [0, 2 pi]: at most pi, or 2 pi if the axis is within the far
+/// plane. A corner on the axis has no azimuth and counts for none.
+/// Domain: coordinates are 0 or have magnitudes in [2^-20, 2^20] in float, [2^-160, 2^160] in double; corners of a
+/// convex quadrilateral that the eye does not lie in. Corners that are all at the eye give zeros; others that are no
+/// such quadrilateral, some bounds.
+/// NaN: an edge that a NaN makes unknown counts for no angle.
+/// Error: a ray exceeds the bounds by at most 8 2^-p of radius in radius, 16 2^-p in azimuth and 2^(4 - p) in polar.
+/// Source: Peters 2017, App. A
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr rectified_frustum<Real> rectified_frustum_from_corners(rectified_corners<Real> q)
+{
+    Real axis = rectified_axis_side(q);
+    rectified_corner farthest = rectified_farther(rectified_farther(q.a, q.b), rectified_farther(q.c, q.d));
+    Real a = rectified_azimuth_between(farthest, q.a);
+    Real b = rectified_azimuth_between(farthest, q.b);
+    Real c = rectified_azimuth_between(farthest, q.c);
+    Real d = rectified_azimuth_between(farthest, q.d);
+    Real least = gnomon_min(a, gnomon_min(b, gnomon_min(c, gnomon_min(d, Real(0)))));
+    Real most = gnomon_max(a, gnomon_max(b, gnomon_max(c, gnomon_max(d, Real(0)))));
+    mask_t<Real> around = axis < Real(0) || Real(0) < axis || literal<Real>(rectified_pi) < most - least;
+
+    rectified_part<Real> whole;
+    whole.begin = Real(0);
+    whole.end = Real(1);
+    rectified_interval polar = rectified_interval_begin(axis);
+    polar = rectified_interval_edge(polar, q.a, q.b, whole);
+    polar = rectified_interval_edge(polar, q.b, q.c, whole);
+    polar = rectified_interval_edge(polar, q.c, q.d, whole);
+    polar = rectified_interval_end(rectified_interval_edge(polar, q.d, q.a, whole));
+
+    rectified_frustum<Real> r;
+    r.radius = gnomon_sqrt(farthest.x * farthest.x + farthest.y * farthest.y);
+    Real start = polynomial_atan2(farthest.y, farthest.x) + least;
+    Real first = Real(-1) * literal<Real>(rectified_pi);
+    r.azimuth_start = gnomon_select(around, first,
+                                    clamp_or_nan(rectified_wrapped(start), first, literal<Real>(rectified_pi)));
+    r.azimuth_length = gnomon_select(around, literal<Real>(rectified_two_pi), most - least);
+    r.polar_least = polar.least;
+    r.polar_most = polar.most;
+    return r;
+}
+
+/// The part of the edge from a to b, within a part, that is on the left of the direction (cosine, sine) from the axis.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr rectified_part<Real> rectified_part_left(rectified_part<Real> part, rectified_corner<Real> a,
+                                                                 rectified_corner<Real> b, Real cosine, Real sine)
+{
+    Real at_a = cosine * a.y - sine * a.x;
+    Real at_b = cosine * b.y - sine * b.x;
+    Real crossing = at_a / (at_a - at_b);
+    part.begin = gnomon_select(at_a < Real(0), gnomon_max(part.begin, crossing), part.begin);
+    part.end = gnomon_select(at_b < Real(0), gnomon_min(part.end, crossing), part.end);
+    // Both ends on the right: nothing is left.
+    part.end = gnomon_select(at_a < Real(0) && at_b < Real(0), Real(-1), part.end);
+    return part;
+}
+
+/// The angles so far and those of the edge from a to b between two directions; of the whole edge if whole is 1.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr rectified_interval<Real> rectified_row_edge(rectified_interval<Real> bounds,
+                                                                    rectified_corner<Real> a, rectified_corner<Real> b,
+                                                                    cosine_sine<Real> first, cosine_sine<Real> last,
+                                                                    Real whole)
+{
+    rectified_part<Real> all;
+    all.begin = Real(0);
+    all.end = Real(1);
+    rectified_part part = rectified_part_left(all, a, b, first.cosine, first.sine);
+    part = rectified_part_left(part, a, b, Real(-1) * last.cosine, Real(-1) * last.sine);
+    part.begin = gnomon_select(whole == Real(1), Real(0), part.begin);
+    part.end = gnomon_select(whole == Real(1), Real(1), part.end);
+    return rectified_interval_edge(bounds, a, b, part);
+}
+
+/// The polar angles of the view rays whose azimuths are between first and last, as those of one row; [0, pi] if no ray
+/// is there.
+/// Domain: as for rectified_frustum_from_corners; first <= last, both within 3 pi of 0. More than 3 radians get the
+/// angles of all rays.
+/// NaN: as for rectified_frustum_from_corners.
+/// Error: a ray exceeds the bounds by at most 2^(5 - p).
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr rectified_interval<Real> rectified_row_polar(rectified_corners<Real> q, Real first, Real last)
+{
+    cosine_sine left = polynomial_cosine_sine(first);
+    cosine_sine right = polynomial_cosine_sine(last);
+    Real whole = gnomon_select(Real(3) < last - first, Real(1), Real(0));
+    rectified_interval polar = rectified_interval_begin(rectified_axis_side(q));
+    polar = rectified_row_edge(polar, q.a, q.b, left, right, whole);
+    polar = rectified_row_edge(polar, q.b, q.c, left, right, whole);
+    polar = rectified_row_edge(polar, q.c, q.d, left, right, whole);
+    return rectified_interval_end(rectified_row_edge(polar, q.d, q.a, left, right, whole));
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// scattering/single_scattering.h --------------------------------------------------------------------------------------
+// Single scattering of a directional light in a homogeneous medium along a view ray (Peters et al. 2017, Sec. 5.1.1 and
+// 5.3.1):
+//
+//     radiance = e^(-extinction s) surface + scattering phase irradiance (1 - e^(-extinction s)) / extinction (1 -
+// intensity)
+//
+// over a distance s, where intensity is the shadow of the ray, weighted by transmittance. extinction and scattering are
+// per unit of length, and scattering is the albedo times extinction: the paper's formula has no such factor, its phase
+// function holds the scattering coefficient. Light is not attenuated on its way from the light source to the view ray.
+//
+// omega_l is the direction to the light, omega_p that to the camera. Along a view ray with the polar angle theta
+// (rectified.h) omega_l.omega_p = cos theta: 1 looking along the light, -1 looking into it. Phase functions take the
+// cosine of the scattering angle, -omega_l.omega_p = -cos theta: light that goes straight on to the camera has 1.
+#ifndef GNOMON_SCATTERING_SINGLE_SCATTERING_H
+#define GNOMON_SCATTERING_SINGLE_SCATTERING_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+inline constexpr double phase_isotropic = 0.079577471545947668; // 1 / (4 pi), for every angle
+inline constexpr double phase_greatest_asymmetry = 0.9990234375;
+
+/// The integral of the transmittance along a ray, (1 - e^(-extinction distance)) / extinction, without cancellation:
+/// the length of a ray without extinction that scatters as much. In [0, distance].
+/// Domain: both at least 0, also infinite; negative numbers count as 0.
+/// NaN: as 0.
+/// Error: 4.5 ulp.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real attenuated_length(Real distance_, Real extinction)
+{
+    Real whole = gnomon_max(distance_, Real(0));
+    Real rate = gnomon_max(extinction, Real(0));
+    Real depth = gnomon_max(rate * whole, Real(0));
+    mask_t<Real> thin = depth < Real(0.34375);
+    Real r = Real(-1) * gnomon_select(thin, depth, Real(0));
+    Real thick = (Real(1) - polynomial_exp(Real(-1) * depth)) / gnomon_select(thin, Real(1), rate);
+    return gnomon_select(thin, whole * (Real(1) + r * exp_remainder(r)), thick);
+}
+
+/// (1 - e^-x) / x, the mean transmittance along a ray of the optical depth x, in [0, 1]; 1 for 0, without cancellation.
+/// Domain: x at least 0, also infinite; negative x counts as 0.
+/// NaN: 1.
+/// Error: 4.5 ulp.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real attenuated_mean(Real x) { return attenuated_length(Real(1), x); }
+
+/// e^-x, the transmittance of the optical depth x, in [0, 1].
+/// Domain: x at least 0, also infinite; negative x counts as 0. Not below e^-87 in float, e^-708 in double.
+/// NaN: 1.
+/// Error: 1 ulp in float, 1.2 ulp in double.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real transmittance_over(Real x)
+{
+    return gnomon_min(Real(1), polynomial_exp(Real(-1) * gnomon_max(x, Real(0))));
+}
+
+/// The Henyey-Greenstein phase function, per steradian, of the cosine of the scattering angle. asymmetry is its mean
+/// cosine: positive for media that scatter forward, 0 for isotropic ones.
+/// Domain: cosine in [-1, 1], asymmetry in [-1 + 2^-10, 1 - 2^-10], clamped.
+/// NaN: NaN for a cosine of NaN; an asymmetry of NaN counts as 0.
+/// Error: relative, 2^(3 - p) for |asymmetry| <= 1/2.
+/// Source: Henyey & Greenstein 1941
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real phase_henyey_greenstein(Real cosine, std::type_identity_t<Real> asymmetry)
+{
+    Real c = clamp_or_nan(cosine, Real(-1), Real(1));
+    Real g = gnomon_min(gnomon_max(gnomon_abs(asymmetry), Real(0)), literal<Real>(phase_greatest_asymmetry));
+    Real off = Real(1) - gnomon_select(asymmetry < Real(0), Real(-1) * c, c);
+    Real rest = Real(1) - g;
+    Real d = rest * rest + (g + g) * off;
+    return literal<Real>(phase_isotropic) * (rest * (Real(1) + g)) / (d * gnomon_sqrt(d));
+}
+
+/// The overestimation of visibility for the ray of a polar angle with this cosine, (1 + cosine) / 2, for
+/// bounds_intensity. Looking into the light no occluder can be before the ray in depth, so it is 0, and no light leaks;
+/// looking along the light none can be behind the ray, so it is 1, and no light is lost.
+/// Domain: cosine in [-1, 1], clamped.
+/// NaN: 1.
+/// Source: Peters 2017, Sec. 5.3.1
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real adaptive_overestimation(Real cosine)
+{
+    return Real(1) - saturate_or_zero(Real(0.5) - Real(0.5) * cosine);
+}
+
+/// Radiance that reaches the camera: that of the surface, attenuated, and light scattered into the view ray. intensity
+/// is the shadow of the ray, 0 where all of the ray is lit.
+/// Domain: distance, extinction, scattering, phase, irradiance and surface at least 0 and finite.
+/// NaN: an intensity of NaN counts as 0.
+/// Error: relative, 2^(4 - p) for optical depths up to 1.
+/// Source: Peters 2017, Sec. 5.1.1
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real scattering_radiance(Real surface, Real intensity, Real distance_,
+                                                 std::type_identity_t<Real> extinction,
+                                                 std::type_identity_t<Real> scattering, Real phase,
+                                                 std::type_identity_t<Real> irradiance)
+{
+    Real depth = extinction * distance_;
+    Real lit = (scattering * phase * irradiance) * attenuated_length(distance_, extinction);
+    return transmittance_over(depth) * surface + lit * (Real(1) - saturate_or_zero(intensity));
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// scattering/transmittance_weights.h ----------------------------------------------------------------------------------
+// Weights of prefix averages along the rows of a rectified map (Peters et al. 2017, Sec. 5.1.1). Texel u has the weight
+// w_u, and the average up to texel u is the one before, moved towards texel u by its share of the sum of weights:
+//
+//     mean_u = mean_(u - 1) + g_u (texel_u - mean_(u - 1)),        g_u = w_u / (w_0 + ... + w_u),        g_0 = 1
+//
+// All g_u are in [0, 1], so that prefix averages of moments are moments. In a homogeneous medium texel u is seen
+// through u texels of the medium: w_u = q^u up to a factor that cancels, so that
+//
+//     g_u = q g_(u - 1) / (1 + q g_(u - 1)),        q = transmittance of one texel
+//
+// holds for every extinction: q = 1 without any, q = 0 in an opaque medium. Weights that vary from texel to texel, as
+// those of scattering/height_fog.h, are summed by transmittance_share_add.
+//
+//     (for a row)   q = transmittance_step(extinction, radius_step, sine of the row's mean polar angle)
+//     (for u > 0)   g = transmittance_weight_next(g, q);   mean = mean + g (texel - mean)
+//
+// A ray that ends within texel u, a share f of it, has an average between that of texel u - 1 and that of texel u, but
+// not at f: transmittance_weight_within is exact.
+#ifndef GNOMON_SCATTERING_TRANSMITTANCE_WEIGHTS_H
+#define GNOMON_SCATTERING_TRANSMITTANCE_WEIGHTS_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The transmittance of the medium from one texel of a row to the next, in [0, 1]. extinction is per unit of length;
+/// the view ray crosses the texels of radius_step at an angle to the light that has this sine.
+/// Domain: at least 0, also infinite; negative numbers count as 0.
+/// NaN: 1, also where an extinction of 0 meets a sine of 0.
+/// Error: relative, 2.5 2^-p for each unit of the optical depth extinction radius_step / sine, and 2 2^-p.
+/// Source: Peters 2017, Sec. 5.1.1
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real transmittance_step(std::type_identity_t<Real> extinction, Real radius_step, Real sine)
+{
+    return transmittance_over((extinction * radius_step) / sine);
+}
+
+/// The share g_u of texel u in its prefix average, from the share g of the texel before and the ratio of their weights,
+/// q. In [0, 1].
+/// Domain: g and q in [0, 1], clamped.
+/// NaN: 0.
+/// Error: relative, 1.5 roundings beside the errors of g and q.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real transmittance_weight_next(Real g, Real q)
+{
+    Real next = saturate_or_zero(q) * saturate_or_zero(g);
+    return next / (Real(1) + next);
+}
+
+/// The share of the way from the average before a texel to the one up to it, for a ray that ends a share f within the
+/// texel: v / (1 - g (1 - v)), v = (1 - q^f) / (1 - q), where g is the share of the texel. In [0, 1].
+/// Domain: g, q and f in [0, 1], clamped.
+/// NaN: as 0 for g and f, as 1 for q.
+/// Error: 8 2^-p.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real transmittance_weight_within(Real g, Real q, Real f)
+{
+    Real share = saturate_or_zero(f);
+    Real depth = Real(-1) * polynomial_log(gnomon_min(q, Real(1)));
+    Real v = gnomon_min(Real(1), share * attenuated_mean(share * depth) / attenuated_mean(depth));
+    Real rest = Real(1) - saturate_or_zero(g) * (Real(1) - v);
+    return gnomon_select(Real(0) < rest, saturate_or_zero(v / rest), Real(1));
+}
+
+/// A sum of weights, and the share in it of the weight that was added last.
+template <class Real, class = require_real<Real>> struct transmittance_share { Real total, share; };
+
+/// The state after the first texel of a row, whose share is 1.
+/// Domain: a weight of at least 0; negative weights count as 0.
+/// NaN: a weight of 0.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr transmittance_share<Real> transmittance_share_begin(Real weight)
+{
+    transmittance_share<Real> r;
+    r.total = gnomon_max(weight, Real(0));
+    r.share = Real(1);
+    return r;
+}
+
+/// The state after one more texel with a weight. Its share, in [0, 1], is 1 while all weights are 0.
+/// Domain: as for transmittance_share_begin. While the sum is not finite the share is 0.
+/// NaN: a weight of 0.
+/// Error: relative, one rounding for each texel.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr transmittance_share<Real> transmittance_share_add(transmittance_share<Real> state, Real weight)
+{
+    Real added = gnomon_max(weight, Real(0));
+    transmittance_share<Real> r;
+    r.total = state.total + added;
+    r.share = saturate_or_zero(added / r.total);
+    r.share = gnomon_select(r.total == Real(0), Real(1), r.share);
+    return r;
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon

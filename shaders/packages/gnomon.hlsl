@@ -1855,6 +1855,15 @@ static const float gnomon_log_float_0 = 0.66666776085218282;
 static const float gnomon_log_float_1 = 0.39977574040563962;
 static const float gnomon_log_float_2 = 0.29870936689734456;
 
+/// (e^r - 1 - r) / r^2.
+/// Domain: |r| <= ln 2 / 2.
+float gnomon_exp_remainder(float r)
+{
+    float p = gnomon_exp_float_0 + r *
+              (gnomon_exp_float_1 + r * (gnomon_exp_float_2 + r * (gnomon_exp_float_3 + r * gnomon_exp_float_4)));
+    return p;
+}
+
 /// e^x, always a finite, normal number.
 /// Domain: [-87, 88] in float, [-708, 709] in double; x is clamped.
 /// NaN: stays NaN.
@@ -1868,9 +1877,7 @@ float polynomial_exp(float x)
     x = clamp_or_nan(x, low, high);
     float n = nearest_integer(x * gnomon_exp_log2_e);
     float r = gnomon_difference(x, n * 0.693359375) - n * gnomon_exp_ln2_low;
-    float p = gnomon_exp_float_0 + r *
-              (gnomon_exp_float_1 + r * (gnomon_exp_float_2 + r * (gnomon_exp_float_3 + r * gnomon_exp_float_4)));
-    return (1.0 + (r + r * r * p)) * gnomon_power_of_two(n);
+    return (1.0 + (r + r * r * gnomon_exp_remainder(r))) * gnomon_power_of_two(n);
 }
 
 /// The number significand 2^exponent.
@@ -6430,6 +6437,562 @@ gnomon_edge_equation edge_equation_widen(gnomon_edge_equation f, float margin, f
     f.e1.c = f.e1.c + by;
     f.e2.c = f.e2.c + by;
     return f;
+}
+
+#endif
+
+// scattering/rectified.h ----------------------------------------------------------------------------------------------
+// Rectified coordinates of a shadow map of a directional light, in which all points of a view ray lie in one row and at
+// one depth (Peters et al. 2017, Sec. 5.1.1 and App. A; Baran et al. 2010).
+//
+// Axes: x and y along the map, z along the propagation of light. Origin: the eye. Any unit of length.
+//
+//     radius  = |(x, y)|            distance between the eye and a light ray: column of the rectified map
+//     azimuth = angle of (x, y)     slice that holds the light direction and the eye: row of the rectified map
+//     polar   = atan2(radius, z)    angle between the view ray and the propagation of light, in [0, pi]
+//
+// Looking into the light is polar = pi. On a light ray z grows with depth, and polar falls with it. Hence a depth of
+// the rectified map is a falling function of polar, signed as all depths of this library: -1 looking into the light, +1
+// along it. Two measures of depth are there: the angle itself, as in the paper, and its cosine, which needs no inverse
+// trigonometry. Both are stretched to [-1, 1] over the range of the view rays and a guard band of 10%: an occluder
+// outside the range of the view rays then keeps a distance to all of them.
+//
+//     omega_l    the direction to the light:  (0, 0, -1)
+//     omega_p    the direction from a point of the view ray to the camera
+//     dot product of the two = cosine of polar;  cosine of the scattering angle = -cosine of polar
+//
+// One texel of the rectified map is one light ray: position eye + radius (cos azimuth, sin azimuth) in the map, and its
+// depth there as z leads to polar.
+#ifndef GNOMON_SCATTERING_RECTIFIED_H
+#define GNOMON_SCATTERING_RECTIFIED_H
+
+static const float gnomon_rectified_guard = 0.55; // half of a range with a guard band of 10%
+static const float rectified_pi = 3.1415926535897932;
+static const float rectified_two_pi = 6.2831853071795865;
+
+/// A distance from the eye across the light, and two angles.
+struct rectified_position { float radius, azimuth, polar; };
+
+/// A map of angles, or of cosines, to depths: the value of depth 0, and depth per unit.
+struct rectified_range { float middle, scale; };
+
+/// The rectified coordinates of a point: radius at least 0, azimuth in [-pi, pi], polar in [0, pi]. On the axis azimuth
+/// is 0; polar of the eye is 0.
+/// Domain: |x|, |y| and |z| are 0 or in [2^-60, 2^60] in float, [2^-500, 2^500] in double.
+/// NaN: a NaN in each coordinate that depends on it.
+/// Error: radius 2 2^-p relative; azimuth 2.6 ulp, polar 3.6 ulp.
+/// Source: Peters 2017, Sec. 5.1.1; Baran 2010
+rectified_position rectified_from_position(float x, float y, float z)
+{
+    rectified_position r;
+    r.radius = gnomon_sqrt(x * x + y * y);
+    r.azimuth = polynomial_atan2(y, x);
+    r.polar = polynomial_atan2(r.radius, z);
+    return r;
+}
+
+/// The cosine of polar at a point, in [-1, 1]; 1 at the eye.
+/// Domain: as for rectified_from_position.
+/// NaN: NaN.
+/// Error: 4 2^-p.
+float rectified_cosine(float x, float y, float z)
+{
+    float distance_ = gnomon_sqrt((x * x + y * y) + z * z);
+    bool at_eye = distance_ == 0.0;
+    float cosine = z / gnomon_select(at_eye, 1.0, distance_);
+    return clamp_or_nan(gnomon_select(at_eye, 1.0, cosine), -1.0, 1.0);
+}
+
+/// The range whose depths are in [-1 / 1.1, 1 / 1.1] from least to most, or in a part of that if most - least is below
+/// narrowest.
+rectified_range gnomon_rectified_range_over(float least, float most, float narrowest)
+{
+    rectified_range r;
+    r.middle = 0.5 * (least + most);
+    r.scale = 1.0 / (gnomon_rectified_guard * gnomon_max(most - least, narrowest));
+    return r;
+}
+
+/// The range of depth for polar angles of view rays in [least, most].
+/// Domain: least <= most, in [0, pi]. A range narrower than 2^-10, or turned around, counts as one of 2^-10 around its
+/// middle.
+/// NaN: a middle of NaN.
+/// Source: Peters 2017, Sec. 5.1.1
+rectified_range rectified_polar_range(float least, float most)
+{
+    return gnomon_rectified_range_over(least, most, 0.0009765625);
+}
+
+/// The range of depth for cosines of polar angles of view rays in [least, most], which are those of the greatest and of
+/// the least angle.
+/// Domain: least <= most, in [-1, 1]. A range narrower than 2^-16, or turned around, counts as one of 2^-16 around its
+/// middle.
+/// NaN: a middle of NaN.
+rectified_range rectified_cosine_range(float least, float most)
+{
+    return gnomon_rectified_range_over(least, most, 0.0000152587890625);
+}
+
+/// Signed depth of a polar angle, in [-1, 1]: falls with the angle, -1 on the side of rays that look into the light.
+/// Domain: polar in [0, pi], a range by rectified_polar_range.
+/// NaN: NaN, which encoders store as the far plane.
+/// Source: Peters 2017, Sec. 5.1.1
+float rectified_polar_depth(float polar, rectified_range range)
+{
+    return clamp_or_nan((range.middle - polar) * range.scale, -1.0, 1.0);
+}
+
+/// Signed depth of the cosine of a polar angle, in [-1, 1]: grows with the cosine, -1 on the side of rays that look
+/// into the light.
+/// Domain: cosine in [-1, 1], a range by rectified_cosine_range.
+/// NaN: NaN, which encoders store as the far plane.
+float rectified_cosine_depth(float cosine, rectified_range range)
+{
+    return clamp_or_nan((cosine - range.middle) * range.scale, -1.0, 1.0);
+}
+
+/// An angle within three half turns of 0, moved by a full turn to at most half a turn from 0.
+float gnomon_rectified_wrapped(float angle)
+{
+    float turn = rectified_two_pi;
+    float half_turn = rectified_pi;
+    float up = gnomon_select(angle + half_turn < 0.0, angle + turn, angle);
+    return gnomon_select(half_turn < up, up - turn, up);
+}
+
+/// The position across the rows of a map, in [0, rows], of an azimuth; the centre of the first row is at 0.5. The map
+/// begins at the azimuth start and spans an angle of span; an azimuth outside goes to the nearer end.
+/// Domain: azimuth and start in [-pi, pi], span in [2^-20, 2 pi]; elsewhere a number in [0, rows].
+/// NaN: NaN for an azimuth of NaN.
+float rectified_row_of(float azimuth, float start, float span, float rows)
+{
+    float whole = gnomon_max(span, 0.00000095367431640625);
+    float from_middle = gnomon_rectified_wrapped((azimuth - start) - 0.5 * whole);
+    return clamp_or_nan((from_middle / whole + 0.5) * rows, 0.0, rows);
+}
+
+/// The position along a row of prefix averages, at least 0, of a ray that ends at radius; the centre of the first texel
+/// is at 0.5. The average up to the far side of texel u, radius (u + 1) radius_step, stands at its centre, u + 1/2: so
+/// the position is half a texel before that of the light ray itself.
+/// Domain: radius at least 0, radius_step above 0.
+/// NaN: NaN.
+float rectified_column_of(float radius, float radius_step) { return gnomon_max(0.0, radius / radius_step - 0.5); }
+
+/// The greater extent of a texel of the rectified map at radius, in texels of the shadow map: along the row
+/// radius_step, across it radius times azimuth_step, the angle between rows.
+/// Domain: at least 0 each.
+/// NaN: NaN.
+float rectified_footprint(float radius, float radius_step, float azimuth_step, float texels_per_length)
+{
+    return gnomon_max(radius_step, radius * azimuth_step) * texels_per_length;
+}
+
+/// The mip level, in [0, 16], whose texels are as wide as a footprint of so many texels of level 0.
+/// Domain: any footprint.
+/// NaN: 0.
+/// Error: 4 2^-p of the largest level.
+float rectified_level(float footprint)
+{
+    float wide = clamp_or_nan(footprint, 1.0, 65536.0);
+    return clamp_or_high(polynomial_log(gnomon_max(wide, 1.0)) * gnomon_exp_log2_e, 0.0, 16.0);
+}
+
+#endif
+
+// scattering/rectified_frustum.h --------------------------------------------------------------------------------------
+// Bounds of rectified coordinates (rectified.h) over the view rays of a camera (Peters et al. 2017, App. A), from the
+// four corners of its far plane, in order around it, in light axes with the eye for origin.
+//
+//     radius     largest radius of a corner
+//     azimuth    angles of the corners relative to that of the farthest one: no two differ by more than half a turn
+//     axis       where the light direction, or its opposite, is strictly within the four side planes: a full turn, and
+// polar
+//                begins at 0, or ends at pi
+//     polar      extreme on the border of the far plane, else on the axis. On the edge a + t c the cosine z / |a + t c|
+// is
+//                extreme at   t = (a_z a.c - c_z a.a) / (c_z a.c - a_z c.c)
+//                or at an end. Any point of the edge is within the bounds, so t needs no test: it is clamped.
+//
+// The angles of one row are the same over edges that are cut off at the row's two azimuths, each by the side on which
+// a point of the edge lies: a fold over the far plane's border, whether the row holds corners or not.
+#ifndef GNOMON_SCATTERING_RECTIFIED_FRUSTUM_H
+#define GNOMON_SCATTERING_RECTIFIED_FRUSTUM_H
+
+/// A corner of the far plane.
+struct rectified_corner { float x, y, z; };
+
+/// Corners of the far plane, in order around it, either way.
+struct rectified_corners { rectified_corner a, b, c, d; };
+
+/// The bounds of a camera's view rays: radius in [0, radius], azimuth from azimuth_start on over azimuth_length, polar
+/// from polar_least to polar_most.
+struct rectified_frustum { float radius, azimuth_start, azimuth_length, polar_least, polar_most; };
+
+/// An interval of polar angles.
+struct rectified_interval { float least, most; };
+
+/// A part of an edge, from a fraction begin to a fraction end.
+struct rectified_part { float begin, end; };
+
+float gnomon_rectified_dot(rectified_corner a, rectified_corner b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
+
+/// b - a.
+rectified_corner gnomon_rectified_from_to(rectified_corner a, rectified_corner b)
+{
+    rectified_corner r;
+    r.x = b.x - a.x;
+    r.y = b.y - a.y;
+    r.z = b.z - a.z;
+    return r;
+}
+
+/// The z of the cross product of a and b: positive where the azimuth of b is up to half a turn beyond that of a.
+float gnomon_rectified_turn(rectified_corner a, rectified_corner b) { return a.x * b.y - a.y * b.x; }
+
+/// 1 if the light direction is strictly within the far plane as seen from the eye, -1 if its opposite is, else 0.
+float gnomon_rectified_axis_side(rectified_corners q)
+{
+    float ab = gnomon_rectified_turn(q.a, q.b);
+    float bc = gnomon_rectified_turn(q.b, q.c);
+    float cd = gnomon_rectified_turn(q.c, q.d);
+    float da = gnomon_rectified_turn(q.d, q.a);
+    bool left = 0.0 < ab && 0.0 < bc && 0.0 < cd && 0.0 < da;
+    bool right = ab < 0.0 && bc < 0.0 && cd < 0.0 && da < 0.0;
+    // The normal of the far plane, by its diagonals, and the side of it on which the plane lies.
+    rectified_corner s = gnomon_rectified_from_to(q.a, q.c);
+    rectified_corner t = gnomon_rectified_from_to(q.b, q.d);
+    float nx = s.y * t.z - s.z * t.y;
+    float ny = s.z * t.x - s.x * t.z;
+    float side = (nx * q.a.x + ny * q.a.y) + gnomon_rectified_turn(s, t) * q.a.z;
+    float sign = gnomon_select(side < 0.0, -1.0, 1.0);
+    return gnomon_select(left, sign, gnomon_select(right, -1.0 * sign, 0.0));
+}
+
+/// The angles so far and that of the point a + t c.
+rectified_interval gnomon_rectified_interval_add(rectified_interval bounds, rectified_corner a, rectified_corner c,
+                                                 float t)
+{
+    float x = a.x + t * c.x;
+    float y = a.y + t * c.y;
+    float polar = polynomial_atan2(gnomon_sqrt(x * x + y * y), a.z + t * c.z);
+    bounds.least = gnomon_min(polar, bounds.least);
+    bounds.most = gnomon_max(polar, bounds.most);
+    return bounds;
+}
+
+/// The angles so far and those of a part of the edge from a to b; an empty part has none.
+rectified_interval gnomon_rectified_interval_edge(rectified_interval bounds, rectified_corner a, rectified_corner b,
+                                                  rectified_part part)
+{
+    rectified_corner c = gnomon_rectified_from_to(a, b);
+    float ac = gnomon_rectified_dot(a, c);
+    float t = (a.z * ac - c.z * gnomon_rectified_dot(a, a)) / (c.z * ac - a.z * gnomon_rectified_dot(c, c));
+    rectified_interval r = gnomon_rectified_interval_add(bounds, a, c, part.begin);
+    r = gnomon_rectified_interval_add(r, a, c, part.end);
+    r = gnomon_rectified_interval_add(r, a, c, clamp_or_high(t, part.begin, part.end));
+    bool empty = part.end < part.begin;
+    r.least = gnomon_select(empty, bounds.least, r.least);
+    r.most = gnomon_select(empty, bounds.most, r.most);
+    return r;
+}
+
+/// The bounds before any edge, where axis is that of gnomon_rectified_axis_side.
+rectified_interval gnomon_rectified_interval_begin(float axis)
+{
+    rectified_interval r;
+    r.least = gnomon_select(0.0 < axis, 0.0, rectified_pi);
+    r.most = gnomon_select(axis < 0.0, rectified_pi, 0.0);
+    return r;
+}
+
+/// The interval, or [0, pi] if no angle was added.
+rectified_interval gnomon_rectified_interval_end(rectified_interval bounds)
+{
+    bool none = bounds.most < bounds.least;
+    bounds.least = gnomon_select(none, 0.0, bounds.least);
+    bounds.most = gnomon_select(none, rectified_pi, bounds.most);
+    return bounds;
+}
+
+/// The farther from the axis of two corners, the first where they are equal or the second has a NaN.
+rectified_corner gnomon_rectified_farther(rectified_corner a, rectified_corner b)
+{
+    bool second = a.x * a.x + a.y * a.y < b.x * b.x + b.y * b.y;
+    rectified_corner r;
+    r.x = gnomon_select(second, b.x, a.x);
+    r.y = gnomon_select(second, b.y, a.y);
+    r.z = gnomon_select(second, b.z, a.z);
+    return r;
+}
+
+/// The azimuth of b relative to that of a, in [-pi, pi]; 0 on the axis.
+float gnomon_rectified_azimuth_between(rectified_corner a, rectified_corner b)
+{
+    return polynomial_atan2(gnomon_rectified_turn(a, b), a.x * b.x + a.y * b.y);
+}
+
+/// The bounds of rectified coordinates over all view rays to a far plane with these corners: sharp, so that rays touch
+/// each. azimuth_start is in [-pi, pi], azimuth_length in [0, 2 pi]: at most pi, or 2 pi if the axis is within the far
+/// plane. A corner on the axis has no azimuth and counts for none.
+/// Domain: coordinates are 0 or have magnitudes in [2^-20, 2^20] in float, [2^-160, 2^160] in double; corners of a
+/// convex quadrilateral that the eye does not lie in. Corners that are all at the eye give zeros; others that are no
+/// such quadrilateral, some bounds.
+/// NaN: an edge that a NaN makes unknown counts for no angle.
+/// Error: a ray exceeds the bounds by at most 8 2^-p of radius in radius, 16 2^-p in azimuth and 2^(4 - p) in polar.
+/// Source: Peters 2017, App. A
+rectified_frustum rectified_frustum_from_corners(rectified_corners q)
+{
+    float axis = gnomon_rectified_axis_side(q);
+    rectified_corner farthest = gnomon_rectified_farther(gnomon_rectified_farther(q.a, q.b),
+                                                         gnomon_rectified_farther(q.c, q.d));
+    float a = gnomon_rectified_azimuth_between(farthest, q.a);
+    float b = gnomon_rectified_azimuth_between(farthest, q.b);
+    float c = gnomon_rectified_azimuth_between(farthest, q.c);
+    float d = gnomon_rectified_azimuth_between(farthest, q.d);
+    float least = gnomon_min(a, gnomon_min(b, gnomon_min(c, gnomon_min(d, 0.0))));
+    float most = gnomon_max(a, gnomon_max(b, gnomon_max(c, gnomon_max(d, 0.0))));
+    bool around = axis < 0.0 || 0.0 < axis || rectified_pi < most - least;
+
+    rectified_part whole;
+    whole.begin = 0.0;
+    whole.end = 1.0;
+    rectified_interval polar = gnomon_rectified_interval_begin(axis);
+    polar = gnomon_rectified_interval_edge(polar, q.a, q.b, whole);
+    polar = gnomon_rectified_interval_edge(polar, q.b, q.c, whole);
+    polar = gnomon_rectified_interval_edge(polar, q.c, q.d, whole);
+    polar = gnomon_rectified_interval_end(gnomon_rectified_interval_edge(polar, q.d, q.a, whole));
+
+    rectified_frustum r;
+    r.radius = gnomon_sqrt(farthest.x * farthest.x + farthest.y * farthest.y);
+    float start = polynomial_atan2(farthest.y, farthest.x) + least;
+    float first = -1.0 * rectified_pi;
+    r.azimuth_start = gnomon_select(around, first, clamp_or_nan(gnomon_rectified_wrapped(start), first, rectified_pi));
+    r.azimuth_length = gnomon_select(around, rectified_two_pi, most - least);
+    r.polar_least = polar.least;
+    r.polar_most = polar.most;
+    return r;
+}
+
+/// The part of the edge from a to b, within a part, that is on the left of the direction (cosine, sine) from the axis.
+rectified_part gnomon_rectified_part_left(rectified_part part, rectified_corner a, rectified_corner b, float cosine,
+                                          float sine)
+{
+    float at_a = cosine * a.y - sine * a.x;
+    float at_b = cosine * b.y - sine * b.x;
+    float crossing = at_a / (at_a - at_b);
+    part.begin = gnomon_select(at_a < 0.0, gnomon_max(part.begin, crossing), part.begin);
+    part.end = gnomon_select(at_b < 0.0, gnomon_min(part.end, crossing), part.end);
+    // Both ends on the right: nothing is left.
+    part.end = gnomon_select(at_a < 0.0 && at_b < 0.0, -1.0, part.end);
+    return part;
+}
+
+/// The angles so far and those of the edge from a to b between two directions; of the whole edge if whole is 1.
+rectified_interval gnomon_rectified_row_edge(rectified_interval bounds, rectified_corner a, rectified_corner b,
+                                             gnomon_cosine_sine first, gnomon_cosine_sine last, float whole)
+{
+    rectified_part all;
+    all.begin = 0.0;
+    all.end = 1.0;
+    rectified_part part = gnomon_rectified_part_left(all, a, b, first.cosine, first.sine);
+    part = gnomon_rectified_part_left(part, a, b, -1.0 * last.cosine, -1.0 * last.sine);
+    part.begin = gnomon_select(whole == 1.0, 0.0, part.begin);
+    part.end = gnomon_select(whole == 1.0, 1.0, part.end);
+    return gnomon_rectified_interval_edge(bounds, a, b, part);
+}
+
+/// The polar angles of the view rays whose azimuths are between first and last, as those of one row; [0, pi] if no ray
+/// is there.
+/// Domain: as for rectified_frustum_from_corners; first <= last, both within 3 pi of 0. More than 3 radians get the
+/// angles of all rays.
+/// NaN: as for rectified_frustum_from_corners.
+/// Error: a ray exceeds the bounds by at most 2^(5 - p).
+rectified_interval rectified_row_polar(rectified_corners q, float first, float last)
+{
+    gnomon_cosine_sine left = polynomial_cosine_sine(first);
+    gnomon_cosine_sine right = polynomial_cosine_sine(last);
+    float whole = gnomon_select(3.0 < last - first, 1.0, 0.0);
+    rectified_interval polar = gnomon_rectified_interval_begin(gnomon_rectified_axis_side(q));
+    polar = gnomon_rectified_row_edge(polar, q.a, q.b, left, right, whole);
+    polar = gnomon_rectified_row_edge(polar, q.b, q.c, left, right, whole);
+    polar = gnomon_rectified_row_edge(polar, q.c, q.d, left, right, whole);
+    return gnomon_rectified_interval_end(gnomon_rectified_row_edge(polar, q.d, q.a, left, right, whole));
+}
+
+#endif
+
+// scattering/single_scattering.h --------------------------------------------------------------------------------------
+// Single scattering of a directional light in a homogeneous medium along a view ray (Peters et al. 2017, Sec. 5.1.1 and
+// 5.3.1):
+//
+//     radiance = e^(-extinction s) surface + scattering phase irradiance (1 - e^(-extinction s)) / extinction (1 -
+// intensity)
+//
+// over a distance s, where intensity is the shadow of the ray, weighted by transmittance. extinction and scattering are
+// per unit of length, and scattering is the albedo times extinction: the paper's formula has no such factor, its phase
+// function holds the scattering coefficient. Light is not attenuated on its way from the light source to the view ray.
+//
+// omega_l is the direction to the light, omega_p that to the camera. Along a view ray with the polar angle theta
+// (rectified.h) omega_l.omega_p = cos theta: 1 looking along the light, -1 looking into it. Phase functions take the
+// cosine of the scattering angle, -omega_l.omega_p = -cos theta: light that goes straight on to the camera has 1.
+#ifndef GNOMON_SCATTERING_SINGLE_SCATTERING_H
+#define GNOMON_SCATTERING_SINGLE_SCATTERING_H
+
+static const float gnomon_phase_isotropic = 0.079577471545947668; // 1 / (4 pi), for every angle
+static const float gnomon_phase_greatest_asymmetry = 0.9990234375;
+
+/// The integral of the transmittance along a ray, (1 - e^(-extinction distance)) / extinction, without cancellation:
+/// the length of a ray without extinction that scatters as much. In [0, distance].
+/// Domain: both at least 0, also infinite; negative numbers count as 0.
+/// NaN: as 0.
+/// Error: 4.5 ulp.
+float attenuated_length(float distance_, float extinction)
+{
+    float whole = gnomon_max(distance_, 0.0);
+    float rate = gnomon_max(extinction, 0.0);
+    float depth = gnomon_max(rate * whole, 0.0);
+    bool thin = depth < 0.34375;
+    float r = -1.0 * gnomon_select(thin, depth, 0.0);
+    float thick = (1.0 - polynomial_exp(-1.0 * depth)) / gnomon_select(thin, 1.0, rate);
+    return gnomon_select(thin, whole * (1.0 + r * gnomon_exp_remainder(r)), thick);
+}
+
+/// (1 - e^-x) / x, the mean transmittance along a ray of the optical depth x, in [0, 1]; 1 for 0, without cancellation.
+/// Domain: x at least 0, also infinite; negative x counts as 0.
+/// NaN: 1.
+/// Error: 4.5 ulp.
+float attenuated_mean(float x) { return attenuated_length(1.0, x); }
+
+/// e^-x, the transmittance of the optical depth x, in [0, 1].
+/// Domain: x at least 0, also infinite; negative x counts as 0. Not below e^-87 in float, e^-708 in double.
+/// NaN: 1.
+/// Error: 1 ulp in float, 1.2 ulp in double.
+float transmittance_over(float x) { return gnomon_min(1.0, polynomial_exp(-1.0 * gnomon_max(x, 0.0))); }
+
+/// The Henyey-Greenstein phase function, per steradian, of the cosine of the scattering angle. asymmetry is its mean
+/// cosine: positive for media that scatter forward, 0 for isotropic ones.
+/// Domain: cosine in [-1, 1], asymmetry in [-1 + 2^-10, 1 - 2^-10], clamped.
+/// NaN: NaN for a cosine of NaN; an asymmetry of NaN counts as 0.
+/// Error: relative, 2^(3 - p) for |asymmetry| <= 1/2.
+/// Source: Henyey & Greenstein 1941
+float phase_henyey_greenstein(float cosine, float asymmetry)
+{
+    float c = clamp_or_nan(cosine, -1.0, 1.0);
+    float g = gnomon_min(gnomon_max(gnomon_abs(asymmetry), 0.0), gnomon_phase_greatest_asymmetry);
+    float off = 1.0 - gnomon_select(asymmetry < 0.0, -1.0 * c, c);
+    float rest = 1.0 - g;
+    float d = rest * rest + (g + g) * off;
+    return gnomon_phase_isotropic * (rest * (1.0 + g)) / (d * gnomon_sqrt(d));
+}
+
+/// The overestimation of visibility for the ray of a polar angle with this cosine, (1 + cosine) / 2, for
+/// bounds_intensity. Looking into the light no occluder can be before the ray in depth, so it is 0, and no light leaks;
+/// looking along the light none can be behind the ray, so it is 1, and no light is lost.
+/// Domain: cosine in [-1, 1], clamped.
+/// NaN: 1.
+/// Source: Peters 2017, Sec. 5.3.1
+float adaptive_overestimation(float cosine) { return 1.0 - saturate_or_zero(0.5 - 0.5 * cosine); }
+
+/// Radiance that reaches the camera: that of the surface, attenuated, and light scattered into the view ray. intensity
+/// is the shadow of the ray, 0 where all of the ray is lit.
+/// Domain: distance, extinction, scattering, phase, irradiance and surface at least 0 and finite.
+/// NaN: an intensity of NaN counts as 0.
+/// Error: relative, 2^(4 - p) for optical depths up to 1.
+/// Source: Peters 2017, Sec. 5.1.1
+float scattering_radiance(float surface, float intensity, float distance_, float extinction, float scattering,
+                          float phase, float irradiance)
+{
+    float depth = extinction * distance_;
+    float lit = (scattering * phase * irradiance) * attenuated_length(distance_, extinction);
+    return transmittance_over(depth) * surface + lit * (1.0 - saturate_or_zero(intensity));
+}
+
+#endif
+
+// scattering/transmittance_weights.h ----------------------------------------------------------------------------------
+// Weights of prefix averages along the rows of a rectified map (Peters et al. 2017, Sec. 5.1.1). Texel u has the weight
+// w_u, and the average up to texel u is the one before, moved towards texel u by its share of the sum of weights:
+//
+//     mean_u = mean_(u - 1) + g_u (texel_u - mean_(u - 1)),        g_u = w_u / (w_0 + ... + w_u),        g_0 = 1
+//
+// All g_u are in [0, 1], so that prefix averages of moments are moments. In a homogeneous medium texel u is seen
+// through u texels of the medium: w_u = q^u up to a factor that cancels, so that
+//
+//     g_u = q g_(u - 1) / (1 + q g_(u - 1)),        q = transmittance of one texel
+//
+// holds for every extinction: q = 1 without any, q = 0 in an opaque medium. Weights that vary from texel to texel, as
+// those of scattering/height_fog.h, are summed by transmittance_share_add.
+//
+//     (for a row)   q = transmittance_step(extinction, radius_step, sine of the row's mean polar angle)
+//     (for u > 0)   g = transmittance_weight_next(g, q);   mean = mean + g (texel - mean)
+//
+// A ray that ends within texel u, a share f of it, has an average between that of texel u - 1 and that of texel u, but
+// not at f: transmittance_weight_within is exact.
+#ifndef GNOMON_SCATTERING_TRANSMITTANCE_WEIGHTS_H
+#define GNOMON_SCATTERING_TRANSMITTANCE_WEIGHTS_H
+
+/// The transmittance of the medium from one texel of a row to the next, in [0, 1]. extinction is per unit of length;
+/// the view ray crosses the texels of radius_step at an angle to the light that has this sine.
+/// Domain: at least 0, also infinite; negative numbers count as 0.
+/// NaN: 1, also where an extinction of 0 meets a sine of 0.
+/// Error: relative, 2.5 2^-p for each unit of the optical depth extinction radius_step / sine, and 2 2^-p.
+/// Source: Peters 2017, Sec. 5.1.1
+float transmittance_step(float extinction, float radius_step, float sine)
+{
+    return transmittance_over((extinction * radius_step) / sine);
+}
+
+/// The share g_u of texel u in its prefix average, from the share g of the texel before and the ratio of their weights,
+/// q. In [0, 1].
+/// Domain: g and q in [0, 1], clamped.
+/// NaN: 0.
+/// Error: relative, 1.5 roundings beside the errors of g and q.
+float transmittance_weight_next(float g, float q)
+{
+    float next = saturate_or_zero(q) * saturate_or_zero(g);
+    return next / (1.0 + next);
+}
+
+/// The share of the way from the average before a texel to the one up to it, for a ray that ends a share f within the
+/// texel: v / (1 - g (1 - v)), v = (1 - q^f) / (1 - q), where g is the share of the texel. In [0, 1].
+/// Domain: g, q and f in [0, 1], clamped.
+/// NaN: as 0 for g and f, as 1 for q.
+/// Error: 8 2^-p.
+float transmittance_weight_within(float g, float q, float f)
+{
+    float share = saturate_or_zero(f);
+    float depth = -1.0 * polynomial_log(gnomon_min(q, 1.0));
+    float v = gnomon_min(1.0, share * attenuated_mean(share * depth) / attenuated_mean(depth));
+    float rest = 1.0 - saturate_or_zero(g) * (1.0 - v);
+    return gnomon_select(0.0 < rest, saturate_or_zero(v / rest), 1.0);
+}
+
+/// A sum of weights, and the share in it of the weight that was added last.
+struct gnomon_transmittance_share { float total, share; };
+
+/// The state after the first texel of a row, whose share is 1.
+/// Domain: a weight of at least 0; negative weights count as 0.
+/// NaN: a weight of 0.
+gnomon_transmittance_share transmittance_share_begin(float weight)
+{
+    gnomon_transmittance_share r;
+    r.total = gnomon_max(weight, 0.0);
+    r.share = 1.0;
+    return r;
+}
+
+/// The state after one more texel with a weight. Its share, in [0, 1], is 1 while all weights are 0.
+/// Domain: as for transmittance_share_begin. While the sum is not finite the share is 0.
+/// NaN: a weight of 0.
+/// Error: relative, one rounding for each texel.
+gnomon_transmittance_share transmittance_share_add(gnomon_transmittance_share state, float weight)
+{
+    float added = gnomon_max(weight, 0.0);
+    gnomon_transmittance_share r;
+    r.total = state.total + added;
+    r.share = saturate_or_zero(added / r.total);
+    r.share = gnomon_select(r.total == 0.0, 1.0, r.share);
+    return r;
 }
 
 #endif

@@ -129,6 +129,15 @@ __constant float gnomon_log_float_0 = 0.66666776085218282f;
 __constant float gnomon_log_float_1 = 0.39977574040563962f;
 __constant float gnomon_log_float_2 = 0.29870936689734456f;
 
+/// (e^r - 1 - r) / r^2.
+/// Domain: |r| <= ln 2 / 2.
+static inline float gnomon_exp_remainder(float r)
+{
+    float p = gnomon_exp_float_0 + r *
+              (gnomon_exp_float_1 + r * (gnomon_exp_float_2 + r * (gnomon_exp_float_3 + r * gnomon_exp_float_4)));
+    return p;
+}
+
 /// e^x, always a finite, normal number.
 /// Domain: [-87, 88] in float, [-708, 709] in double; x is clamped.
 /// NaN: stays NaN.
@@ -142,9 +151,7 @@ static inline float polynomial_exp(float x)
     x = clamp_or_nan(x, low, high);
     float n = nearest_integer(x * gnomon_exp_log2_e);
     float r = gnomon_difference(x, n * 0.693359375f) - n * gnomon_exp_ln2_low;
-    float p = gnomon_exp_float_0 + r *
-              (gnomon_exp_float_1 + r * (gnomon_exp_float_2 + r * (gnomon_exp_float_3 + r * gnomon_exp_float_4)));
-    return (1.0f + (r + r * r * p)) * gnomon_power_of_two(n);
+    return (1.0f + (r + r * r * gnomon_exp_remainder(r))) * gnomon_power_of_two(n);
 }
 
 /// The number significand 2^exponent.

@@ -145,6 +145,14 @@ constant constexpr float log_float_0 = 0.66666776085218282f;
 constant constexpr float log_float_1 = 0.39977574040563962f;
 constant constexpr float log_float_2 = 0.29870936689734456f;
 
+/// (e^r - 1 - r) / r^2.
+/// Domain: |r| <= ln 2 / 2.
+inline float exp_remainder(float r)
+{
+    float p = exp_float_0 + r * (exp_float_1 + r * (exp_float_2 + r * (exp_float_3 + r * exp_float_4)));
+    return p;
+}
+
 /// e^x, always a finite, normal number.
 /// Domain: [-87, 88] in float, [-708, 709] in double; x is clamped.
 /// NaN: stays NaN.
@@ -158,8 +166,7 @@ inline float polynomial_exp(float x)
     x = clamp_or_nan(x, low, high);
     float n = nearest_integer(x * exp_log2_e);
     float r = gnomon_difference(x, n * 0.693359375f) - n * exp_ln2_low;
-    float p = exp_float_0 + r * (exp_float_1 + r * (exp_float_2 + r * (exp_float_3 + r * exp_float_4)));
-    return (1.0f + (r + r * r * p)) * gnomon_power_of_two(n);
+    return (1.0f + (r + r * r * exp_remainder(r))) * gnomon_power_of_two(n);
 }
 
 /// The number significand 2^exponent.

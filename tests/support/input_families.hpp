@@ -2,10 +2,12 @@
 // from one situation (situations.hpp): a depth distribution, a receiver at a critical depth, and a texel of the distribution.
 #pragma once
 
+#include "far_planes.hpp"
 #include "prisms.hpp"
 #include "situations.hpp"
 
 #include <gnomon/moments/hamburger4.h>
+#include <gnomon/scattering/transmittance_weights.h>
 #include <gnomon/soft/summed_area.h>
 #include <gnomon/storage/absorbance4.h>
 #include <gnomon/storage/convolution.h>
@@ -168,6 +170,16 @@ inline constexpr input_family<T> input_families[] = {
     {"summed6", 8,
      [](auto put, const situation& s, bit_source& bits) {
          put(any_sums<T>(bits, gnomon_bit_cast<std::array<T, 6>>(theta6(moments6_in<T>(s)))));
+     }},
+    // Single scattering: a map of angles to depths; the far plane of a camera that looks anywhere; a sum of weights.
+    {"rectified_range", 2,
+     [](auto put, const situation&, bit_source& bits) {
+         put(rectified_polar_range(T(bits.uniform(0, 1)), T(bits.uniform(1, 3.14))));
+     }},
+    {"far_plane", 12, [](auto put, const situation&, bit_source& bits) { put(any_far_plane<T>(bits)); }},
+    {"transmittance_share", 2,
+     [](auto put, const situation&, bit_source& bits) {
+         put(transmittance_share_add(transmittance_share_begin(T(bits.uniform(0, 4))), T(bits.uniform(0, 1))));
      }},
     // Arithmetic.
     {"monic_cubic", 3,

@@ -43,6 +43,29 @@ GNOMON_CONSTANT(log_double_4, 0.1818356240364567);
 GNOMON_CONSTANT(log_double_5, 0.15314098871014789);
 GNOMON_CONSTANT(log_double_6, 0.14795474816803084);
 
+/// (e^r - 1 - r) / r^2.
+/// Domain: |r| <= ln 2 / 2.
+GNOMON_DETAIL_KERNEL Real exp_remainder(Real r)
+{
+    Real p =
+        GNOMON_LITERAL(exp_float_0) +
+        r * (GNOMON_LITERAL(exp_float_1) +
+             r * (GNOMON_LITERAL(exp_float_2) + r * (GNOMON_LITERAL(exp_float_3) + r * GNOMON_LITERAL(exp_float_4))));
+    if (GNOMON_DIGITS > 24) {
+        p = GNOMON_LITERAL(exp_double_0) +
+            r * (GNOMON_LITERAL(exp_double_1) +
+                 r * (GNOMON_LITERAL(exp_double_2) +
+                      r * (GNOMON_LITERAL(exp_double_3) +
+                           r * (GNOMON_LITERAL(exp_double_4) +
+                                r * (GNOMON_LITERAL(exp_double_5) +
+                                     r * (GNOMON_LITERAL(exp_double_6) +
+                                          r * (GNOMON_LITERAL(exp_double_7) +
+                                               r * (GNOMON_LITERAL(exp_double_8) +
+                                                    r * GNOMON_LITERAL(exp_double_9)))))))));
+    }
+    return p;
+}
+
 /// e^x, always a finite, normal number.
 /// Domain: [-87, 88] in float, [-708, 709] in double; x is clamped.
 /// NaN: stays NaN.
@@ -60,23 +83,7 @@ GNOMON_KERNEL Real polynomial_exp(Real x)
     x = clamp_or_nan(x, low, high);
     Real n = nearest_integer(x * GNOMON_LITERAL(exp_log2_e));
     Real r = gnomon_difference(x, n * Real(0.693359375)) - n * GNOMON_LITERAL(exp_ln2_low);
-    Real p =
-        GNOMON_LITERAL(exp_float_0) +
-        r * (GNOMON_LITERAL(exp_float_1) +
-             r * (GNOMON_LITERAL(exp_float_2) + r * (GNOMON_LITERAL(exp_float_3) + r * GNOMON_LITERAL(exp_float_4))));
-    if (GNOMON_DIGITS > 24) {
-        p = GNOMON_LITERAL(exp_double_0) +
-            r * (GNOMON_LITERAL(exp_double_1) +
-                 r * (GNOMON_LITERAL(exp_double_2) +
-                      r * (GNOMON_LITERAL(exp_double_3) +
-                           r * (GNOMON_LITERAL(exp_double_4) +
-                                r * (GNOMON_LITERAL(exp_double_5) +
-                                     r * (GNOMON_LITERAL(exp_double_6) +
-                                          r * (GNOMON_LITERAL(exp_double_7) +
-                                               r * (GNOMON_LITERAL(exp_double_8) +
-                                                    r * GNOMON_LITERAL(exp_double_9)))))))));
-    }
-    return (Real(1) + (r + r * r * p)) * gnomon_power_of_two(n);
+    return (Real(1) + (r + r * r * exp_remainder(r))) * gnomon_power_of_two(n);
 }
 
 /// The number significand 2^exponent.

@@ -1,0 +1,467 @@
+// Gnomon 0.1.0, rectified.hlsl: shadow filtering in HLSL, this file alone.
+// Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
+// Written by shaders/package.py from the kernels in include/gnomon: change them there.
+#ifndef GNOMON_RECTIFIED_HLSL
+#define GNOMON_RECTIFIED_HLSL
+
+// the language --------------------------------------------------------------------------------------------------------
+// HLSL without templates, for old front ends too.
+// Compile with strict IEEE arithmetic (/Gis) for the same bits as on the CPU. Exact products are exact in any case.
+#if defined(GL_ES) || defined(__METAL_VERSION__) || defined(__OPENCL_C_VERSION__)
+#error "gnomon: rectified.hlsl is HLSL; another language's compiler reads it"
+#elif defined(GNOMON_PORTABLE_H)
+#error "gnomon: rectified.hlsl and the headers of include/gnomon exclude one another"
+#elif defined(GNOMON_PACKAGE) && GNOMON_PACKAGE != 100
+#error "gnomon: rectified.hlsl is not of the same version as a package before it"
+#endif
+#define GNOMON_PACKAGE 100 // major, minor and patch, two digits each
+
+#ifndef GNOMON_PORTABLE_HLSL_H
+#define GNOMON_PORTABLE_HLSL_H
+
+static const float gnomon_pivot_floor = 9.31322574615478515625e-10; // 2^-30
+
+float gnomon_select(bool mask, float a, float b) { return mask ? a : b; }
+bool gnomon_any(bool mask) { return mask; }
+float gnomon_abs(float a) { return abs(a); }
+float gnomon_sqrt(float a) { return sqrt(a); }
+
+// x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
+// bits of NaN are above the bound, which is one.
+float gnomon_kept(float x) { return asfloat(min(asint(x), 0x7FC00000)); }
+float gnomon_apart(float x) { return asfloat(min(asuint(x), 0xFFC00000u)); }
+// A compiler that knew both operands would write min() and max(), which lose a NaN. gnomon_kept would not hide an operand
+// that is kept already, since two minima of integers become one; gnomon_apart is another one.
+float gnomon_min(float a, float b) { return gnomon_select(a < b, a, gnomon_apart(b)); }
+float gnomon_max(float a, float b) { return gnomon_select(b < a, a, gnomon_apart(b)); }
+float gnomon_product(float a, float b) { return gnomon_kept(a * b); }
+float gnomon_sum(float a, float b) { return gnomon_kept(a + b); }
+float gnomon_difference(float a, float b) { return gnomon_kept(a - b); }
+// By integers, so that a NaN becomes 0 where a compiler assumes that there is none.
+float gnomon_saturate(float x)
+{
+    int bits = asint(x);
+    return gnomon_select(bits > 0x7F800000, 0.0, asfloat(min(max(bits, 0), 0x3F800000)));
+}
+// a without the low half of its significand.
+float gnomon_high_part(float a) { return asfloat(asuint(a) & 0xFFFFF000u); }
+// The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
+float gnomon_power_of_two(float n) { return asfloat((asuint(n + 12582912.0) << 23u) + 0x3F800000u); }
+
+#endif
+
+// numerics/round.h ----------------------------------------------------------------------------------------------------
+// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
+// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
+#ifndef GNOMON_NUMERICS_ROUND_H
+#define GNOMON_NUMERICS_ROUND_H
+
+/// The whole number nearest to x, ties to even.
+/// Domain: |x| <= 2^22 in float, 2^51 in double.
+/// NaN: stays NaN.
+float nearest_integer(float x)
+{
+    float rounder = -12582912.0;
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
+}
+
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+float nearest_natural(float x)
+{
+    float rounder = 8388608.0;
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
+#endif
+
+// numerics/select.h ---------------------------------------------------------------------------------------------------
+// Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
+#ifndef GNOMON_NUMERICS_SELECT_H
+#define GNOMON_NUMERICS_SELECT_H
+
+/// x clamped to [low, high].
+/// NaN: stays NaN, so that the last step of a kernel can answer it.
+float clamp_or_nan(float x, float low, float high) { return gnomon_min(high, gnomon_max(low, x)); }
+
+/// x clamped to [low, high].
+/// NaN: high.
+float clamp_or_high(float x, float low, float high) { return gnomon_max(low, gnomon_min(x, high)); }
+
+/// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
+/// NaN: 0, lit.
+float saturate_or_zero(float x) { return gnomon_saturate(x); }
+
+#endif
+
+// numerics/exp.h ------------------------------------------------------------------------------------------------------
+// Exponential function and natural logarithm with the same bits in every language.
+//
+// The argument is reduced by a power of two (Cody & Waite 1980). ln 2 has two parts, the first of 10 bits, so that its
+// multiples are exact. A minimax polynomial approximates the function on the reduced range: a short one for float, a
+// long one for double. tests/derivations/minimax.cpp prints the coefficients of both.
+#ifndef GNOMON_NUMERICS_EXP_H
+#define GNOMON_NUMERICS_EXP_H
+
+static const float gnomon_exp_log2_e = 1.4426950408889634;
+static const float gnomon_exp_ln2_low = -2.1219444005469058e-4;
+static const float gnomon_exp_sqrt_2 = 1.4142135623730951;
+static const float gnomon_exp_sqrt_half = 0.70710678118654752;
+
+// exp x = 1 + x + x^2 p(x), |x| <= ln 2 / 2: relative error 2^-28.0 and 2^-57.4, coefficients rounded.
+static const float gnomon_exp_float_0 = 0.49999993561656014;
+static const float gnomon_exp_float_1 = 0.16666518908321371;
+static const float gnomon_exp_float_2 = 0.041668318723256166;
+static const float gnomon_exp_float_3 = 0.0083689258101569408;
+static const float gnomon_exp_float_4 = 0.00138210541669496;
+
+// 2 artanh y = 2 y + y^3 p(y^2), |y| <= (sqrt 2 - 1) / (sqrt 2 + 1): relative error 2^-30.2 and 2^-59.3.
+static const float gnomon_log_float_0 = 0.66666776085218282;
+static const float gnomon_log_float_1 = 0.39977574040563962;
+static const float gnomon_log_float_2 = 0.29870936689734456;
+
+/// (e^r - 1 - r) / r^2.
+/// Domain: |r| <= ln 2 / 2.
+float gnomon_exp_remainder(float r)
+{
+    float p = gnomon_exp_float_0 + r *
+              (gnomon_exp_float_1 + r * (gnomon_exp_float_2 + r * (gnomon_exp_float_3 + r * gnomon_exp_float_4)));
+    return p;
+}
+
+/// e^x, always a finite, normal number.
+/// Domain: [-87, 88] in float, [-708, 709] in double; x is clamped.
+/// NaN: stays NaN.
+/// Error: 1 ulp in float, 1.2 ulp in double, where subtracting up to 1023 ln 2 from x costs 3 2^-56 of the result,
+/// nearly 0.4 ulp.
+/// Source: Cody & Waite 1980
+float polynomial_exp(float x)
+{
+    float low = -87.0;
+    float high = 88.0;
+    x = clamp_or_nan(x, low, high);
+    float n = nearest_integer(x * gnomon_exp_log2_e);
+    float r = gnomon_difference(x, n * 0.693359375) - n * gnomon_exp_ln2_low;
+    return (1.0 + (r + r * r * gnomon_exp_remainder(r))) * gnomon_power_of_two(n);
+}
+
+/// The number significand 2^exponent.
+struct gnomon_scaled_number { float significand, exponent; };
+
+/// s with a factor of 2^k moved from the significand to the exponent if the significand is at least 2^k, with a factor
+/// of 2^-k if it is at most 2^-k.
+gnomon_scaled_number gnomon_scaled_number_step(gnomon_scaled_number s, float k)
+{
+    float up = gnomon_power_of_two(k);
+    float down = gnomon_power_of_two(-k);
+    bool large = up <= s.significand;
+    bool tiny = s.significand <= down;
+    gnomon_scaled_number r;
+    r.significand = gnomon_select(large, s.significand * down, gnomon_select(tiny, s.significand * up, s.significand));
+    r.exponent = gnomon_select(large, s.exponent + k, gnomon_select(tiny, s.exponent - k, s.exponent));
+    return r;
+}
+
+/// The natural logarithm of x.
+/// Domain: [2^-126, 2^127] in float, [2^-1022, 2^1023] in double; x is clamped, so that 0 and negative numbers give the
+/// value at the lower end.
+/// NaN: stays NaN.
+/// Error: 0.9 ulp in float and in double.
+/// Source: Cody & Waite 1980
+float polynomial_log(float x)
+{
+    gnomon_scaled_number s;
+    s.exponent = 0.0;
+    s.significand = clamp_or_nan(x, gnomon_power_of_two(-126.0), gnomon_power_of_two(127.0));
+    s = gnomon_scaled_number_step(s, 64.0);
+    s = gnomon_scaled_number_step(s, 32.0);
+    s = gnomon_scaled_number_step(s, 16.0);
+    s = gnomon_scaled_number_step(s, 8.0);
+    s = gnomon_scaled_number_step(s, 4.0);
+    s = gnomon_scaled_number_step(s, 2.0);
+    s = gnomon_scaled_number_step(s, 1.0);
+    bool large = gnomon_exp_sqrt_2 < s.significand;
+    bool tiny = s.significand < gnomon_exp_sqrt_half;
+    float m = gnomon_select(large, s.significand * 0.5, gnomon_select(tiny, s.significand * 2.0, s.significand));
+    float n = gnomon_select(large, s.exponent + 1.0, gnomon_select(tiny, s.exponent - 1.0, s.exponent));
+
+    // As in fdlibm, with exact f and y = f / (2 + f):
+    // log(1 + f) = 2 artanh y = f - (f^2 / 2 - y (f^2 / 2 + y^2 p(y^2))).
+    float f = m - 1.0;
+    float y = f / (2.0 + f);
+    float z = y * y;
+    float p = gnomon_log_float_0 + z * (gnomon_log_float_1 + z * gnomon_log_float_2);
+    float square = 0.5 * f * f;
+    float rest = y * (square + z * p) + n * gnomon_exp_ln2_low;
+    return n * 0.693359375 - ((square - rest) - f);
+}
+
+#endif
+
+// numerics/trigonometry.h ---------------------------------------------------------------------------------------------
+// Cosine, sine and the angle of a vector with the same bits in every language.
+//
+// Angles are reduced to |y| <= pi / 4 by multiples of pi / 2 in three parts, the first two of so few bits that their
+// multiples are exact (Cody & Waite 1980). A minimax polynomial approximates the function on the reduced range: a short
+// one for float, a long one for double. tests/derivations/minimax.cpp prints the coefficients of both.
+#ifndef GNOMON_NUMERICS_TRIGONOMETRY_H
+#define GNOMON_NUMERICS_TRIGONOMETRY_H
+
+static const float gnomon_trigonometry_two_over_pi = 0.63661977236758134;
+static const float gnomon_trigonometry_half_pi_low = 7.5497899548918821e-8;
+static const float gnomon_trigonometry_half_pi = 1.5707963267948966;
+static const float gnomon_trigonometry_quarter_pi_low = 1.5695823932524066e-7;
+static const float gnomon_trigonometry_tan_pi_8 = 0.41421356237309505;
+
+// sin y = y + y^3 p(y^2), |y| <= pi / 4: relative error 2^-26.8 and 2^-56.4, coefficients rounded.
+static const float gnomon_sin_float_0 = -0.16666654609567105;
+static const float gnomon_sin_float_1 = 0.0083321607625195058;
+static const float gnomon_sin_float_2 = -0.00019515283258365583;
+
+// cos y = 1 - y^2 / 2 + y^4 p(y^2), |y| <= pi / 4: relative error 2^-32.4 and 2^-59.6.
+static const float gnomon_cos_float_0 = 0.041666645683017541;
+static const float gnomon_cos_float_1 = -0.0013887316256332952;
+static const float gnomon_cos_float_2 = 2.4433157272163749e-05;
+
+// arctan y = y + y^3 p(y^2), |y| <= tan(pi / 8): relative error 2^-28.3 and 2^-57.4.
+static const float gnomon_atan_float_0 = -0.33333315189495832;
+static const float gnomon_atan_float_1 = 0.19998471559801789;
+static const float gnomon_atan_float_2 = -0.14243534037509495;
+static const float gnomon_atan_float_3 = 0.10593818186484773;
+static const float gnomon_atan_float_4 = -0.060782316918251741;
+
+/// A cosine and the sine of the same angle.
+struct gnomon_cosine_sine { float cosine, sine; };
+
+/// cos x and sin x, in [-1, 1] up to the error.
+/// Domain: [-8192, 8192]; x is clamped.
+/// NaN: two NaNs.
+/// Error: 1.5 ulp for |x| <= pi / 4, else 1.75 2^-p, where p is the number of bits of the significand.
+/// Source: Cody & Waite 1980
+gnomon_cosine_sine polynomial_cosine_sine(float x)
+{
+    x = clamp_or_nan(x, -8192.0, 8192.0);
+    float n = nearest_integer(x * gnomon_trigonometry_two_over_pi);
+    float y = gnomon_difference(x, n * 1.5703125);
+    y = gnomon_difference(y, n * 0.0004837512969970703125) - n * gnomon_trigonometry_half_pi_low;
+    float z = y * y;
+    float s = gnomon_sin_float_0 + z * (gnomon_sin_float_1 + z * gnomon_sin_float_2);
+    float c = gnomon_cos_float_0 + z * (gnomon_cos_float_1 + z * gnomon_cos_float_2);
+    s = y + y * z * s;
+    c = (1.0 - 0.5 * z) + z * z * c;
+
+    // x = y + m pi / 2 plus full turns, with m in {-2, ..., 2}.
+    float m = n - 4.0 * nearest_integer(0.25 * n);
+    bool odd = gnomon_abs(m) == 1.0;
+    bool opposite = gnomon_abs(m) == 2.0;
+    gnomon_cosine_sine r;
+    r.cosine = gnomon_select(odd, -m * s, gnomon_select(opposite, -c, c));
+    r.sine = gnomon_select(odd, m * c, gnomon_select(opposite, -s, s));
+    return r;
+}
+
+/// cos x.
+/// Domain: as for polynomial_cosine_sine.
+/// NaN: stays NaN.
+/// Error: as for polynomial_cosine_sine.
+float polynomial_cos(float x) { return polynomial_cosine_sine(x).cosine; }
+
+/// sin x.
+/// Domain: as for polynomial_cosine_sine.
+/// NaN: stays NaN.
+/// Error: as for polynomial_cosine_sine.
+float polynomial_sin(float x) { return polynomial_cosine_sine(x).sine; }
+
+/// The angle of the vector (x, y), in [-pi, pi]; 0 for the zero vector. Zeros of either sign count as positive.
+/// Domain: |x| + |y| does not overflow, except that one of the two may be infinite.
+/// NaN: for a NaN, and if both are infinite.
+/// Error: 2.6 ulp, also where the result is denormal.
+float polynomial_atan2(float y, float x)
+{
+    float ax = gnomon_abs(x);
+    float ay = gnomon_abs(y);
+    bool steep = ax < ay;
+    float shorter = gnomon_select(steep, ax, ay);
+    float longer = gnomon_select(steep, ay, ax);
+
+    // Above tan(pi / 8), arctan q = pi / 4 + arctan((q - 1) / (q + 1)).
+    bool wide = gnomon_trigonometry_tan_pi_8 * longer < shorter;
+    float denominator = gnomon_select(wide, longer + shorter, gnomon_select(longer == 0.0, 1.0, longer));
+    float t = gnomon_select(wide, shorter - longer, shorter) / denominator;
+    float z = t * t;
+    float p = gnomon_atan_float_0 + z *
+              (gnomon_atan_float_1 + z * (gnomon_atan_float_2 + z * (gnomon_atan_float_3 + z * gnomon_atan_float_4)));
+    float angle = t + t * z * p;
+
+    // The result is angle + eighths pi / 4. pi / 4 has two parts, the first of 21 bits, whose multiples are exact.
+    float eighths = gnomon_select(wide, 1.0, 0.0);
+    angle = gnomon_select(steep, -1.0 * angle, angle);
+    eighths = gnomon_select(steep, 2.0 - eighths, eighths);
+    angle = gnomon_select(x < 0.0, -1.0 * angle, angle);
+    eighths = gnomon_select(x < 0.0, 4.0 - eighths, eighths);
+    angle = eighths * 0.785398006439208984375 + (angle + eighths * gnomon_trigonometry_quarter_pi_low);
+    return gnomon_select(y < 0.0, -1.0 * angle, angle);
+}
+
+#endif
+
+// scattering/rectified.h ----------------------------------------------------------------------------------------------
+// Rectified coordinates of a shadow map of a directional light, in which all points of a view ray lie in one row and at
+// one depth (Peters et al. 2017, Sec. 5.1.1 and App. A; Baran et al. 2010).
+//
+// Axes: x and y along the map, z along the propagation of light. Origin: the eye. Any unit of length.
+//
+//     radius  = |(x, y)|            distance between the eye and a light ray: column of the rectified map
+//     azimuth = angle of (x, y)     slice that holds the light direction and the eye: row of the rectified map
+//     polar   = atan2(radius, z)    angle between the view ray and the propagation of light, in [0, pi]
+//
+// Looking into the light is polar = pi. On a light ray z grows with depth, and polar falls with it. Hence a depth of
+// the rectified map is a falling function of polar, signed as all depths of this library: -1 looking into the light, +1
+// along it. Two measures of depth are there: the angle itself, as in the paper, and its cosine, which needs no inverse
+// trigonometry. Both are stretched to [-1, 1] over the range of the view rays and a guard band of 10%: an occluder
+// outside the range of the view rays then keeps a distance to all of them.
+//
+//     omega_l    the direction to the light:  (0, 0, -1)
+//     omega_p    the direction from a point of the view ray to the camera
+//     dot product of the two = cosine of polar;  cosine of the scattering angle = -cosine of polar
+//
+// One texel of the rectified map is one light ray: position eye + radius (cos azimuth, sin azimuth) in the map, and its
+// depth there as z leads to polar.
+#ifndef GNOMON_SCATTERING_RECTIFIED_H
+#define GNOMON_SCATTERING_RECTIFIED_H
+
+static const float gnomon_rectified_guard = 0.55; // half of a range with a guard band of 10%
+static const float rectified_pi = 3.1415926535897932;
+static const float rectified_two_pi = 6.2831853071795865;
+
+/// A distance from the eye across the light, and two angles.
+struct rectified_position { float radius, azimuth, polar; };
+
+/// A map of angles, or of cosines, to depths: the value of depth 0, and depth per unit.
+struct rectified_range { float middle, scale; };
+
+/// The rectified coordinates of a point: radius at least 0, azimuth in [-pi, pi], polar in [0, pi]. On the axis azimuth
+/// is 0; polar of the eye is 0.
+/// Domain: |x|, |y| and |z| are 0 or in [2^-60, 2^60] in float, [2^-500, 2^500] in double.
+/// NaN: a NaN in each coordinate that depends on it.
+/// Error: radius 2 2^-p relative; azimuth 2.6 ulp, polar 3.6 ulp.
+/// Source: Peters 2017, Sec. 5.1.1; Baran 2010
+rectified_position rectified_from_position(float x, float y, float z)
+{
+    rectified_position r;
+    r.radius = gnomon_sqrt(x * x + y * y);
+    r.azimuth = polynomial_atan2(y, x);
+    r.polar = polynomial_atan2(r.radius, z);
+    return r;
+}
+
+/// The cosine of polar at a point, in [-1, 1]; 1 at the eye.
+/// Domain: as for rectified_from_position.
+/// NaN: NaN.
+/// Error: 4 2^-p.
+float rectified_cosine(float x, float y, float z)
+{
+    float distance_ = gnomon_sqrt((x * x + y * y) + z * z);
+    bool at_eye = distance_ == 0.0;
+    float cosine = z / gnomon_select(at_eye, 1.0, distance_);
+    return clamp_or_nan(gnomon_select(at_eye, 1.0, cosine), -1.0, 1.0);
+}
+
+/// The range whose depths are in [-1 / 1.1, 1 / 1.1] from least to most, or in a part of that if most - least is below
+/// narrowest.
+rectified_range gnomon_rectified_range_over(float least, float most, float narrowest)
+{
+    rectified_range r;
+    r.middle = 0.5 * (least + most);
+    r.scale = 1.0 / (gnomon_rectified_guard * gnomon_max(most - least, narrowest));
+    return r;
+}
+
+/// The range of depth for polar angles of view rays in [least, most].
+/// Domain: least <= most, in [0, pi]. A range narrower than 2^-10, or turned around, counts as one of 2^-10 around its
+/// middle.
+/// NaN: a middle of NaN.
+/// Source: Peters 2017, Sec. 5.1.1
+rectified_range rectified_polar_range(float least, float most)
+{
+    return gnomon_rectified_range_over(least, most, 0.0009765625);
+}
+
+/// The range of depth for cosines of polar angles of view rays in [least, most], which are those of the greatest and of
+/// the least angle.
+/// Domain: least <= most, in [-1, 1]. A range narrower than 2^-16, or turned around, counts as one of 2^-16 around its
+/// middle.
+/// NaN: a middle of NaN.
+rectified_range rectified_cosine_range(float least, float most)
+{
+    return gnomon_rectified_range_over(least, most, 0.0000152587890625);
+}
+
+/// Signed depth of a polar angle, in [-1, 1]: falls with the angle, -1 on the side of rays that look into the light.
+/// Domain: polar in [0, pi], a range by rectified_polar_range.
+/// NaN: NaN, which encoders store as the far plane.
+/// Source: Peters 2017, Sec. 5.1.1
+float rectified_polar_depth(float polar, rectified_range range)
+{
+    return clamp_or_nan((range.middle - polar) * range.scale, -1.0, 1.0);
+}
+
+/// Signed depth of the cosine of a polar angle, in [-1, 1]: grows with the cosine, -1 on the side of rays that look
+/// into the light.
+/// Domain: cosine in [-1, 1], a range by rectified_cosine_range.
+/// NaN: NaN, which encoders store as the far plane.
+float rectified_cosine_depth(float cosine, rectified_range range)
+{
+    return clamp_or_nan((cosine - range.middle) * range.scale, -1.0, 1.0);
+}
+
+/// An angle within three half turns of 0, moved by a full turn to at most half a turn from 0.
+float gnomon_rectified_wrapped(float angle)
+{
+    float turn = rectified_two_pi;
+    float half_turn = rectified_pi;
+    float up = gnomon_select(angle + half_turn < 0.0, angle + turn, angle);
+    return gnomon_select(half_turn < up, up - turn, up);
+}
+
+/// The position across the rows of a map, in [0, rows], of an azimuth; the centre of the first row is at 0.5. The map
+/// begins at the azimuth start and spans an angle of span; an azimuth outside goes to the nearer end.
+/// Domain: azimuth and start in [-pi, pi], span in [2^-20, 2 pi]; elsewhere a number in [0, rows].
+/// NaN: NaN for an azimuth of NaN.
+float rectified_row_of(float azimuth, float start, float span, float rows)
+{
+    float whole = gnomon_max(span, 0.00000095367431640625);
+    float from_middle = gnomon_rectified_wrapped((azimuth - start) - 0.5 * whole);
+    return clamp_or_nan((from_middle / whole + 0.5) * rows, 0.0, rows);
+}
+
+/// The position along a row of prefix averages, at least 0, of a ray that ends at radius; the centre of the first texel
+/// is at 0.5. The average up to the far side of texel u, radius (u + 1) radius_step, stands at its centre, u + 1/2: so
+/// the position is half a texel before that of the light ray itself.
+/// Domain: radius at least 0, radius_step above 0.
+/// NaN: NaN.
+float rectified_column_of(float radius, float radius_step) { return gnomon_max(0.0, radius / radius_step - 0.5); }
+
+/// The greater extent of a texel of the rectified map at radius, in texels of the shadow map: along the row
+/// radius_step, across it radius times azimuth_step, the angle between rows.
+/// Domain: at least 0 each.
+/// NaN: NaN.
+float rectified_footprint(float radius, float radius_step, float azimuth_step, float texels_per_length)
+{
+    return gnomon_max(radius_step, radius * azimuth_step) * texels_per_length;
+}
+
+/// The mip level, in [0, 16], whose texels are as wide as a footprint of so many texels of level 0.
+/// Domain: any footprint.
+/// NaN: 0.
+/// Error: 4 2^-p of the largest level.
+float rectified_level(float footprint)
+{
+    float wide = clamp_or_nan(footprint, 1.0, 65536.0);
+    return clamp_or_high(polynomial_log(gnomon_max(wide, 1.0)) * gnomon_exp_log2_e, 0.0, 16.0);
+}
+
+#endif
+
+#endif
