@@ -155,12 +155,12 @@ scattering_stage room_stage(double aspect)
     std::vector<glm::vec2> windows;
     for (int i = 0; i < 5; ++i)
         windows.emplace_back(-8.0f + 2.4f * static_cast<float>(i), -6.8f + 2.4f * static_cast<float>(i));
-    add_windowed_wall(walls, bars, {half, 0, chamber}, {edge, top, near}, {1.7f, 4.6f}, windows);
+    add_windowed_wall(walls, bars, {half, 0, chamber}, {edge, top, near}, {1.8f, 5.2f}, windows);
     add_block(walls, {-edge, 0, chamber}, {-half, top, near});
     add_block(walls, {-edge, 0, near}, {edge, top, near + thickness});
     add_block(dark, {-edge, 0, chamber - thickness}, {edge, top, chamber});
     // The wall before the chamber has an opening.
-    const glm::vec2 opening(0.2f, 2.0f), sill(1.5f, 3.6f);
+    const glm::vec2 opening(0.6f, 2.4f), sill(1.2f, 3.2f);
     add_block(walls, {-half, 0, far - thickness}, {opening.x, top, far});
     add_block(walls, {opening.y, 0, far - thickness}, {half, top, far});
     add_block(walls, {opening.x, 0, far - thickness}, {opening.y, sill.x, far});
@@ -181,7 +181,7 @@ scattering_stage room_stage(double aspect)
         .scattering = glm::vec3(0.05f), .absorption = glm::vec3(0.005f), .asymmetry = 0.2f, .irradiance = sunlight(9)};
     scattering_stage result = staged({"room", {walls, dark, roof, floor, bars, benches}}, {-0.8, -0.62, -0.18},
                                      {{-2.6, 1.9, 4.4}, {0.5, 2.5, -9}, 58}, air, aspect);
-    result.interests = {{"opening", "opening to the dark chamber", {1.1f, 2.5f, far}, orange},
+    result.interests = {{"opening", "opening to the dark chamber", {1.5f, 2.2f, far}, orange},
                         {"leak", "corner under the roof", {-half, 5.2f, -6.5f}, green},
                         {"shaft", "shafts of light", {1.0f, 2.6f, -5}, cyan}};
     return result;
@@ -205,7 +205,7 @@ scattering_stage trees_stage(double aspect)
                      .irradiance = sunlight(1.3f)};
     const scene world{"trees", {wood, leaves, ground({0, 0, -3}, 28, 30, {0.20f, 0.18f, 0.09f})}};
     scattering_stage result = staged(world, {0.30, -0.62, 0.72}, {{0.3, 1.7, 10.5}, {0.0, 4.4, -4}, 52}, air, aspect);
-    result.interests = {{"crown", "behind a crown", {-2.6f, 7.0f, 3.5f}, orange},
+    result.interests = {{"crown", "behind a crown", {-2.0f, 5.4f, 3.0f}, orange},
                         {"ground", "between the trunks", {0.0f, 1.5f, -6}, green}};
     return result;
 }
@@ -242,19 +242,19 @@ scattering_stage entering_stage(double aspect, bool present)
     // The gaps between the planks of the roof.
     for (int i = 0; i < 7; ++i) {
         const float x = -7.2f + 2.4f * static_cast<float>(i);
-        add_block(roof, {glm::max(x - 0.85f, -edge), top, depth.x}, {glm::min(x + 0.85f, edge), top + 0.1f, depth.y});
+        add_block(roof, {glm::max(x - 0.7f, -edge), top, depth.x}, {glm::min(x + 0.7f, edge), top + 0.1f, depth.y});
     }
     for (const float z : {-5.5f, -1.6f, 2.6f, 7.2f})
         add_block(roof, {-edge, top + 0.1f, z - 1}, {edge, top + 0.2f, z + 1});
     scene world{present ? "entering" : "before_entering",
                 {walls, roof, ground({0, 0, 1.5f}, 14.4f, 16.4f, {0.34f, 0.32f, 0.28f})}};
-    if (present) add_dragon(world, upright({0.6f, 3.4f, 0.2f}, glm::vec3(2), 0.6f));
+    if (present) add_dragon(world, upright({0.5f, 3.4f, 1.4f}, glm::vec3(2.6f), 0.6f));
     const medium air{
         .scattering = glm::vec3(0.05f), .absorption = glm::vec3(0.003f), .asymmetry = 0.3f, .irradiance = sunlight(8)};
     scattering_stage result =
         staged(std::move(world), {0.30, -0.88, 0.22}, {{-1.2, 2.0, 9.0}, {0.3, 3.5, 0}, 54}, air, aspect);
-    result.interests = {{"above", "beams above the dragon", {0.4f, 5.6f, 0.5f}, orange},
-                        {"below", "shadow below the dragon", {0.9f, 1.8f, 0.8f}, green}};
+    result.interests = {{"above", "beams above the dragon", {-0.3f, 5.6f, 0.9f}, orange},
+                        {"below", "shadow below the dragon", {0.9f, 2.0f, 1.8f}, green}};
     return result;
 }
 

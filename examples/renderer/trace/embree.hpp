@@ -1,4 +1,4 @@
-// Embree of the version that the build has found, 4 or 3, for the tracer alone: no other file sees its types.
+// Embree of the version that the build has found, 4 or 3, for this folder's sources alone: no other file sees its types.
 #pragma once
 
 #if GNOMON_EMBREE == 3
@@ -9,9 +9,18 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <type_traits>
 #include <vector>
 
 namespace gnomon::renderer {
+
+struct release {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+
+template <class T> using owned = std::unique_ptr<std::remove_pointer_t<T>, release>;
 
 // A point of a translucent triangle that a ray crosses, by the weights of its second and third corner.
 struct crossing {
@@ -52,6 +61,19 @@ inline void occlude(const int* valid, RTCScene scene, RTCRay16& rays, crossings*
     rtcOccluded16(valid, scene, &query.context, &rays);
 }
 
+struct user_query {
+    RTCIntersectContext context;
+    void* data;
+};
+
+// Sends a ray through user geometry, whose callbacks read the data by user_data().
+inline void intersect(RTCScene scene, RTCRayHit& ray, void* data)
+{
+    user_query query{{}, data};
+    rtcInitIntersectContext(&query.context);
+    rtcIntersect1(scene, &query.context, &ray);
+}
+
 #else
 
 struct ray_query {
@@ -78,7 +100,28 @@ inline void occlude(const int* valid, RTCScene scene, RTCRay16& rays, crossings*
     rtcOccluded16(valid, scene, &rays, &how);
 }
 
+struct user_query {
+    RTCRayQueryContext context;
+    void* data;
+};
+
+inline void intersect(RTCScene scene, RTCRayHit& ray, void* data)
+{
+    user_query query{{}, data};
+    rtcInitRayQueryContext(&query.context);
+    RTCIntersectArguments how;
+    rtcInitIntersectArguments(&how);
+    how.context = &query.context;
+    rtcIntersect1(scene, &ray, &how);
+}
+
 #endif
+
+inline void* user_data(const RTCIntersectFunctionNArguments* args)
+{
+    // The context is the first member of the query that intersect() has passed.
+    return reinterpret_cast<const user_query*>(args->context)->data;
+}
 
 // The occlusion filter of translucent geometry: notes a crossing and lets the ray pass, if crossings are gathered.
 inline void gather(const RTCFilterFunctionNArguments* args)

@@ -16,17 +16,9 @@
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
-#include <type_traits>
 #include <vector>
 
 namespace gnomon::renderer {
-
-struct release {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-
-template <class T> using owned = std::unique_ptr<std::remove_pointer_t<T>, release>;
 
 inline glm::vec3 unit(const glm::vec3& v)
 {

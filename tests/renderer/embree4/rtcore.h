@@ -5,12 +5,13 @@
 
 enum RTCRayQueryFlags { RTC_RAY_QUERY_FLAG_INCOHERENT = 0, RTC_RAY_QUERY_FLAG_COHERENT = 1 << 16 };
 
-struct RTCIntersectArguments {
-    RTCRayQueryFlags flags;
-};
-
 struct RTCRayQueryContext {
     unsigned instID;
+};
+
+struct RTCIntersectArguments {
+    RTCRayQueryFlags flags;
+    RTCRayQueryContext* context;
 };
 
 struct RTCOccludedArguments {
@@ -23,3 +24,4 @@ void rtcInitRayQueryContext(RTCRayQueryContext* context);
 void rtcInitOccludedArguments(RTCOccludedArguments* args);
 void rtcIntersect16(const int* valid, RTCScene scene, RTCRayHit16* rayhit, RTCIntersectArguments* args = nullptr);
 void rtcOccluded16(const int* valid, RTCScene scene, RTCRay16* ray, RTCOccludedArguments* args = nullptr);
+void rtcIntersect1(RTCScene scene, RTCRayHit* rayhit, RTCIntersectArguments* args = nullptr);
