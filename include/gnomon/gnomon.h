@@ -6,6 +6,7 @@
 #include "comparators/hamburger_cholesky.h"
 #include "comparators/percentage_closer_soft.h"
 #include "comparators/prism.h"
+#include "comparators/ray_march.h"
 #include "comparators/three_pass_cover.h"
 #include "filters/cascade.h"
 #include "filters/convolution.h"

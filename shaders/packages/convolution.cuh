@@ -1058,17 +1058,14 @@ GNOMON_INLINE constexpr convolution_sum<Real> convolution_unorm8_add_two(convolu
     return convolution_add(state, Real(2) * c.c3 - Real(1), Real(2) * c.c4 - Real(1), next_weight);
 }
 
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 32 x 8 UNORM texel.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-/// Error: as convolution_end.
+/// The series at depth z_f, with an offset, from the channels of a 32 x 8 UNORM texel.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real convolution_unorm8_intensity(channels32<Real> c, Real z_f)
+GNOMON_INLINE constexpr Real convolution_unorm8_series(channels32<Real> c, Real z_f, Real offset)
 {
     convolution_settings<Real> settings;
     settings.terms = Real(16);
     settings.damping = Real(0);
-    settings.offset = literal<Real>(convolution_unorm8_offset);
+    settings.offset = offset;
     settings.span = Real(0.9375);
     convolution_sum state = convolution_begin(z_f, settings);
     state = convolution_unorm8_add_two(state, c.t1, literal<Real>(convolution_unorm8_weight1),
@@ -1088,6 +1085,28 @@ GNOMON_INLINE constexpr Real convolution_unorm8_intensity(channels32<Real> c, Re
     state = convolution_unorm8_add_two(state, c.t8, literal<Real>(convolution_unorm8_weight15),
                                        literal<Real>(convolution_unorm8_weight16));
     return convolution_end(state);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 32 x 8 UNORM texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+/// Error: as convolution_end.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real convolution_unorm8_intensity(channels32<Real> c, Real z_f)
+{
+    return convolution_unorm8_series(c, z_f, literal<Real>(convolution_unorm8_offset));
+}
+
+/// Shadow intensity in [0, 1] as convolution_unorm8_intensity, but with the edge of the wave at z_f itself, where the
+/// intensity is 1/2: for receivers in air, as of single scattering, which are in no map.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+/// Error: as convolution_end.
+/// Source: Peters 2017, Sec. 5.5.1
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real convolution_unorm8_centred_intensity(channels32<Real> c, Real z_f)
+{
+    return convolution_unorm8_series(c, z_f, Real(0));
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon

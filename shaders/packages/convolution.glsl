@@ -470,22 +470,22 @@ struct channels32 { channels4 t1, t2, t3, t4, t5, t6, t7, t8; };
 
 const float convolution_unorm8_offset = 0.04088048903297681; // 1.92644766 / (pi terms span)
 const float convolution_unorm8_darkening = 0.055;
-const float convolution_unorm8_weight1 = 0.6366197723675814;
-const float convolution_unorm8_weight2 = 0.2122065907891938;
-const float convolution_unorm8_weight3 = 0.12732395447351627;
-const float convolution_unorm8_weight4 = 0.09094568176679733;
-const float convolution_unorm8_weight5 = 0.0707355302630646;
-const float convolution_unorm8_weight6 = 0.05787452476068922;
-const float convolution_unorm8_weight7 = 0.04897075172058318;
-const float convolution_unorm8_weight8 = 0.04244131815783876;
-const float convolution_unorm8_weight9 = 0.03744822190397538;
-const float convolution_unorm8_weight10 = 0.033506303808820075;
-const float convolution_unorm8_weight11 = 0.030315227255599115;
-const float convolution_unorm8_weight12 = 0.02767912053772093;
-const float convolution_unorm8_weight13 = 0.025464790894703257;
-const float convolution_unorm8_weight14 = 0.0235785100876882;
-const float convolution_unorm8_weight15 = 0.021952405943709702;
-const float convolution_unorm8_weight16 = 0.020536121689276817;
+const float gnomon_convolution_unorm8_weight1 = 0.6366197723675814;
+const float gnomon_convolution_unorm8_weight2 = 0.2122065907891938;
+const float gnomon_convolution_unorm8_weight3 = 0.12732395447351627;
+const float gnomon_convolution_unorm8_weight4 = 0.09094568176679733;
+const float gnomon_convolution_unorm8_weight5 = 0.0707355302630646;
+const float gnomon_convolution_unorm8_weight6 = 0.05787452476068922;
+const float gnomon_convolution_unorm8_weight7 = 0.04897075172058318;
+const float gnomon_convolution_unorm8_weight8 = 0.04244131815783876;
+const float gnomon_convolution_unorm8_weight9 = 0.03744822190397538;
+const float gnomon_convolution_unorm8_weight10 = 0.033506303808820075;
+const float gnomon_convolution_unorm8_weight11 = 0.030315227255599115;
+const float gnomon_convolution_unorm8_weight12 = 0.02767912053772093;
+const float gnomon_convolution_unorm8_weight13 = 0.025464790894703257;
+const float gnomon_convolution_unorm8_weight14 = 0.0235785100876882;
+const float gnomon_convolution_unorm8_weight15 = 0.021952405943709702;
+const float gnomon_convolution_unorm8_weight16 = 0.020536121689276817;
 
 /// The channels of the term at phase and of the next term.
 channels4 gnomon_convolution_unorm8_encode_two(convolution_phase phase)
@@ -544,27 +544,52 @@ convolution_sum gnomon_convolution_unorm8_add_two(convolution_sum state, channel
     return convolution_add(state, 2.0 * c.c3 - 1.0, 2.0 * c.c4 - 1.0, next_weight);
 }
 
+/// The series at depth z_f, with an offset, from the channels of a 32 x 8 UNORM texel.
+float gnomon_convolution_unorm8_series(channels32 c, float z_f, float offset)
+{
+    convolution_settings settings;
+    settings.terms = 16.0;
+    settings.damping = 0.0;
+    settings.offset = offset;
+    settings.span = 0.9375;
+    convolution_sum state = convolution_begin(z_f, settings);
+    state = gnomon_convolution_unorm8_add_two(state, c.t1, gnomon_convolution_unorm8_weight1,
+                                              gnomon_convolution_unorm8_weight2);
+    state = gnomon_convolution_unorm8_add_two(state, c.t2, gnomon_convolution_unorm8_weight3,
+                                              gnomon_convolution_unorm8_weight4);
+    state = gnomon_convolution_unorm8_add_two(state, c.t3, gnomon_convolution_unorm8_weight5,
+                                              gnomon_convolution_unorm8_weight6);
+    state = gnomon_convolution_unorm8_add_two(state, c.t4, gnomon_convolution_unorm8_weight7,
+                                              gnomon_convolution_unorm8_weight8);
+    state = gnomon_convolution_unorm8_add_two(state, c.t5, gnomon_convolution_unorm8_weight9,
+                                              gnomon_convolution_unorm8_weight10);
+    state = gnomon_convolution_unorm8_add_two(state, c.t6, gnomon_convolution_unorm8_weight11,
+                                              gnomon_convolution_unorm8_weight12);
+    state = gnomon_convolution_unorm8_add_two(state, c.t7, gnomon_convolution_unorm8_weight13,
+                                              gnomon_convolution_unorm8_weight14);
+    state = gnomon_convolution_unorm8_add_two(state, c.t8, gnomon_convolution_unorm8_weight15,
+                                              gnomon_convolution_unorm8_weight16);
+    return convolution_end(state);
+}
+
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 32 x 8 UNORM texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
 /// Error: as convolution_end.
 float convolution_unorm8_intensity(channels32 c, float z_f)
 {
-    convolution_settings settings;
-    settings.terms = 16.0;
-    settings.damping = 0.0;
-    settings.offset = convolution_unorm8_offset;
-    settings.span = 0.9375;
-    convolution_sum state = convolution_begin(z_f, settings);
-    state = gnomon_convolution_unorm8_add_two(state, c.t1, convolution_unorm8_weight1, convolution_unorm8_weight2);
-    state = gnomon_convolution_unorm8_add_two(state, c.t2, convolution_unorm8_weight3, convolution_unorm8_weight4);
-    state = gnomon_convolution_unorm8_add_two(state, c.t3, convolution_unorm8_weight5, convolution_unorm8_weight6);
-    state = gnomon_convolution_unorm8_add_two(state, c.t4, convolution_unorm8_weight7, convolution_unorm8_weight8);
-    state = gnomon_convolution_unorm8_add_two(state, c.t5, convolution_unorm8_weight9, convolution_unorm8_weight10);
-    state = gnomon_convolution_unorm8_add_two(state, c.t6, convolution_unorm8_weight11, convolution_unorm8_weight12);
-    state = gnomon_convolution_unorm8_add_two(state, c.t7, convolution_unorm8_weight13, convolution_unorm8_weight14);
-    state = gnomon_convolution_unorm8_add_two(state, c.t8, convolution_unorm8_weight15, convolution_unorm8_weight16);
-    return convolution_end(state);
+    return gnomon_convolution_unorm8_series(c, z_f, convolution_unorm8_offset);
+}
+
+/// Shadow intensity in [0, 1] as convolution_unorm8_intensity, but with the edge of the wave at z_f itself, where the
+/// intensity is 1/2: for receivers in air, as of single scattering, which are in no map.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+/// Error: as convolution_end.
+/// Source: Peters 2017, Sec. 5.5.1
+float convolution_unorm8_centred_intensity(channels32 c, float z_f)
+{
+    return gnomon_convolution_unorm8_series(c, z_f, 0.0);
 }
 
 #endif

@@ -578,16 +578,13 @@ inline convolution_sum convolution_unorm8_add_two(convolution_sum state, channel
     return convolution_add(state, 2.0f * c.c3 - 1.0f, 2.0f * c.c4 - 1.0f, next_weight);
 }
 
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 32 x 8 UNORM texel.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-/// Error: as convolution_end.
-inline float convolution_unorm8_intensity(channels32 c, float z_f)
+/// The series at depth z_f, with an offset, from the channels of a 32 x 8 UNORM texel.
+inline float convolution_unorm8_series(channels32 c, float z_f, float offset)
 {
     convolution_settings settings;
     settings.terms = 16.0f;
     settings.damping = 0.0f;
-    settings.offset = convolution_unorm8_offset;
+    settings.offset = offset;
     settings.span = 0.9375f;
     convolution_sum state = convolution_begin(z_f, settings);
     state = convolution_unorm8_add_two(state, c.t1, convolution_unorm8_weight1, convolution_unorm8_weight2);
@@ -599,6 +596,26 @@ inline float convolution_unorm8_intensity(channels32 c, float z_f)
     state = convolution_unorm8_add_two(state, c.t7, convolution_unorm8_weight13, convolution_unorm8_weight14);
     state = convolution_unorm8_add_two(state, c.t8, convolution_unorm8_weight15, convolution_unorm8_weight16);
     return convolution_end(state);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 32 x 8 UNORM texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+/// Error: as convolution_end.
+inline float convolution_unorm8_intensity(channels32 c, float z_f)
+{
+    return convolution_unorm8_series(c, z_f, convolution_unorm8_offset);
+}
+
+/// Shadow intensity in [0, 1] as convolution_unorm8_intensity, but with the edge of the wave at z_f itself, where the
+/// intensity is 1/2: for receivers in air, as of single scattering, which are in no map.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+/// Error: as convolution_end.
+/// Source: Peters 2017, Sec. 5.5.1
+inline float convolution_unorm8_centred_intensity(channels32 c, float z_f)
+{
+    return convolution_unorm8_series(c, z_f, 0.0f);
 }
 
 } // namespace gnomon

@@ -411,22 +411,22 @@ struct channels32_ { t1_: channels4_, t2_: channels4_, t3_: channels4_, t4_: cha
 
 const convolution_unorm8_offset: f32 = 0x1.4ee49ap-5; // 0.04088048903297681, 1.92644766 / (pi terms span)
 const convolution_unorm8_darkening: f32 = 0x1.c28f5cp-5; // 0.055
-const convolution_unorm8_weight1_: f32 = 0x1.45f306p-1; // 0.6366197723675814
-const convolution_unorm8_weight2_: f32 = 0x1.b2995ep-3; // 0.2122065907891938
-const convolution_unorm8_weight3_: f32 = 0x1.04c26cp-3; // 0.12732395447351627
-const convolution_unorm8_weight4_: f32 = 0x1.748376p-4; // 0.09094568176679733
-const convolution_unorm8_weight5_: f32 = 0x1.21bb94p-4; // 0.0707355302630646
-const convolution_unorm8_weight6_: f32 = 0x1.da1bacp-5; // 0.05787452476068922
-const convolution_unorm8_weight7_: f32 = 0x1.912b1cp-5; // 0.04897075172058318
-const convolution_unorm8_weight8_: f32 = 0x1.5bade6p-5; // 0.04244131815783876
-const convolution_unorm8_weight9_: f32 = 0x1.32c69ep-5; // 0.03744822190397538
-const convolution_unorm8_weight10_: f32 = 0x1.127bdp-5; // 0.033506303808820075
-const convolution_unorm8_weight11_: f32 = 0x1.f0af48p-6; // 0.030315227255599115
-const convolution_unorm8_weight12_: f32 = 0x1.c57ea6p-6; // 0.02767912053772093
-const convolution_unorm8_weight13_: f32 = 0x1.a13714p-6; // 0.025464790894703257
-const convolution_unorm8_weight14_: f32 = 0x1.824f7p-6; // 0.0235785100876882
-const convolution_unorm8_weight15_: f32 = 0x1.67ab1p-6; // 0.021952405943709702
-const convolution_unorm8_weight16_: f32 = 0x1.5076bcp-6; // 0.020536121689276817
+const gnomon_convolution_unorm8_weight1_: f32 = 0x1.45f306p-1; // 0.6366197723675814
+const gnomon_convolution_unorm8_weight2_: f32 = 0x1.b2995ep-3; // 0.2122065907891938
+const gnomon_convolution_unorm8_weight3_: f32 = 0x1.04c26cp-3; // 0.12732395447351627
+const gnomon_convolution_unorm8_weight4_: f32 = 0x1.748376p-4; // 0.09094568176679733
+const gnomon_convolution_unorm8_weight5_: f32 = 0x1.21bb94p-4; // 0.0707355302630646
+const gnomon_convolution_unorm8_weight6_: f32 = 0x1.da1bacp-5; // 0.05787452476068922
+const gnomon_convolution_unorm8_weight7_: f32 = 0x1.912b1cp-5; // 0.04897075172058318
+const gnomon_convolution_unorm8_weight8_: f32 = 0x1.5bade6p-5; // 0.04244131815783876
+const gnomon_convolution_unorm8_weight9_: f32 = 0x1.32c69ep-5; // 0.03744822190397538
+const gnomon_convolution_unorm8_weight10_: f32 = 0x1.127bdp-5; // 0.033506303808820075
+const gnomon_convolution_unorm8_weight11_: f32 = 0x1.f0af48p-6; // 0.030315227255599115
+const gnomon_convolution_unorm8_weight12_: f32 = 0x1.c57ea6p-6; // 0.02767912053772093
+const gnomon_convolution_unorm8_weight13_: f32 = 0x1.a13714p-6; // 0.025464790894703257
+const gnomon_convolution_unorm8_weight14_: f32 = 0x1.824f7p-6; // 0.0235785100876882
+const gnomon_convolution_unorm8_weight15_: f32 = 0x1.67ab1p-6; // 0.021952405943709702
+const gnomon_convolution_unorm8_weight16_: f32 = 0x1.5076bcp-6; // 0.020536121689276817
 
 /// The channels of the term at phase and of the next term.
 fn gnomon_convolution_unorm8_encode_two(phase: convolution_phase) -> channels4_
@@ -487,25 +487,50 @@ fn gnomon_convolution_unorm8_add_two(given_state: convolution_sum, c: channels4_
     return convolution_add(state, 2.0 * c.c3_ - 1.0, 2.0 * c.c4_ - 1.0, next_weight);
 }
 
+/// The series at depth z_f, with an offset, from the channels of a 32 x 8 UNORM texel.
+fn gnomon_convolution_unorm8_series(c: channels32_, z_f: f32, offset: f32) -> f32
+{
+    var settings: convolution_settings;
+    settings.terms = 16.0;
+    settings.damping = 0.0;
+    settings.offset = offset;
+    settings.span = 0.9375;
+    var state = convolution_begin(z_f, settings);
+    state = gnomon_convolution_unorm8_add_two(state, c.t1_, gnomon_convolution_unorm8_weight1_,
+                                              gnomon_convolution_unorm8_weight2_);
+    state = gnomon_convolution_unorm8_add_two(state, c.t2_, gnomon_convolution_unorm8_weight3_,
+                                              gnomon_convolution_unorm8_weight4_);
+    state = gnomon_convolution_unorm8_add_two(state, c.t3_, gnomon_convolution_unorm8_weight5_,
+                                              gnomon_convolution_unorm8_weight6_);
+    state = gnomon_convolution_unorm8_add_two(state, c.t4_, gnomon_convolution_unorm8_weight7_,
+                                              gnomon_convolution_unorm8_weight8_);
+    state = gnomon_convolution_unorm8_add_two(state, c.t5_, gnomon_convolution_unorm8_weight9_,
+                                              gnomon_convolution_unorm8_weight10_);
+    state = gnomon_convolution_unorm8_add_two(state, c.t6_, gnomon_convolution_unorm8_weight11_,
+                                              gnomon_convolution_unorm8_weight12_);
+    state = gnomon_convolution_unorm8_add_two(state, c.t7_, gnomon_convolution_unorm8_weight13_,
+                                              gnomon_convolution_unorm8_weight14_);
+    state = gnomon_convolution_unorm8_add_two(state, c.t8_, gnomon_convolution_unorm8_weight15_,
+                                              gnomon_convolution_unorm8_weight16_);
+    return convolution_end(state);
+}
+
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 32 x 8 UNORM texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
 /// Error: as convolution_end.
 fn convolution_unorm8_intensity(c: channels32_, z_f: f32) -> f32
 {
-    var settings: convolution_settings;
-    settings.terms = 16.0;
-    settings.damping = 0.0;
-    settings.offset = convolution_unorm8_offset;
-    settings.span = 0.9375;
-    var state = convolution_begin(z_f, settings);
-    state = gnomon_convolution_unorm8_add_two(state, c.t1_, convolution_unorm8_weight1_, convolution_unorm8_weight2_);
-    state = gnomon_convolution_unorm8_add_two(state, c.t2_, convolution_unorm8_weight3_, convolution_unorm8_weight4_);
-    state = gnomon_convolution_unorm8_add_two(state, c.t3_, convolution_unorm8_weight5_, convolution_unorm8_weight6_);
-    state = gnomon_convolution_unorm8_add_two(state, c.t4_, convolution_unorm8_weight7_, convolution_unorm8_weight8_);
-    state = gnomon_convolution_unorm8_add_two(state, c.t5_, convolution_unorm8_weight9_, convolution_unorm8_weight10_);
-    state = gnomon_convolution_unorm8_add_two(state, c.t6_, convolution_unorm8_weight11_, convolution_unorm8_weight12_);
-    state = gnomon_convolution_unorm8_add_two(state, c.t7_, convolution_unorm8_weight13_, convolution_unorm8_weight14_);
-    state = gnomon_convolution_unorm8_add_two(state, c.t8_, convolution_unorm8_weight15_, convolution_unorm8_weight16_);
-    return convolution_end(state);
+    return gnomon_convolution_unorm8_series(c, z_f, convolution_unorm8_offset);
+}
+
+/// Shadow intensity in [0, 1] as convolution_unorm8_intensity, but with the edge of the wave at z_f itself, where the
+/// intensity is 1/2: for receivers in air, as of single scattering, which are in no map.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+/// Error: as convolution_end.
+/// Source: Peters 2017, Sec. 5.5.1
+fn convolution_unorm8_centred_intensity(c: channels32_, z_f: f32) -> f32
+{
+    return gnomon_convolution_unorm8_series(c, z_f, 0.0);
 }

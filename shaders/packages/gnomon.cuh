@@ -2321,6 +2321,95 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif
 
+// comparators/ray_march.h ---------------------------------------------------------------------------------------------
+// Single scattering by ray marching through a shadow map (Toth & Umenhoffer 2009), with which prefiltered single
+// scattering (Peters et al. 2017, Sec. 5) is compared: the view ray is cut into steps of equal length, and each step
+// looks up the map once.
+//
+//     march = ray_march_begin(transmittance);                   of one step, exp(-sigma_t Delta)
+//     march = ray_march_add(march, z, z_f);                     for every step, from the camera on
+//     intensity = ray_march_end(march);
+//
+// Step k is looked up at (k + jitter) Delta, where z is the depth of the map there and z_f that of the ray. A jitter
+// that differs between neighbouring pixels makes noise of what would be bands: ray_march_jitter.
+//
+// Light scattered in step k is proportional to what the air transmits on the way from its begin, and a factor that all
+// steps share cancels in the mean. So the weights are exact, for any extinction; the sample within a step is not.
+#ifndef GNOMON_COMPARATORS_RAY_MARCH_H
+#define GNOMON_COMPARATORS_RAY_MARCH_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The weight in shadow so far, that of all steps so far, the transmittance up to the next step, and that of one step.
+template <class Real, class = require_real<Real>> struct ray_march { Real shadowed, weight, transmittance, step; };
+
+/// The state before the first step.
+/// Domain: any transmittance of one step, limited to [0, 1].
+/// NaN: 1, clear air.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr ray_march<Real> ray_march_begin(Real step_transmittance)
+{
+    ray_march<Real> r;
+    r.shadowed = Real(0);
+    r.weight = Real(0);
+    r.transmittance = Real(1);
+    r.step = clamp_or_high(step_transmittance, Real(0), Real(1));
+    return r;
+}
+
+/// The state after one more step, at depth z_f, where the shadow map has depth z.
+/// Domain: any depths.
+/// NaN: lit, for either.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr ray_march<Real> ray_march_add(ray_march<Real> state, Real z, Real z_f)
+{
+    state.shadowed = state.shadowed + gnomon_select(z < z_f, state.transmittance, Real(0));
+    state.weight = state.weight + state.transmittance;
+    state.transmittance = state.transmittance * state.step;
+    return state;
+}
+
+/// Shadow intensity of the ray in [0, 1]: the part of the light scattered towards the camera that the shadow takes
+/// away.
+/// NaN: 0, lit; so before the first step.
+/// Error: of n steps, 3 n 2^-p, for sums in the precision of p bits.
+/// Source: Peters 2017, Sec. 5.5.1; Toth & Umenhoffer 2009
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real ray_march_end(ray_march<Real> state)
+{
+    return saturate_or_zero(state.shadowed / state.weight);
+}
+
+inline constexpr double ray_march_jitter_x = 0.06711056;
+inline constexpr double ray_march_jitter_y = 0.00583715;
+inline constexpr double ray_march_jitter_scale = 52.9829189;
+
+/// x - floor(x), in [0, 1).
+/// Domain: |x| <= 2^21.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real ray_march_fraction(Real x)
+{
+    Real fraction = x - nearest_integer(x - Real(0.5));
+    return gnomon_select(fraction < Real(1), fraction, Real(0));
+}
+
+/// A number in [0, 1) for the pixel at column x and row y: interleaved gradient noise, of which the values of 3 x 3
+/// pixels lie evenly in [0, 1), so that a small blur removes what it leaves.
+/// Domain: whole numbers, limited to [0, 65536].
+/// NaN: that of column or row 65536.
+/// Source: Jimenez 2014
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real ray_march_jitter(Real x, Real y)
+{
+    Real column = clamp_or_high(x, Real(0), Real(65536));
+    Real row = clamp_or_high(y, Real(0), Real(65536));
+    Real inner = ray_march_fraction(literal<Real>(ray_march_jitter_x) * column + literal<Real>(ray_march_jitter_y) *
+                                    row);
+    return ray_march_fraction(literal<Real>(ray_march_jitter_scale) * inner);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
 // comparators/three_pass_cover.h --------------------------------------------------------------------------------------
 // The coverage map of Hong & Oh ("Efficient motion blurred shadows using a temporal shadow map", 2017): texels that one
 // surface covers throughout the shutter, found from fragments of prisms (prism.h) in passes over the geometry.
@@ -9414,17 +9503,14 @@ GNOMON_INLINE constexpr convolution_sum<Real> convolution_unorm8_add_two(convolu
     return convolution_add(state, Real(2) * c.c3 - Real(1), Real(2) * c.c4 - Real(1), next_weight);
 }
 
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 32 x 8 UNORM texel.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-/// Error: as convolution_end.
+/// The series at depth z_f, with an offset, from the channels of a 32 x 8 UNORM texel.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real convolution_unorm8_intensity(channels32<Real> c, Real z_f)
+GNOMON_INLINE constexpr Real convolution_unorm8_series(channels32<Real> c, Real z_f, Real offset)
 {
     convolution_settings<Real> settings;
     settings.terms = Real(16);
     settings.damping = Real(0);
-    settings.offset = literal<Real>(convolution_unorm8_offset);
+    settings.offset = offset;
     settings.span = Real(0.9375);
     convolution_sum state = convolution_begin(z_f, settings);
     state = convolution_unorm8_add_two(state, c.t1, literal<Real>(convolution_unorm8_weight1),
@@ -9444,6 +9530,28 @@ GNOMON_INLINE constexpr Real convolution_unorm8_intensity(channels32<Real> c, Re
     state = convolution_unorm8_add_two(state, c.t8, literal<Real>(convolution_unorm8_weight15),
                                        literal<Real>(convolution_unorm8_weight16));
     return convolution_end(state);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 32 x 8 UNORM texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+/// Error: as convolution_end.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real convolution_unorm8_intensity(channels32<Real> c, Real z_f)
+{
+    return convolution_unorm8_series(c, z_f, literal<Real>(convolution_unorm8_offset));
+}
+
+/// Shadow intensity in [0, 1] as convolution_unorm8_intensity, but with the edge of the wave at z_f itself, where the
+/// intensity is 1/2: for receivers in air, as of single scattering, which are in no map.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+/// Error: as convolution_end.
+/// Source: Peters 2017, Sec. 5.5.1
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real convolution_unorm8_centred_intensity(channels32<Real> c, Real z_f)
+{
+    return convolution_unorm8_series(c, z_f, Real(0));
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon

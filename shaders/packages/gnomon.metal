@@ -1789,6 +1789,88 @@ inline float prism_map_bytes(float fragments, float ranges, float texels)
 
 #endif
 
+// comparators/ray_march.h ---------------------------------------------------------------------------------------------
+// Single scattering by ray marching through a shadow map (Toth & Umenhoffer 2009), with which prefiltered single
+// scattering (Peters et al. 2017, Sec. 5) is compared: the view ray is cut into steps of equal length, and each step
+// looks up the map once.
+//
+//     march = ray_march_begin(transmittance);                   of one step, exp(-sigma_t Delta)
+//     march = ray_march_add(march, z, z_f);                     for every step, from the camera on
+//     intensity = ray_march_end(march);
+//
+// Step k is looked up at (k + jitter) Delta, where z is the depth of the map there and z_f that of the ray. A jitter
+// that differs between neighbouring pixels makes noise of what would be bands: ray_march_jitter.
+//
+// Light scattered in step k is proportional to what the air transmits on the way from its begin, and a factor that all
+// steps share cancels in the mean. So the weights are exact, for any extinction; the sample within a step is not.
+#ifndef GNOMON_COMPARATORS_RAY_MARCH_H
+#define GNOMON_COMPARATORS_RAY_MARCH_H
+
+namespace gnomon {
+
+/// The weight in shadow so far, that of all steps so far, the transmittance up to the next step, and that of one step.
+struct ray_march { float shadowed, weight, transmittance, step; };
+
+/// The state before the first step.
+/// Domain: any transmittance of one step, limited to [0, 1].
+/// NaN: 1, clear air.
+inline ray_march ray_march_begin(float step_transmittance)
+{
+    ray_march r;
+    r.shadowed = 0.0f;
+    r.weight = 0.0f;
+    r.transmittance = 1.0f;
+    r.step = clamp_or_high(step_transmittance, 0.0f, 1.0f);
+    return r;
+}
+
+/// The state after one more step, at depth z_f, where the shadow map has depth z.
+/// Domain: any depths.
+/// NaN: lit, for either.
+inline ray_march ray_march_add(ray_march state, float z, float z_f)
+{
+    state.shadowed = state.shadowed + gnomon_select(z < z_f, state.transmittance, 0.0f);
+    state.weight = state.weight + state.transmittance;
+    state.transmittance = state.transmittance * state.step;
+    return state;
+}
+
+/// Shadow intensity of the ray in [0, 1]: the part of the light scattered towards the camera that the shadow takes
+/// away.
+/// NaN: 0, lit; so before the first step.
+/// Error: of n steps, 3 n 2^-p, for sums in the precision of p bits.
+/// Source: Peters 2017, Sec. 5.5.1; Toth & Umenhoffer 2009
+inline float ray_march_end(ray_march state) { return saturate_or_zero(state.shadowed / state.weight); }
+
+constant constexpr float ray_march_jitter_x = 0.06711056f;
+constant constexpr float ray_march_jitter_y = 0.00583715f;
+constant constexpr float ray_march_jitter_scale = 52.9829189f;
+
+/// x - floor(x), in [0, 1).
+/// Domain: |x| <= 2^21.
+inline float ray_march_fraction(float x)
+{
+    float fraction = x - nearest_integer(x - 0.5f);
+    return gnomon_select(fraction < 1.0f, fraction, 0.0f);
+}
+
+/// A number in [0, 1) for the pixel at column x and row y: interleaved gradient noise, of which the values of 3 x 3
+/// pixels lie evenly in [0, 1), so that a small blur removes what it leaves.
+/// Domain: whole numbers, limited to [0, 65536].
+/// NaN: that of column or row 65536.
+/// Source: Jimenez 2014
+inline float ray_march_jitter(float x, float y)
+{
+    float column = clamp_or_high(x, 0.0f, 65536.0f);
+    float row = clamp_or_high(y, 0.0f, 65536.0f);
+    float inner = ray_march_fraction(ray_march_jitter_x * column + ray_march_jitter_y * row);
+    return ray_march_fraction(ray_march_jitter_scale * inner);
+}
+
+} // namespace gnomon
+
+#endif
+
 // comparators/three_pass_cover.h --------------------------------------------------------------------------------------
 // The coverage map of Hong & Oh ("Efficient motion blurred shadows using a temporal shadow map", 2017): texels that one
 // surface covers throughout the shutter, found from fragments of prisms (prism.h) in passes over the geometry.
@@ -8320,16 +8402,13 @@ inline convolution_sum convolution_unorm8_add_two(convolution_sum state, channel
     return convolution_add(state, 2.0f * c.c3 - 1.0f, 2.0f * c.c4 - 1.0f, next_weight);
 }
 
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 32 x 8 UNORM texel.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-/// Error: as convolution_end.
-inline float convolution_unorm8_intensity(channels32 c, float z_f)
+/// The series at depth z_f, with an offset, from the channels of a 32 x 8 UNORM texel.
+inline float convolution_unorm8_series(channels32 c, float z_f, float offset)
 {
     convolution_settings settings;
     settings.terms = 16.0f;
     settings.damping = 0.0f;
-    settings.offset = convolution_unorm8_offset;
+    settings.offset = offset;
     settings.span = 0.9375f;
     convolution_sum state = convolution_begin(z_f, settings);
     state = convolution_unorm8_add_two(state, c.t1, convolution_unorm8_weight1, convolution_unorm8_weight2);
@@ -8341,6 +8420,26 @@ inline float convolution_unorm8_intensity(channels32 c, float z_f)
     state = convolution_unorm8_add_two(state, c.t7, convolution_unorm8_weight13, convolution_unorm8_weight14);
     state = convolution_unorm8_add_two(state, c.t8, convolution_unorm8_weight15, convolution_unorm8_weight16);
     return convolution_end(state);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 32 x 8 UNORM texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+/// Error: as convolution_end.
+inline float convolution_unorm8_intensity(channels32 c, float z_f)
+{
+    return convolution_unorm8_series(c, z_f, convolution_unorm8_offset);
+}
+
+/// Shadow intensity in [0, 1] as convolution_unorm8_intensity, but with the edge of the wave at z_f itself, where the
+/// intensity is 1/2: for receivers in air, as of single scattering, which are in no map.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+/// Error: as convolution_end.
+/// Source: Peters 2017, Sec. 5.5.1
+inline float convolution_unorm8_centred_intensity(channels32 c, float z_f)
+{
+    return convolution_unorm8_series(c, z_f, 0.0f);
 }
 
 } // namespace gnomon

@@ -1683,6 +1683,81 @@ fn prism_map_bytes(fragments: f32, ranges: f32, texels: f32) -> f32
     return (16.0 * fragments + 24.0 * ranges) + 8.0 * texels;
 }
 
+// comparators/ray_march.h ---------------------------------------------------------------------------------------------
+// Single scattering by ray marching through a shadow map (Toth & Umenhoffer 2009), with which prefiltered single
+// scattering (Peters et al. 2017, Sec. 5) is compared: the view ray is cut into steps of equal length, and each step
+// looks up the map once.
+//
+//     march = ray_march_begin(transmittance);                   of one step, exp(-sigma_t Delta)
+//     march = ray_march_add(march, z, z_f);                     for every step, from the camera on
+//     intensity = ray_march_end(march);
+//
+// Step k is looked up at (k + jitter) Delta, where z is the depth of the map there and z_f that of the ray. A jitter
+// that differs between neighbouring pixels makes noise of what would be bands: ray_march_jitter.
+//
+// Light scattered in step k is proportional to what the air transmits on the way from its begin, and a factor that all
+// steps share cancels in the mean. So the weights are exact, for any extinction; the sample within a step is not.
+
+/// The weight in shadow so far, that of all steps so far, the transmittance up to the next step, and that of one step.
+struct ray_march { shadowed: f32, weight: f32, transmittance: f32, step: f32 }
+
+/// The state before the first step.
+/// Domain: any transmittance of one step, limited to [0, 1].
+/// NaN: 1, clear air.
+fn ray_march_begin(step_transmittance: f32) -> ray_march
+{
+    var r: ray_march;
+    r.shadowed = 0.0;
+    r.weight = 0.0;
+    r.transmittance = 1.0;
+    r.step = clamp_or_high(step_transmittance, 0.0, 1.0);
+    return r;
+}
+
+/// The state after one more step, at depth z_f, where the shadow map has depth z.
+/// Domain: any depths.
+/// NaN: lit, for either.
+fn ray_march_add(given_state: ray_march, z: f32, z_f: f32) -> ray_march
+{
+    var state = given_state;
+    state.shadowed = state.shadowed + gnomon_select(z < z_f, state.transmittance, 0.0);
+    state.weight = state.weight + state.transmittance;
+    state.transmittance = state.transmittance * state.step;
+    return state;
+}
+
+/// Shadow intensity of the ray in [0, 1]: the part of the light scattered towards the camera that the shadow takes
+/// away.
+/// NaN: 0, lit; so before the first step.
+/// Error: of n steps, 3 n 2^-p, for sums in the precision of p bits.
+/// Source: Peters 2017, Sec. 5.5.1; Toth & Umenhoffer 2009
+fn ray_march_end(state: ray_march) -> f32 { return saturate_or_zero(state.shadowed / state.weight); }
+
+const ray_march_jitter_x: f32 = 0x1.12e286p-4; // 0.06711056
+const ray_march_jitter_y: f32 = 0x1.7e8b2p-8; // 0.00583715
+const ray_march_jitter_scale: f32 = 0x1.a7dd04p+5; // 52.9829189
+
+/// x - floor(x), in [0, 1).
+/// Domain: |x| <= 2^21.
+fn gnomon_ray_march_fraction(x: f32) -> f32
+{
+    let fraction = x - nearest_integer(x - 0.5);
+    return gnomon_select(fraction < 1.0, fraction, 0.0);
+}
+
+/// A number in [0, 1) for the pixel at column x and row y: interleaved gradient noise, of which the values of 3 x 3
+/// pixels lie evenly in [0, 1), so that a small blur removes what it leaves.
+/// Domain: whole numbers, limited to [0, 65536].
+/// NaN: that of column or row 65536.
+/// Source: Jimenez 2014
+fn ray_march_jitter(x: f32, y: f32) -> f32
+{
+    let column = clamp_or_high(x, 0.0, 65536.0);
+    let row = clamp_or_high(y, 0.0, 65536.0);
+    let inner = gnomon_ray_march_fraction(ray_march_jitter_x * column + ray_march_jitter_y * row);
+    return gnomon_ray_march_fraction(ray_march_jitter_scale * inner);
+}
+
 // comparators/three_pass_cover.h --------------------------------------------------------------------------------------
 // The coverage map of Hong & Oh ("Efficient motion blurred shadows using a temporal shadow map", 2017): texels that one
 // surface covers throughout the shutter, found from fragments of prisms (prism.h) in passes over the geometry.
@@ -7666,22 +7741,22 @@ struct channels32_ { t1_: channels4_, t2_: channels4_, t3_: channels4_, t4_: cha
 
 const convolution_unorm8_offset: f32 = 0x1.4ee49ap-5; // 0.04088048903297681, 1.92644766 / (pi terms span)
 const convolution_unorm8_darkening: f32 = 0x1.c28f5cp-5; // 0.055
-const convolution_unorm8_weight1_: f32 = 0x1.45f306p-1; // 0.6366197723675814
-const convolution_unorm8_weight2_: f32 = 0x1.b2995ep-3; // 0.2122065907891938
-const convolution_unorm8_weight3_: f32 = 0x1.04c26cp-3; // 0.12732395447351627
-const convolution_unorm8_weight4_: f32 = 0x1.748376p-4; // 0.09094568176679733
-const convolution_unorm8_weight5_: f32 = 0x1.21bb94p-4; // 0.0707355302630646
-const convolution_unorm8_weight6_: f32 = 0x1.da1bacp-5; // 0.05787452476068922
-const convolution_unorm8_weight7_: f32 = 0x1.912b1cp-5; // 0.04897075172058318
-const convolution_unorm8_weight8_: f32 = 0x1.5bade6p-5; // 0.04244131815783876
-const convolution_unorm8_weight9_: f32 = 0x1.32c69ep-5; // 0.03744822190397538
-const convolution_unorm8_weight10_: f32 = 0x1.127bdp-5; // 0.033506303808820075
-const convolution_unorm8_weight11_: f32 = 0x1.f0af48p-6; // 0.030315227255599115
-const convolution_unorm8_weight12_: f32 = 0x1.c57ea6p-6; // 0.02767912053772093
-const convolution_unorm8_weight13_: f32 = 0x1.a13714p-6; // 0.025464790894703257
-const convolution_unorm8_weight14_: f32 = 0x1.824f7p-6; // 0.0235785100876882
-const convolution_unorm8_weight15_: f32 = 0x1.67ab1p-6; // 0.021952405943709702
-const convolution_unorm8_weight16_: f32 = 0x1.5076bcp-6; // 0.020536121689276817
+const gnomon_convolution_unorm8_weight1_: f32 = 0x1.45f306p-1; // 0.6366197723675814
+const gnomon_convolution_unorm8_weight2_: f32 = 0x1.b2995ep-3; // 0.2122065907891938
+const gnomon_convolution_unorm8_weight3_: f32 = 0x1.04c26cp-3; // 0.12732395447351627
+const gnomon_convolution_unorm8_weight4_: f32 = 0x1.748376p-4; // 0.09094568176679733
+const gnomon_convolution_unorm8_weight5_: f32 = 0x1.21bb94p-4; // 0.0707355302630646
+const gnomon_convolution_unorm8_weight6_: f32 = 0x1.da1bacp-5; // 0.05787452476068922
+const gnomon_convolution_unorm8_weight7_: f32 = 0x1.912b1cp-5; // 0.04897075172058318
+const gnomon_convolution_unorm8_weight8_: f32 = 0x1.5bade6p-5; // 0.04244131815783876
+const gnomon_convolution_unorm8_weight9_: f32 = 0x1.32c69ep-5; // 0.03744822190397538
+const gnomon_convolution_unorm8_weight10_: f32 = 0x1.127bdp-5; // 0.033506303808820075
+const gnomon_convolution_unorm8_weight11_: f32 = 0x1.f0af48p-6; // 0.030315227255599115
+const gnomon_convolution_unorm8_weight12_: f32 = 0x1.c57ea6p-6; // 0.02767912053772093
+const gnomon_convolution_unorm8_weight13_: f32 = 0x1.a13714p-6; // 0.025464790894703257
+const gnomon_convolution_unorm8_weight14_: f32 = 0x1.824f7p-6; // 0.0235785100876882
+const gnomon_convolution_unorm8_weight15_: f32 = 0x1.67ab1p-6; // 0.021952405943709702
+const gnomon_convolution_unorm8_weight16_: f32 = 0x1.5076bcp-6; // 0.020536121689276817
 
 /// The channels of the term at phase and of the next term.
 fn gnomon_convolution_unorm8_encode_two(phase: convolution_phase) -> channels4_
@@ -7742,27 +7817,52 @@ fn gnomon_convolution_unorm8_add_two(given_state: convolution_sum, c: channels4_
     return convolution_add(state, 2.0 * c.c3_ - 1.0, 2.0 * c.c4_ - 1.0, next_weight);
 }
 
+/// The series at depth z_f, with an offset, from the channels of a 32 x 8 UNORM texel.
+fn gnomon_convolution_unorm8_series(c: channels32_, z_f: f32, offset: f32) -> f32
+{
+    var settings: convolution_settings;
+    settings.terms = 16.0;
+    settings.damping = 0.0;
+    settings.offset = offset;
+    settings.span = 0.9375;
+    var state = convolution_begin(z_f, settings);
+    state = gnomon_convolution_unorm8_add_two(state, c.t1_, gnomon_convolution_unorm8_weight1_,
+                                              gnomon_convolution_unorm8_weight2_);
+    state = gnomon_convolution_unorm8_add_two(state, c.t2_, gnomon_convolution_unorm8_weight3_,
+                                              gnomon_convolution_unorm8_weight4_);
+    state = gnomon_convolution_unorm8_add_two(state, c.t3_, gnomon_convolution_unorm8_weight5_,
+                                              gnomon_convolution_unorm8_weight6_);
+    state = gnomon_convolution_unorm8_add_two(state, c.t4_, gnomon_convolution_unorm8_weight7_,
+                                              gnomon_convolution_unorm8_weight8_);
+    state = gnomon_convolution_unorm8_add_two(state, c.t5_, gnomon_convolution_unorm8_weight9_,
+                                              gnomon_convolution_unorm8_weight10_);
+    state = gnomon_convolution_unorm8_add_two(state, c.t6_, gnomon_convolution_unorm8_weight11_,
+                                              gnomon_convolution_unorm8_weight12_);
+    state = gnomon_convolution_unorm8_add_two(state, c.t7_, gnomon_convolution_unorm8_weight13_,
+                                              gnomon_convolution_unorm8_weight14_);
+    state = gnomon_convolution_unorm8_add_two(state, c.t8_, gnomon_convolution_unorm8_weight15_,
+                                              gnomon_convolution_unorm8_weight16_);
+    return convolution_end(state);
+}
+
 /// Shadow intensity in [0, 1] at depth z_f from the channels of a 32 x 8 UNORM texel.
 /// Domain: any z_f, limited to [-1, 1].
 /// NaN: 0, lit.
 /// Error: as convolution_end.
 fn convolution_unorm8_intensity(c: channels32_, z_f: f32) -> f32
 {
-    var settings: convolution_settings;
-    settings.terms = 16.0;
-    settings.damping = 0.0;
-    settings.offset = convolution_unorm8_offset;
-    settings.span = 0.9375;
-    var state = convolution_begin(z_f, settings);
-    state = gnomon_convolution_unorm8_add_two(state, c.t1_, convolution_unorm8_weight1_, convolution_unorm8_weight2_);
-    state = gnomon_convolution_unorm8_add_two(state, c.t2_, convolution_unorm8_weight3_, convolution_unorm8_weight4_);
-    state = gnomon_convolution_unorm8_add_two(state, c.t3_, convolution_unorm8_weight5_, convolution_unorm8_weight6_);
-    state = gnomon_convolution_unorm8_add_two(state, c.t4_, convolution_unorm8_weight7_, convolution_unorm8_weight8_);
-    state = gnomon_convolution_unorm8_add_two(state, c.t5_, convolution_unorm8_weight9_, convolution_unorm8_weight10_);
-    state = gnomon_convolution_unorm8_add_two(state, c.t6_, convolution_unorm8_weight11_, convolution_unorm8_weight12_);
-    state = gnomon_convolution_unorm8_add_two(state, c.t7_, convolution_unorm8_weight13_, convolution_unorm8_weight14_);
-    state = gnomon_convolution_unorm8_add_two(state, c.t8_, convolution_unorm8_weight15_, convolution_unorm8_weight16_);
-    return convolution_end(state);
+    return gnomon_convolution_unorm8_series(c, z_f, convolution_unorm8_offset);
+}
+
+/// Shadow intensity in [0, 1] as convolution_unorm8_intensity, but with the edge of the wave at z_f itself, where the
+/// intensity is 1/2: for receivers in air, as of single scattering, which are in no map.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+/// Error: as convolution_end.
+/// Source: Peters 2017, Sec. 5.5.1
+fn convolution_unorm8_centred_intensity(c: channels32_, z_f: f32) -> f32
+{
+    return gnomon_convolution_unorm8_series(c, z_f, 0.0);
 }
 
 // storage/exponential.h -----------------------------------------------------------------------------------------------

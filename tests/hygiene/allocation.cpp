@@ -135,6 +135,20 @@ TEST_CASE("no pass of soft shadows allocates")
     CHECK(moments4_summed::intensity(channels, 784.0f, 0.5f) > 0.9f);
 }
 
+TEST_CASE("no pass over min-max rows allocates")
+{
+    using namespace gnomon;
+    std::array<float, 32 * 2> depths{};
+    std::array<depth_interval, min_max_nodes(32) * 2> nodes{};
+    std::array<min_max_block_weight, 3> blocks{};
+    const map_view<depth_interval> tree{nodes, min_max_nodes(32), 2};
+    const long before = allocations;
+    build_min_max_rows({depths, 32, 2}, tree, {0, 2});
+    const float shadow = min_max_intensity({depths, 32, 2}, tree, min_max_weights_of(0.9, blocks), 1, 20.5f, 0.5f);
+    CHECK(allocations == before);
+    CHECK(shadow == 1);
+}
+
 TEST_CASE_TEMPLATE("no pass over summed-area tables allocates", Table, gnomon::moments4_summed, gnomon::moments6_summed,
                    gnomon::variance_summed)
 {

@@ -104,3 +104,15 @@ TEST_CASE("the settings of formats are those that their comments derive")
     for (std::size_t k = 0; k < weights.size(); ++k) CHECK(weights[k] == convolution_weight(double(k + 1), series));
     CHECK(std::isfinite(half_decode(half_encode(float(std::exp(2 * exponential_variance_half_exponent))))));
 }
+
+TEST_CASE("the centred series is that without an offset, 1/2 at the depth of the texel")
+{
+    for (int k = -19; k < 20; ++k) {
+        const double z = 0.05 * k;
+        const auto channels = convolution_unorm8_encode(z);
+        CHECK(convolution_unorm8_centred_intensity(channels, z) == doctest::Approx(0.5));
+        for (const double z_f : {-0.9, -0.2, 0.3, 0.9})
+            CHECK(convolution_unorm8_centred_intensity(channels, z_f) ==
+                  doctest::Approx(convolution_unorm8_intensity(channels, z_f + convolution_unorm8_offset)));
+    }
+}

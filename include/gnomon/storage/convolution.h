@@ -94,16 +94,13 @@ GNOMON_DETAIL_KERNEL GNOMON_T(convolution_sum) convolution_unorm8_add_two(GNOMON
     return convolution_add(state, Real(2) * c.c3 - Real(1), Real(2) * c.c4 - Real(1), next_weight);
 }
 
-/// Shadow intensity in [0, 1] at depth z_f from the channels of a 32 x 8 UNORM texel.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: 0, lit.
-/// Error: as convolution_end.
-GNOMON_KERNEL Real convolution_unorm8_intensity(GNOMON_T(channels32) c, Real z_f)
+/// The series at depth z_f, with an offset, from the channels of a 32 x 8 UNORM texel.
+GNOMON_DETAIL_KERNEL Real convolution_unorm8_series(GNOMON_T(channels32) c, Real z_f, Real offset)
 {
     GNOMON_T(convolution_settings) settings;
     settings.terms = Real(16);
     settings.damping = Real(0);
-    settings.offset = GNOMON_LITERAL(convolution_unorm8_offset);
+    settings.offset = offset;
     settings.span = Real(0.9375);
     convolution_sum state = convolution_begin(z_f, settings);
     state = convolution_unorm8_add_two(state, c.t1, GNOMON_LITERAL(convolution_unorm8_weight1),
@@ -123,6 +120,26 @@ GNOMON_KERNEL Real convolution_unorm8_intensity(GNOMON_T(channels32) c, Real z_f
     state = convolution_unorm8_add_two(state, c.t8, GNOMON_LITERAL(convolution_unorm8_weight15),
                                        GNOMON_LITERAL(convolution_unorm8_weight16));
     return convolution_end(state);
+}
+
+/// Shadow intensity in [0, 1] at depth z_f from the channels of a 32 x 8 UNORM texel.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+/// Error: as convolution_end.
+GNOMON_KERNEL Real convolution_unorm8_intensity(GNOMON_T(channels32) c, Real z_f)
+{
+    return convolution_unorm8_series(c, z_f, GNOMON_LITERAL(convolution_unorm8_offset));
+}
+
+/// Shadow intensity in [0, 1] as convolution_unorm8_intensity, but with the edge of the wave at z_f itself, where the
+/// intensity is 1/2: for receivers in air, as of single scattering, which are in no map.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: 0, lit.
+/// Error: as convolution_end.
+/// Source: Peters 2017, Sec. 5.5.1
+GNOMON_KERNEL Real convolution_unorm8_centred_intensity(GNOMON_T(channels32) c, Real z_f)
+{
+    return convolution_unorm8_series(c, z_f, Real(0));
 }
 
 GNOMON_NAMESPACE_END

@@ -1,0 +1,185 @@
+// Gnomon 0.1.0, ray_march.cl: shadow filtering in OpenCL C, this file alone.
+// Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
+// Written by shaders/package.py from the kernels in include/gnomon: change them there.
+#ifndef GNOMON_RAY_MARCH_CL
+#define GNOMON_RAY_MARCH_CL
+
+// the language --------------------------------------------------------------------------------------------------------
+// OpenCL C from version 1.2, full profile. Put #pragma OPENCL FP_CONTRACT OFF before the kernels, and build without
+// relaxed mathematics, for the same bits as on the CPU.
+#if !defined(__OPENCL_C_VERSION__) && !defined(__OPENCL_CPP_VERSION__)
+#error "gnomon: ray_march.cl is OpenCL C; another language's compiler reads it"
+#elif defined(GNOMON_PORTABLE_H)
+#error "gnomon: ray_march.cl and the headers of include/gnomon exclude one another"
+#elif defined(GNOMON_PACKAGE) && GNOMON_PACKAGE != 100
+#error "gnomon: ray_march.cl is not of the same version as a package before it"
+#endif
+#define GNOMON_PACKAGE 100 // major, minor and patch, two digits each
+
+#ifndef GNOMON_PORTABLE_OPENCL_H
+#define GNOMON_PORTABLE_OPENCL_H
+
+#if defined(__OPENCL_C_VERSION__) && __OPENCL_C_VERSION__ < 120
+#error "gnomon: -cl-std=CL1.2 or later needed"
+#elif defined(__EMBEDDED_PROFILE__)
+#error "gnomon: the full profile needed: the embedded one rounds as it likes"
+#elif defined(__FAST_RELAXED_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "gnomon: -cl-fast-relaxed-math and -cl-finite-math-only void the treatment of NaN; build without them"
+#endif
+
+__constant float gnomon_pivot_floor = 9.31322574615478515625e-10f; // 2^-30
+
+static inline float gnomon_select(bool mask, float a, float b) { return mask ? a : b; }
+static inline bool gnomon_any(bool mask) { return mask; }
+static inline float gnomon_abs(float a) { return fabs(a); }
+static inline float gnomon_sqrt(float a) { return sqrt(a); }
+// x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
+// bits of NaN are above the bound, which is one.
+static inline float gnomon_kept(float x) { return as_float(min(as_int(x), 0x7FC00000)); }
+static inline float gnomon_apart(float x) { return as_float(min(as_uint(x), 0xFFC00000u)); }
+// A compiler that knew both operands would write min() and max(), which lose a NaN. gnomon_kept would not hide an operand
+// that is kept already, since two minima of integers become one; gnomon_apart is another one.
+static inline float gnomon_min(float a, float b) { return gnomon_select(a < b, a, gnomon_apart(b)); }
+static inline float gnomon_max(float a, float b) { return gnomon_select(b < a, a, gnomon_apart(b)); }
+static inline float gnomon_product(float a, float b) { return gnomon_kept(a * b); }
+static inline float gnomon_sum(float a, float b) { return gnomon_kept(a + b); }
+static inline float gnomon_difference(float a, float b) { return gnomon_kept(a - b); }
+static inline float gnomon_fma(float a, float b, float c) { return gnomon_kept(fma(a, b, c)); }
+// By integers, so that a NaN becomes 0 where a compiler assumes that there is none.
+static inline float gnomon_saturate(float x)
+{
+    int bits = as_int(x);
+    return gnomon_select(bits > 0x7F800000, 0.0f, as_float(min(max(bits, 0), 0x3F800000)));
+}
+// a without the low half of its significand.
+static inline float gnomon_high_part(float a) { return as_float(as_uint(a) & 0xFFFFF000u); }
+// The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
+static inline float gnomon_power_of_two(float n) { return as_float((as_uint(n + 12582912.0f) << 23) + 0x3F800000u); }
+
+#endif
+
+// numerics/round.h ----------------------------------------------------------------------------------------------------
+// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
+// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
+#ifndef GNOMON_NUMERICS_ROUND_H
+#define GNOMON_NUMERICS_ROUND_H
+
+/// The whole number nearest to x, ties to even.
+/// Domain: |x| <= 2^22 in float, 2^51 in double.
+/// NaN: stays NaN.
+static inline float nearest_integer(float x)
+{
+    float rounder = -12582912.0f;
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
+}
+
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+static inline float nearest_natural(float x)
+{
+    float rounder = 8388608.0f;
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
+#endif
+
+// numerics/select.h ---------------------------------------------------------------------------------------------------
+// Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
+#ifndef GNOMON_NUMERICS_SELECT_H
+#define GNOMON_NUMERICS_SELECT_H
+
+/// x clamped to [low, high].
+/// NaN: stays NaN, so that the last step of a kernel can answer it.
+static inline float clamp_or_nan(float x, float low, float high) { return gnomon_min(high, gnomon_max(low, x)); }
+
+/// x clamped to [low, high].
+/// NaN: high.
+static inline float clamp_or_high(float x, float low, float high) { return gnomon_max(low, gnomon_min(x, high)); }
+
+/// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
+/// NaN: 0, lit.
+static inline float saturate_or_zero(float x) { return gnomon_saturate(x); }
+
+#endif
+
+// comparators/ray_march.h ---------------------------------------------------------------------------------------------
+// Single scattering by ray marching through a shadow map (Toth & Umenhoffer 2009), with which prefiltered single
+// scattering (Peters et al. 2017, Sec. 5) is compared: the view ray is cut into steps of equal length, and each step
+// looks up the map once.
+//
+//     march = ray_march_begin(transmittance);                   of one step, exp(-sigma_t Delta)
+//     march = ray_march_add(march, z, z_f);                     for every step, from the camera on
+//     intensity = ray_march_end(march);
+//
+// Step k is looked up at (k + jitter) Delta, where z is the depth of the map there and z_f that of the ray. A jitter
+// that differs between neighbouring pixels makes noise of what would be bands: ray_march_jitter.
+//
+// Light scattered in step k is proportional to what the air transmits on the way from its begin, and a factor that all
+// steps share cancels in the mean. So the weights are exact, for any extinction; the sample within a step is not.
+#ifndef GNOMON_COMPARATORS_RAY_MARCH_H
+#define GNOMON_COMPARATORS_RAY_MARCH_H
+
+/// The weight in shadow so far, that of all steps so far, the transmittance up to the next step, and that of one step.
+typedef struct ray_march ray_march;
+struct ray_march { float shadowed, weight, transmittance, step; };
+
+/// The state before the first step.
+/// Domain: any transmittance of one step, limited to [0, 1].
+/// NaN: 1, clear air.
+static inline ray_march ray_march_begin(float step_transmittance)
+{
+    ray_march r;
+    r.shadowed = 0.0f;
+    r.weight = 0.0f;
+    r.transmittance = 1.0f;
+    r.step = clamp_or_high(step_transmittance, 0.0f, 1.0f);
+    return r;
+}
+
+/// The state after one more step, at depth z_f, where the shadow map has depth z.
+/// Domain: any depths.
+/// NaN: lit, for either.
+static inline ray_march ray_march_add(ray_march state, float z, float z_f)
+{
+    state.shadowed = state.shadowed + gnomon_select(z < z_f, state.transmittance, 0.0f);
+    state.weight = state.weight + state.transmittance;
+    state.transmittance = state.transmittance * state.step;
+    return state;
+}
+
+/// Shadow intensity of the ray in [0, 1]: the part of the light scattered towards the camera that the shadow takes
+/// away.
+/// NaN: 0, lit; so before the first step.
+/// Error: of n steps, 3 n 2^-p, for sums in the precision of p bits.
+/// Source: Peters 2017, Sec. 5.5.1; Toth & Umenhoffer 2009
+static inline float ray_march_end(ray_march state) { return saturate_or_zero(state.shadowed / state.weight); }
+
+__constant float ray_march_jitter_x = 0.06711056f;
+__constant float ray_march_jitter_y = 0.00583715f;
+__constant float ray_march_jitter_scale = 52.9829189f;
+
+/// x - floor(x), in [0, 1).
+/// Domain: |x| <= 2^21.
+static inline float gnomon_ray_march_fraction(float x)
+{
+    float fraction = x - nearest_integer(x - 0.5f);
+    return gnomon_select(fraction < 1.0f, fraction, 0.0f);
+}
+
+/// A number in [0, 1) for the pixel at column x and row y: interleaved gradient noise, of which the values of 3 x 3
+/// pixels lie evenly in [0, 1), so that a small blur removes what it leaves.
+/// Domain: whole numbers, limited to [0, 65536].
+/// NaN: that of column or row 65536.
+/// Source: Jimenez 2014
+static inline float ray_march_jitter(float x, float y)
+{
+    float column = clamp_or_high(x, 0.0f, 65536.0f);
+    float row = clamp_or_high(y, 0.0f, 65536.0f);
+    float inner = gnomon_ray_march_fraction(ray_march_jitter_x * column + ray_march_jitter_y * row);
+    return gnomon_ray_march_fraction(ray_march_jitter_scale * inner);
+}
+
+#endif
+
+#endif
