@@ -24,10 +24,9 @@ std::vector<scattering_stage> all_stages()
 {
     mesh box{.name = "box", .positions = {}, .normals = {}, .triangles = {}};
     add_box(box, upright({0, 0.5f, 0}, {0.6f, 1, 0.4f}, 0.5f));
-    return {room_stage(aspect),           trees_stage(aspect),
-            gate_stage(aspect, 0),        entering_stage(aspect, false),
-            entering_stage(aspect, true), tower_stage(aspect),
-            antipode_stage(aspect),       hazy_model_stage({"", {box}}, aspect)};
+    return {room_stage(aspect),    veils_stage(aspect),           trees_stage(aspect),
+            gate_stage(aspect, 0), entering_stage(aspect, false), entering_stage(aspect, true),
+            tower_stage(aspect),   antipode_stage(aspect),        hazy_model_stage({"", {box}}, aspect)};
 }
 
 image<float> visible_shares(const scattering_stage& of, const image<float>& lengths)
@@ -183,4 +182,36 @@ TEST_CASE("a picture in haze is that of each channel in its own haze, and withou
     const view_ray against{of.eye.position, -of.light.forward}, along{of.eye.position, of.light.forward};
     of.air.asymmetry = 0.5f;
     CHECK(scattered_radiance(of.air, of.light, against, 5).x > 5 * scattered_radiance(of.air, of.light, along, 5).x);
+}
+
+TEST_CASE("forward shading of translucent layers adds the haze between them, dimmed by the nearer ones")
+{
+    const scattering_stage of = veils_stage(1.5);
+    const auto seen = rasterize_surface_layers(of.world, of.eye, 60, 40);
+    const per_surface<float> lengths = ray_lengths(of.eye, seen);
+    const shadow_volumes shadows(opaque_part(of.world), of.light);
+    const per_surface<float> visible = traced_scattering(shadows, of.air, of.eye, seen, lengths);
+    const per_surface<glm::vec3> radiances{{60, 40, {0.2f, 0.4f, 0.6f}},
+                                           std::vector<glm::vec3>(seen.layers.size(), {0.3f, 0.2f, 0.1f})};
+    const picture result = blended(seen, with_scattering(seen, radiances, lengths, visible, of));
+    std::size_t most = 0;
+    for (std::size_t pixel = 0; pixel < result.pixels.size(); ++pixel) {
+        const int index = static_cast<int>(pixel);
+        const view_ray ray = unit_ray(of.eye, index % 60, index / 60, 60, 40);
+        // From front to back: what is left of the light, and the scattering up to the surface before.
+        glm::vec3 left(1), before(0), expected(0);
+        const auto meet = [&](const glm::vec3& radiance, float length, const glm::vec3& opacity) {
+            const auto distance = static_cast<double>(length);
+            const double share = visible_share(shadows.lit(ray, distance), of.air, ray, distance);
+            const glm::vec3 haze = static_cast<float>(share) * scattered_radiance(of.air, of.light, ray, distance);
+            expected += left * (haze - before + opacity * transmittance(of.air, ray, distance) * radiance);
+            before = haze, left *= 1.f - opacity;
+        };
+        for (std::size_t i = seen.first[pixel + 1]; i-- > seen.first[pixel];)
+            meet(radiances.layers[i], lengths.layers[i], seen.opacities[i]);
+        meet(radiances.opaque.pixels[pixel], lengths.opaque.pixels[pixel], glm::vec3(1));
+        CHECK(glm::length(result.pixels[pixel] - expected) < 1e-5f);
+        most = std::max<std::size_t>(most, seen.first[pixel + 1] - seen.first[pixel]);
+    }
+    CHECK(most == 4);
 }

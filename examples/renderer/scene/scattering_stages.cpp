@@ -187,6 +187,17 @@ scattering_stage room_stage(double aspect)
     return result;
 }
 
+scattering_stage veils_stage(double aspect)
+{
+    scattering_stage result = room_stage(aspect);
+    result.world.name = "veils";
+    mesh veils = painted("veils", {0.50f, 0.20f, 0.16f});
+    veils.opacity = {0.35f, 0.50f, 0.55f};
+    for (const float z : {-7.5f, -5.0f, -2.5f, 0.f}) add_quad(veils, {-1.3f - 0.2f * z, 0.9f, z}, {3.4f, 0, 0.3f}, {0, 3.3f, 0});
+    result.world.meshes.push_back(std::move(veils));
+    return result;
+}
+
 scattering_stage trees_stage(double aspect)
 {
     mesh wood = painted("wood", {0.16f, 0.11f, 0.07f}), leaves = painted("leaves", {0.16f, 0.30f, 0.06f});

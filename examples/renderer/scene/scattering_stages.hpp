@@ -15,6 +15,10 @@ struct scattering_stage : stage {
 // chamber that no light reaches.
 scattering_stage room_stage(double aspect);
 
+// The room with translucent veils in the shafts of light: each surface has scattering before it. Veils cast no shadow here:
+// the casters are opaque_part() of the world.
+scattering_stage veils_stage(double aspect);
+
 // Figure 16: among trees, against the light.
 scattering_stage trees_stage(double aspect);
 

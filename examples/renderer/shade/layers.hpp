@@ -13,14 +13,23 @@
 
 namespace gnomon::renderer {
 
-// The visibility of the light at the opaque surfaces and at the layers of surface_layers.
-struct layer_visibility {
-    image<glm::vec3> opaque;
-    std::vector<glm::vec3> layers;
+// A value for each opaque surface and for each layer of surface_layers.
+template <class T> struct per_surface {
+    image<T> opaque;
+    std::vector<T> layers;
 };
 
-// The picture of the surfaces. Translucent ones scatter the light that they stop, from the sun, the sky and the earth, to
-// all sides alike.
+using layer_visibility = per_surface<glm::vec3>; // of the light
+
+// The radiance of each surface, that of the background where there is no opaque one. Translucent surfaces scatter the light
+// that they stop, from the sun, the sky and the earth, to all sides alike.
+per_surface<glm::vec3> shade_each(const scene& world, const camera& light, const surface_layers& seen,
+                                  const layer_visibility& visibility);
+
+// The picture of surfaces that send these radiances to the camera.
+picture blended(const surface_layers& seen, const per_surface<glm::vec3>& radiances);
+
+// The picture of the surfaces: shade_each(), blended.
 picture shade_layers(const scene& world, const camera& light, const surface_layers& seen,
                      const layer_visibility& visibility);
 

@@ -4,8 +4,40 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace gnomon::renderer {
+
+namespace {
+
+double distance_along(const view_ray& ray, const glm::vec3& place)
+{
+    return glm::dot(glm::dvec3(place) - ray.origin, ray.direction);
+}
+
+glm::vec3 in_haze(const glm::vec3& radiance, const view_ray& ray, double length, float visible,
+                  const scattering_stage& where)
+{
+    return transmittance(where.air, ray, length) * radiance +
+           visible * scattered_radiance(where.air, where.light, ray, length);
+}
+
+// Calls f(layer, ray) for each layer, with the ray of its pixel. Parallel over rows.
+template <class F> void for_each_layer(const camera& eye, const surface_layers& seen, const F& f)
+{
+    const int width = seen.opaque.width, height = seen.opaque.height;
+    tbb::parallel_for(0, height, [&](int y) {
+        for (int x = 0; x < width; ++x) {
+            const auto pixel =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+            const view_ray ray = unit_ray(eye, x, y, width, height);
+            for (std::size_t i = seen.first[pixel]; i < seen.first[pixel + 1]; ++i) f(i, ray);
+        }
+    });
+}
+
+} // namespace
 
 view_ray unit_ray(const camera& eye, int x, int y, int width, int height)
 {
@@ -20,8 +52,8 @@ image<float> ray_lengths(const camera& eye, const image<surface>& seen)
         for (int x = 0; x < seen.width; ++x) {
             const view_ray ray = unit_ray(eye, x, y, seen.width, seen.height);
             const surface& s = seen(x, y);
-            const double distance = s.valid() ? glm::dot(glm::dvec3(s.position) - ray.origin, ray.direction)
-                                              : eye.far_distance / glm::dot(ray.direction, eye.forward);
+            const double distance =
+                s.valid() ? distance_along(ray, s.position) : eye.far_distance / glm::dot(ray.direction, eye.forward);
             result(x, y) = static_cast<float>(distance);
         }
     });
@@ -52,12 +84,31 @@ picture with_scattering(const picture& surfaces, const image<float>& distance, c
 {
     picture result(surfaces.width, surfaces.height);
     tbb::parallel_for(0, result.height, [&](int y) {
-        for (int x = 0; x < result.width; ++x) {
-            const view_ray ray = unit_ray(where.eye, x, y, result.width, result.height);
-            const auto length = static_cast<double>(distance(x, y));
-            result(x, y) = transmittance(where.air, ray, length) * surfaces(x, y) +
-                           visibility(x, y) * scattered_radiance(where.air, where.light, ray, length);
-        }
+        for (int x = 0; x < result.width; ++x)
+            result(x, y) = in_haze(surfaces(x, y), unit_ray(where.eye, x, y, result.width, result.height),
+                                   static_cast<double>(distance(x, y)), visibility(x, y), where);
+    });
+    return result;
+}
+
+per_surface<float> ray_lengths(const camera& eye, const surface_layers& seen)
+{
+    per_surface<float> result{ray_lengths(eye, seen.opaque), std::vector<float>(seen.layers.size())};
+    for_each_layer(eye, seen, [&](std::size_t i, const view_ray& ray) {
+        result.layers[i] = static_cast<float>(distance_along(ray, seen.layers[i].position));
+    });
+    return result;
+}
+
+per_surface<glm::vec3> with_scattering(const surface_layers& seen, const per_surface<glm::vec3>& radiances,
+                                       const per_surface<float>& distance, const per_surface<float>& visibility,
+                                       const scattering_stage& where)
+{
+    per_surface<glm::vec3> result{with_scattering(radiances.opaque, distance.opaque, visibility.opaque, where),
+                                  radiances.layers};
+    for_each_layer(where.eye, seen, [&](std::size_t i, const view_ray& ray) {
+        result.layers[i] =
+            in_haze(radiances.layers[i], ray, static_cast<double>(distance.layers[i]), visibility.layers[i], where);
     });
     return result;
 }

@@ -269,4 +269,20 @@ image<float> traced_scattering(const shadow_volumes& shadows, const medium& air,
     return result;
 }
 
+per_surface<float> traced_scattering(const shadow_volumes& shadows, const medium& air, const camera& eye,
+                                     const surface_layers& seen, const per_surface<float>& lengths)
+{
+    const int width = seen.opaque.width, height = seen.opaque.height;
+    std::vector<view_ray> rays(seen.layers.size());
+    for (std::size_t pixel = 0; pixel + 1 < seen.first.size(); ++pixel) {
+        const int index = static_cast<int>(pixel);
+        for (std::size_t i = seen.first[pixel]; i < seen.first[pixel + 1]; ++i)
+            rays[i] = unit_ray(eye, index % width, index / width, width, height);
+    }
+    const std::vector<double> distances(lengths.layers.begin(), lengths.layers.end());
+    per_surface<float> result{traced_scattering(shadows, air, eye, lengths.opaque), std::vector<float>(rays.size())};
+    traced_scattering(shadows, air, rays, distances, result.layers);
+    return result;
+}
+
 } // namespace gnomon::renderer

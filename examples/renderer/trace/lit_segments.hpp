@@ -7,6 +7,7 @@
 #include "renderer/scene/camera.hpp"
 #include "renderer/scene/medium.hpp"
 #include "renderer/scene/scene.hpp"
+#include "renderer/shade/layers.hpp"
 
 #include <memory>
 #include <span>
@@ -50,5 +51,9 @@ void traced_scattering(const shadow_volumes& shadows, const medium& air, std::sp
 // The visible share for the ray through the centre of each pixel.
 image<float> traced_scattering(const shadow_volumes& shadows, const medium& air, const camera& eye,
                                const image<float>& lengths);
+
+// The visible share for each surface, up to the surface. Only what is in the shadow volumes casts shadows.
+per_surface<float> traced_scattering(const shadow_volumes& shadows, const medium& air, const camera& eye,
+                                     const surface_layers& seen, const per_surface<float>& lengths);
 
 } // namespace gnomon::renderer
