@@ -7,6 +7,7 @@
 #include "../storage/format.hpp"
 #include "expects.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -53,6 +54,29 @@ template <texel_format Format> format_texel<Format> store_channels(const channel
     return Format::encode(gnomon_bit_cast<format_channels<Format>>(c));
 }
 
+/// Load a row of texels as numbers, one texel's channels after the other's, with the bits of load_channels.
+template <texel_format Format> void load_row(const format_texel<Format>* from, float* numbers, std::size_t count)
+{
+    if constexpr (requires { Format::decode_row(from, numbers, count); }) Format::decode_row(from, numbers, count);
+    else
+        for (std::size_t i = 0; i < count; ++i, numbers += channel_count<Format>) {
+            const auto c = load_channels<Format>(from[i]);
+            std::copy(c.begin(), c.end(), numbers);
+        }
+}
+
+/// Store a row of texels from numbers, one texel's channels after the other's, with the bits of store_channels.
+template <texel_format Format> void store_row(const float* numbers, format_texel<Format>* to, std::size_t count)
+{
+    if constexpr (requires { Format::encode_row(numbers, to, count); }) Format::encode_row(numbers, to, count);
+    else
+        for (std::size_t i = 0; i < count; ++i, numbers += channel_count<Format>) {
+            channel_array<Format> c;
+            std::copy_n(numbers, c.size(), c.begin());
+            to[i] = store_channels<Format>(c);
+        }
+}
+
 /// The channels of the border, as a map stores them.
 template <texel_format Format> constexpr format_channels<Format> stored_border()
 {
@@ -78,11 +102,11 @@ template <class T, class U> void expect_same_extent(std::string_view pass, map_v
                    mismatch(pass, "target.height", target.height, "source.height", source.height));
 }
 
-template <class T> void expect_apart(std::string_view pass, map_view<const T> source, map_view<T> target)
+template <class T, class U> void expect_apart(std::string_view pass, map_view<T> source, map_view<U> target)
 {
     const T* s = source.texels.data();
-    const T* t = target.texels.data();
-    const std::less_equal<const T*> before;
+    const U* t = target.texels.data();
+    const std::less_equal<const void*> before;
     GNOMON_EXPECTS(before(s + source.texels.size(), t) || before(t + target.texels.size(), s),
                    mismatch(pass, "target begins inside source or before its end: target.texels.size()",
                             target.texels.size(), "source.texels.size()", source.texels.size()));

@@ -23,6 +23,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string_view>
 #include <type_traits>
 
@@ -101,6 +102,14 @@ template <template <class...> class Channels, int bits> struct unorm_texel : cod
         for (std::size_t k = 0; k < t.size(); ++k) numbers[k] = unorm_decode<bits>(t[k]);
         return gnomon_bit_cast<Channels<float>>(numbers);
     }
+    static void encode_row(const float* numbers, texel* to, std::size_t count)
+    {
+        unorm_encode_row<bits>(numbers, to->data(), count * texel{}.size());
+    }
+    static void decode_row(const texel* from, float* numbers, std::size_t count)
+    {
+        unorm_decode_row<bits>(from->data(), numbers, count * texel{}.size());
+    }
 };
 
 /// Half floats.
@@ -126,6 +135,14 @@ template <template <class...> class Channels> struct float_texel : coded_texel<C
     using typename coded_texel<Channels, float>::texel;
     static constexpr texel encode(const Channels<float>& c) { return gnomon_bit_cast<texel>(c); }
     static constexpr Channels<float> decode(const texel& t) { return gnomon_bit_cast<Channels<float>>(t); }
+    static void encode_row(const float* numbers, texel* to, std::size_t count)
+    {
+        std::memcpy(to, numbers, count * sizeof(texel));
+    }
+    static void decode_row(const texel* from, float* numbers, std::size_t count)
+    {
+        std::memcpy(numbers, from, count * sizeof(texel));
+    }
 };
 
 /// True unless a channel is NaN.
@@ -149,6 +166,21 @@ template <class Format, class Texel> struct stored_texel : Texel {
         if (!are_known(c)) [[unlikely]]
             return clear();
         return Texel::encode(c);
+    }
+    static void encode_row(const float* numbers, texel* to, std::size_t count) requires requires
+    {
+        Texel::encode_row(numbers, to, count);
+    }
+    {
+        constexpr std::size_t channels = sizeof(border()) / sizeof(float);
+        Texel::encode_row(numbers, to, count);
+        int unknown = 0;
+        for (std::size_t i = 0; i < count * channels; ++i) unknown |= !(numbers[i] == numbers[i]);
+        if (unknown == 0) [[likely]]
+            return;
+        for (std::size_t i = 0; i < count; ++i, numbers += channels)
+            for (std::size_t k = 0; k < channels; ++k)
+                if (!(numbers[k] == numbers[k])) to[i] = clear();
     }
 };
 

@@ -25,8 +25,34 @@ struct unorm10_words {
     {
         return {field(t[0], 0), field(t[0], 10), field(t[0], 20), field(t[1], 0), field(t[1], 10), field(t[1], 20)};
     }
+    static void encode_row(const float* numbers, texel* to, std::size_t count)
+    {
+        constexpr std::size_t block = 16;
+        std::array<std::uint16_t, 6 * block> codes{};
+        for (std::size_t done = 0; done < count; done += block, numbers += 6 * block) {
+            const std::size_t texels = (std::min)(block, count - done);
+            unorm_encode_row<10>(numbers, codes.data(), 6 * texels);
+            for (std::size_t i = 0; i < texels; ++i)
+                to[done + i] = {packed(codes.data() + 6 * i), packed(codes.data() + 6 * i + 3)};
+        }
+    }
+    static void decode_row(const texel* from, float* numbers, std::size_t count)
+    {
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t w = 0; w < 2; ++w, numbers += 3) {
+                // A field as it stands in its word, over the largest number there: the quotient of decode.
+                const std::uint32_t word = from[i][w];
+                numbers[0] = float(std::int32_t(word & 1023u)) / 1023.0f;
+                numbers[1] = float(std::int32_t(word & 1023u << 10)) / (1023.0f * 0x1p10f);
+                numbers[2] = float(std::int32_t(word & 1023u << 20)) / (1023.0f * 0x1p20f);
+            }
+    }
 
   private:
+    static constexpr std::uint32_t packed(const std::uint16_t* codes)
+    {
+        return std::uint32_t{codes[0]} | std::uint32_t{codes[1]} << 10 | std::uint32_t{codes[2]} << 20;
+    }
     static constexpr std::uint32_t word_of(float a, float b, float c)
     {
         return std::uint32_t{unorm_encode<10>(a)} | std::uint32_t{unorm_encode<10>(b)} << 10 |
