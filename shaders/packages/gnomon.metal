@@ -4829,6 +4829,28 @@ inline distribution2 two_point_distribution(float b1, float b2, float b3, float 
     return d;
 }
 
+constant constexpr float two_point_unorm16_least_variance = 4.0e-5f; // 5.26 times half a code
+constant constexpr float two_point_noise_0 = 0.866f;
+constant constexpr float two_point_noise_2 = 3.4f;
+
+/// The moment b3 of two depths from three moments of theta4 (quantization.h), each of whose channels storage has
+/// rounded by noise at
+/// most: with the part of the third central moment that noise explains taken out, so that close depths keep their mean
+/// and variance and get equal weights.
+///
+/// Rounding moves the third central moment k by e = noise (0.87 + 3.4 b1^2), a standard deviation of channels that are
+/// uniformly off. A skew k / V^(3/2) of the order of 1 and noise make the best estimate V^3 / (V^3 + e^2) of k.
+/// Domain: moments of depths in [-1, 1].
+/// NaN: NaN.
+inline float two_point_third_moment(float b1, float b2, float b3, float noise)
+{
+    float variance = gnomon_max(0.0f, b2 - b1 * b1);
+    float third = (b3 - b1 * b2) - 2.0f * b1 * variance;
+    float e = noise * (two_point_noise_0 + two_point_noise_2 * (b1 * b1));
+    float cubed = variance * (variance * variance);
+    return b3 - third * (e * e / (cubed + e * e + gnomon_pivot_floor));
+}
+
 } // namespace gnomon
 
 #endif

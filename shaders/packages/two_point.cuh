@@ -654,6 +654,29 @@ GNOMON_INLINE constexpr distribution2<Real> two_point_distribution(Real b1, Real
     return d;
 }
 
+inline constexpr double two_point_unorm16_least_variance = 4.0e-5; // 5.26 times half a code
+inline constexpr double two_point_noise_0 = 0.866;
+inline constexpr double two_point_noise_2 = 3.4;
+
+/// The moment b3 of two depths from three moments of theta4 (quantization.h), each of whose channels storage has
+/// rounded by noise at
+/// most: with the part of the third central moment that noise explains taken out, so that close depths keep their mean
+/// and variance and get equal weights.
+///
+/// Rounding moves the third central moment k by e = noise (0.87 + 3.4 b1^2), a standard deviation of channels that are
+/// uniformly off. A skew k / V^(3/2) of the order of 1 and noise make the best estimate V^3 / (V^3 + e^2) of k.
+/// Domain: moments of depths in [-1, 1].
+/// NaN: NaN.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real two_point_third_moment(Real b1, Real b2, Real b3, std::type_identity_t<Real> noise)
+{
+    Real variance = gnomon_max(Real(0), b2 - b1 * b1);
+    Real third = (b3 - b1 * b2) - Real(2) * b1 * variance;
+    Real e = noise * (literal<Real>(two_point_noise_0) + literal<Real>(two_point_noise_2) * (b1 * b1));
+    Real cubed = variance * (variance * variance);
+    return b3 - third * (e * e / (cubed + e * e + literal<Real>(pivot_floor<lane_t<Real>>)));
+}
+
 GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif

@@ -221,3 +221,25 @@ fn two_point_distribution(b1: f32, b2: f32, b3: f32, least_variance: f32) -> gno
     d.weight1_ = 1.0 - d.weight2_;
     return d;
 }
+
+const two_point_unorm16_least_variance: f32 = 0x1.4f8b58p-15; // 4.0e-5, 5.26 times half a code
+const two_point_noise_0_: f32 = 0x1.bb645ap-1; // 0.866
+const two_point_noise_2_: f32 = 0x1.b33334p+1; // 3.4
+
+/// The moment b3 of two depths from three moments of theta4 (quantization.h), each of whose channels storage has
+/// rounded by noise at
+/// most: with the part of the third central moment that noise explains taken out, so that close depths keep their mean
+/// and variance and get equal weights.
+///
+/// Rounding moves the third central moment k by e = noise (0.87 + 3.4 b1^2), a standard deviation of channels that are
+/// uniformly off. A skew k / V^(3/2) of the order of 1 and noise make the best estimate V^3 / (V^3 + e^2) of k.
+/// Domain: moments of depths in [-1, 1].
+/// NaN: NaN.
+fn two_point_third_moment(b1: f32, b2: f32, b3: f32, noise: f32) -> f32
+{
+    let variance = gnomon_max(0.0, b2 - b1 * b1);
+    let third = (b3 - b1 * b2) - 2.0 * b1 * variance;
+    let e = noise * (two_point_noise_0_ + two_point_noise_2_ * (b1 * b1));
+    let cubed = variance * (variance * variance);
+    return b3 - third * (e * e / (cubed + e * e + gnomon_pivot_floor));
+}

@@ -1,6 +1,6 @@
 // Shadow maps of four moments: the storage formats as types.
 //
-// Beside what every format has: from_moments transforms moments; factor and filtered_factor give the matrix with a
+// Beside what every format has: from_moments transforms moments, and to_moments transforms back; factor and filtered_factor give the matrix with a
 // constant bias, of the vector bias and the weight bias_weight or filtered_bias_weight, for both bounds.
 #ifndef GNOMON_STORAGE_MOMENTS4_HPP
 #define GNOMON_STORAGE_MOMENTS4_HPP
@@ -33,6 +33,10 @@ struct moments4_unorm16 : stored_texel<moments4_unorm16, unorm_texel<channels4, 
                             filtered_bias_weight = stored4_unorm16_filtered_weight;
 
     template <class Real> static constexpr channels<Real> from_moments(const moments4<Real>& b) { return theta4(b); }
+    template <class Real> static constexpr moments4<Real> to_moments(const channels<Real>& c)
+    {
+        return theta4_inverse(c);
+    }
     template <class Real> static constexpr hankel4<Real> factor(const channels<Real>& c)
     {
         return hankel4_from_unorm16(c);
@@ -79,6 +83,10 @@ struct moments4_half : stored_texel<moments4_half, half_texel<channels4>> {
     {
         return channels4_shifted(theta4(b), Real(-0.5));
     }
+    template <class Real> static constexpr moments4<Real> to_moments(const channels<Real>& c)
+    {
+        return theta4_inverse(channels4_shifted(c, Real(0.5)));
+    }
     template <class Real> static constexpr hankel4<Real> factor(const channels<Real>& c)
     {
         return hankel4_from_half(c);
@@ -124,6 +132,10 @@ struct moments4_float : stored_texel<moments4_float, float_texel<channels4>> {
     template <class Real> static constexpr channels<Real> from_moments(const moments4<Real>& b)
     {
         return channels4_from_moments(b);
+    }
+    template <class Real> static constexpr moments4<Real> to_moments(const channels<Real>& c)
+    {
+        return moments4_from_channels(c);
     }
     template <class Real> static constexpr hankel4<Real> factor(const channels<Real>& c)
     {
