@@ -101,10 +101,9 @@ void downsample(map_view<const format_texel<Format>> source, map_view<format_tex
     }
 }
 
-/// Fill every level below the first.
-template <texel_format Format> void build_mips(mip_view<format_texel<Format>> mips)
+/// Check that a mip chain has texels, and that all of its levels lie in the span.
+template <class T> void expect_mips(std::string_view pass, mip_view<T> mips)
 {
-    constexpr std::string_view pass = "build_mips";
     GNOMON_EXPECTS(mips.width > 0 && mips.height > 0,
                    mismatch(pass, "mips.width", mips.width, "mips.height", mips.height));
     GNOMON_EXPECTS(mips.texels.size() / mips.width >= mips.height,
@@ -112,6 +111,12 @@ template <texel_format Format> void build_mips(mip_view<format_texel<Format>> mi
     GNOMON_EXPECTS(
         mips.texels.size() >= mip_texels(mips.width, mips.height),
         mismatch(pass, "mips.texels.size()", mips.texels.size(), "mip_texels", mip_texels(mips.width, mips.height)));
+}
+
+/// Fill every level below the first.
+template <texel_format Format> void build_mips(mip_view<format_texel<Format>> mips)
+{
+    expect_mips("build_mips", mips);
     for (std::size_t level = 1; level < mips.levels(); ++level) {
         const map_view<format_texel<Format>> target = mips.level(level);
         downsample<Format>(mips.level(level - 1), target, {0, target.height});

@@ -1,0 +1,112 @@
+// Look-up of the end of a view ray in a rectified map of prefix averages (transmittance_prefix.hpp), or in its mip chain: what
+// the ray's single scattering depends on, for the intensity of the format at the depth by rectified_depth_at.
+//
+// Along a row the average up to the far side of a texel stands at its centre. Between two centres the average moves by the exact
+// weight of a ray that ends there (scattering/transmittance_weights.h), as if the occluders of the texel reached to its end.
+// Averages of one row are mixed with those of the next; the last row is next to the first where the frame is a full turn.
+#ifndef GNOMON_PASSES_RECTIFIED_LOOK_UP_HPP
+#define GNOMON_PASSES_RECTIFIED_LOOK_UP_HPP
+
+#include "look_up.hpp"
+#include "rectified_map.hpp"
+
+GNOMON_NAMESPACE_BEGIN
+
+namespace detail {
+
+/// The rows on either side of a position, in rows of a level, of which the last is next to the first if the map wraps.
+inline neighbours rectified_rows_of(float position, std::size_t rows, bool wraps)
+{
+    if (!wraps) return neighbours_of<border_mode::clamp>(position - 0.5f, rows);
+    const neighbours n = neighbours_of<border_mode::clamp>(position + 0.5f, rows + 2);
+    return {(n.lower + rows - 1) % rows, (n.upper + rows - 1) % rows, n.fraction};
+}
+
+/// The place in a map of prefix averages, texel centres at +0.5.
+struct rectified_place {
+    float x, y;
+};
+
+inline rectified_place rectified_place_of(const rectified_frame& frame, const rectified_position<float>& position,
+                                          std::size_t width, std::size_t height)
+{
+    const float step = rectified_radius_step(frame, width);
+    return {step > 0 ? rectified_column_of(position.radius, step) : position.radius,
+            rectified_row_of(position.azimuth, frame.azimuth_start, frame.azimuth_length, float(height))};
+}
+
+/// The share of the way from the average over a distance to the average over a length more, for a ray that ends a share f of
+/// the length beyond the distance, in a medium of that extinction: of the weights of transmittance, so 1 / (before + f) times
+/// f (before + 1) for a length of 1 and no extinction. In [0, 1].
+inline float average_share(float before, float length, float f, float extinction)
+{
+    const auto weight = [&](float distance) { return attenuated_length(distance, extinction); };
+    return saturate_or_zero(weight(f * length) * weight(before + length) /
+                            (weight(before + f * length) * weight(length)));
+}
+
+/// Channels at (x, y) of a level of a map whose texels are wide columns of the map, and high rows.
+template <texel_format Format>
+channel_array<Format> rectified_channels_of(map_view<const format_texel<Format>> map, float x, float y, float wide,
+                                            float high, std::span<const rectified_row> rows, bool wraps)
+{
+    const neighbours nx = neighbours_of<border_mode::clamp>(x - 0.5f, map.width);
+    const neighbours ny = rectified_rows_of(y, map.height, wraps);
+    const float before = (float(nx.lower) + 0.5f) * wide + 0.5f;
+    const auto row = [&](std::size_t v) {
+        const std::size_t of_map = (std::min)(std::size_t((float(v) + 0.5f) * high), rows.size() - 1);
+        const float share = average_share(before, wide, nx.fraction, rows[of_map].optical_depth);
+        return mix(load_channels<Format>(map(nx.lower, v)), load_channels<Format>(map(nx.upper, v)), share);
+    };
+    return mix(row(ny.lower), row(ny.upper), ny.fraction);
+}
+
+} // namespace detail
+
+/// The signed depth of a view ray at position, between the ranges of depth of the two rows that its look-up mixes.
+/// NaN: NaN for a polar angle of NaN.
+inline float rectified_depth_at(const rectified_frame& frame, std::span<const rectified_row> rows,
+                                const rectified_position<float>& position)
+{
+    if (rows.empty()) return -1;
+    const float row = rectified_row_of(position.azimuth, frame.azimuth_start, frame.azimuth_length, float(rows.size()));
+    const detail::neighbours n = detail::rectified_rows_of(row, rows.size(), frame.wraps());
+    const float a = rectified_depth_of(frame.depth, position.polar, rows[n.lower].range);
+    const float b = rectified_depth_of(frame.depth, position.polar, rows[n.upper].range);
+    return a + n.fraction * (b - a);
+}
+
+/// Channels for the end of a view ray at position, in a mip chain of prefix averages, interpolated between two levels; the level
+/// is clamped to the chain. Radii beyond the frame go to its last column, azimuths to the nearer end.
+/// Domain: any position and level. A map or rows without entries give the border, lit.
+/// NaN: the border, for a radius, azimuth or level of NaN.
+template <texel_format Format>
+format_channels<Format> rectified_channels(mip_view<const format_texel<Format>> mips, const rectified_frame& frame,
+                                           std::span<const rectified_row> rows,
+                                           const rectified_position<float>& position, float level)
+{
+    if (rows.empty()) return stored_border<Format>();
+    const detail::rectified_place at = detail::rectified_place_of(frame, position, mips.width, mips.height);
+    return detail::between_levels<Format>(mips, at.x, at.y, level, [&](const auto& map, float x, float y) {
+        return detail::rectified_channels_of<Format>(map, x, y, float(mips.width) / float(map.width),
+                                                     float(mips.height) / float(map.height), rows, frame.wraps());
+    });
+}
+
+/// Channels for the end of a view ray at position, in a map of prefix averages.
+/// Domain: any position. A map or rows without entries give the border, lit.
+/// NaN: the border, for a radius or azimuth of NaN.
+template <texel_format Format>
+format_channels<Format> rectified_channels(map_view<const format_texel<Format>> map, const rectified_frame& frame,
+                                           std::span<const rectified_row> rows,
+                                           const rectified_position<float>& position)
+{
+    const detail::rectified_place at = detail::rectified_place_of(frame, position, map.width, map.height);
+    if ((std::isunordered)(at.x, at.y) || map.width == 0 || map.height == 0 || rows.empty())
+        return stored_border<Format>();
+    return gnomon_bit_cast<format_channels<Format>>(
+        detail::rectified_channels_of<Format>(map, at.x, at.y, 1, 1, rows, frame.wraps()));
+}
+
+GNOMON_NAMESPACE_END
+#endif

@@ -1,0 +1,257 @@
+// Resampling of a directional light's shadow map into rectified coordinates (scattering/rectified.h), in which each view ray is
+// a row and a depth (Peters et al. 2017, Sec. 5.1.1 and 5.2). A texel at radius r of a row of azimuth phi is the light ray that
+// crosses the map at eye + r (cos phi, sin phi). The depth of its occluder there becomes the polar angle atan2(r, z), or the
+// cosine of that, and a depth in the row's range.
+//
+//     rectify           the depth of one texel of the map, as it is: aliases
+//     rectify_filtered  16 texels of the map, weighted by a cubic B-spline over the footprint of the texel: an exact filter
+//     rectify_moments   a trilinear sample of a map of moments, whose distribution of two depths is mapped (Alg. 2)
+//     rectify_depths    the depth of one texel, as a number
+//
+// Depths of the map on the far plane and beyond, and what lies beside the map, shadow nothing. For several directional lights
+// make a map for each, and add up their light.
+//
+// No allocation; threads may take different bands of rows. Each pass rounds to the format once.
+#ifndef GNOMON_PASSES_RECTIFY_HPP
+#define GNOMON_PASSES_RECTIFY_HPP
+
+#include "../moments/two_point.h"
+#include "../storage/moments4.hpp"
+#include "look_up.hpp"
+#include "rectified_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+GNOMON_NAMESPACE_BEGIN
+
+namespace detail {
+
+/// Texels of a row that are rectified at once.
+inline constexpr std::size_t rectify_texels = 64;
+
+/// Signed depths in a row's range of occluders at a radius, from their signed depths in the map.
+struct rectified_mapping {
+    float eye, length; // the eye's depth in the map, and length for a unit of depth
+    rectified_range<float> range;
+    float far_plane; // depths from here on are no occluders
+
+    rectified_mapping(const light_map& light, const rectified_row& row, float from = 1)
+        : eye(light.z), length(1 / light.depths), range(row.range), far_plane(from)
+    {}
+
+    /// The depth of an occluder; 1 of what is no occluder, and for a NaN.
+    template <rectified_depth measure> float operator()(float radius, float depth) const
+    {
+        const float z = (gnomon_max(depth, -1.0f) - eye) * length;
+        const float mapped = measure == rectified_depth::polar
+                                 ? rectified_polar_depth(polynomial_atan2(radius, z), range)
+                                 : rectified_cosine_depth(rectified_cosine(radius, 0.0f, z), range);
+        return gnomon_select(depth < far_plane, gnomon_select(mapped <= 1, mapped, 1.0f), 1.0f);
+    }
+};
+
+/// The texels of a row: radii, and places in the map.
+struct rectified_places {
+    float x, y, dx, dy; // the eye, and the way in the map for a unit of radius
+    float step;
+
+    rectified_places(const light_map& light, const rectified_frame& frame, const rectified_row& row,
+                     std::size_t columns)
+        : x(light.x),
+          y(light.y),
+          dx(row.cosine * light.texels_x),
+          dy(row.sine * light.texels_y),
+          step(rectified_radius_step(frame, columns))
+    {}
+    [[nodiscard]] float radius(std::size_t u) const { return (float(u) + 0.5f) * step; }
+};
+
+/// Four texels along one axis of a map, and their weights under a cubic B-spline over texels as wide as spacing.
+struct spline_texels {
+    std::array<float, 4> at, weight;
+
+    spline_texels(float position, float spacing)
+    {
+        const float x = position / spacing - 0.5f, whole = std::floor(x), u = x - whole, v = 1 - u;
+        weight = {v * v * v / 6, ((3 * u - 6) * (u * u) + 4) / 6, ((3 * v - 6) * (v * v) + 4) / 6, u * u * u / 6};
+        for (std::size_t k = 0; k < 4; ++k) at[k] = (whole + (float(k) - 0.5f)) * spacing;
+    }
+};
+
+/// The depth of the map in its texel at (x, y), the far plane beside the map.
+inline float nearest_depth(map_view<const float> depths, float x, float y)
+{
+    const bool inside = x >= 0 && y >= 0 && x < float(depths.width) && y < float(depths.height);
+    return inside ? depths(std::size_t(std::int32_t(x)), std::size_t(std::int32_t(y))) : 1.0f;
+}
+
+/// Fill count rectified depths from texel first of a row on.
+template <rectified_depth measure>
+void rectify_block(map_view<const float> depths, const rectified_places& at, const rectified_mapping& map,
+                   std::size_t first, std::size_t count, float* to)
+{
+    std::array<float, rectify_texels> radius;
+    for (std::size_t i = 0; i < count; ++i) {
+        const float r = at.radius(first + i);
+        radius[i] = r;
+        to[i] = nearest_depth(depths, at.x + r * at.dx, at.y + r * at.dy);
+    }
+    for (std::size_t i = 0; i < count; ++i) to[i] = map.template operator()<measure>(radius[i], to[i]);
+}
+
+/// Fill rows of a rectified map: block(row, first, count, numbers) gives the channels of texels as numbers.
+template <texel_format Format>
+void rectify_rows(map_view<format_texel<Format>> target, row_range band, const auto& block)
+{
+    std::array<float, rectify_texels * channel_count<Format>> numbers;
+    for (std::size_t v = band.first; v < band.last; ++v)
+        for (std::size_t u = 0; u < target.width; u += rectify_texels) {
+            const std::size_t count = (std::min)(rectify_texels, target.width - u);
+            block(v, u, count, numbers.data());
+            store_row<Format>(numbers.data(), &target(u, v), count);
+        }
+}
+
+template <class T, class U>
+void expect_rectify(std::string_view pass, map_view<T> source, std::span<const rectified_row> rows, map_view<U> target,
+                    row_range band)
+{
+    expect_map(pass, "source", source);
+    expect_rectified(pass, "target", target, rows);
+    expect_apart(pass, source, target);
+    expect_rows(pass, target, band);
+}
+
+/// Calls pass.template operator()<measure>() for the measure of depth of a frame.
+void with_measure(rectified_depth measure, const auto& pass)
+{
+    if (measure == rectified_depth::polar) pass.template operator()<rectified_depth::polar>();
+    else pass.template operator()<rectified_depth::cosine>();
+}
+
+} // namespace detail
+
+/// Fill the given rows of a rectified map with depths, each of the texel of the map that holds the light ray.
+inline void rectify_depths(map_view<const float> depths, const light_map& light, const rectified_frame& frame,
+                           std::span<const rectified_row> rows, map_view<float> target, row_range band)
+{
+    detail::expect_rectify("rectify_depths", depths, rows, target, band);
+    detail::with_measure(frame.depth, [&]<rectified_depth measure>() {
+        for (std::size_t v = band.first; v < band.last; ++v)
+            for (std::size_t u = 0; u < target.width; u += detail::rectify_texels)
+                detail::rectify_block<measure>(depths, {light, frame, rows[v], target.width}, {light, rows[v]}, u,
+                                               (std::min)(detail::rectify_texels, target.width - u), &target(u, v));
+    });
+}
+
+/// Fill the given rows of a rectified map, each texel with the depth of the texel of the map that holds the light ray.
+template <storage_format Format>
+void rectify(map_view<const float> depths, const light_map& light, const rectified_frame& frame,
+             std::span<const rectified_row> rows, map_view<format_texel<Format>> target, row_range band)
+{
+    detail::expect_rectify("rectify", depths, rows, target, band);
+    detail::with_measure(frame.depth, [&]<rectified_depth measure>() {
+        detail::rectify_rows<Format>(target, band, [&](std::size_t v, std::size_t u, std::size_t count, float* to) {
+            std::array<float, detail::rectify_texels> z;
+            detail::rectify_block<measure>(depths, {light, frame, rows[v], target.width}, {light, rows[v]}, u, count,
+                                           z.data());
+            for (std::size_t i = 0; i < count; ++i, to += channel_count<Format>) {
+                const auto c = gnomon_bit_cast<channel_array<Format>>(Format::from_depth(z[i]));
+                std::copy(c.begin(), c.end(), to);
+            }
+        });
+    });
+}
+
+/// Fill the given rows of a rectified map, each texel with the mean over 4 x 4 texels of the map, which a cubic B-spline weights. The
+/// spline is as wide as the texel's footprint along each axis, and at least 4 texels of the map; of a wider one each fourth
+/// gives one texel.
+template <storage_format Format>
+void rectify_filtered(map_view<const float> depths, const light_map& light, const rectified_frame& frame,
+                      std::span<const rectified_row> rows, map_view<format_texel<Format>> target, row_range band)
+{
+    detail::expect_rectify("rectify_filtered", depths, rows, target, band);
+    const float turn = frame.azimuth_length / float(rows.size());
+    detail::with_measure(frame.depth, [&]<rectified_depth measure>() {
+        detail::rectify_rows<Format>(target, band, [&](std::size_t v, std::size_t u, std::size_t count, float* to) {
+            const detail::rectified_places at(light, frame, rows[v], target.width);
+            const detail::rectified_mapping map(light, rows[v]);
+            for (std::size_t i = 0; i < count; ++i, to += channel_count<Format>) {
+                const float r = at.radius(u + i), across = r * turn;
+                const auto spacing = [&](float along, float beside) {
+                    return gnomon_max(0.5f * ((std::abs)(along)*at.step + (std::abs)(beside)*across), 1.0f);
+                };
+                const detail::spline_texels x(at.x + r * at.dx,
+                                              spacing(at.dx, at.dy * light.texels_x / light.texels_y));
+                const detail::spline_texels y(at.y + r * at.dy,
+                                              spacing(at.dy, at.dx * light.texels_y / light.texels_x));
+                std::array<float, 16> z, weight;
+                for (std::size_t k = 0; k < 16; ++k) {
+                    z[k] = detail::nearest_depth(depths, x.at[k % 4], y.at[k / 4]);
+                    weight[k] = x.weight[k % 4] * y.weight[k / 4];
+                }
+                for (float& depth : z) depth = map.template operator()<measure>(r, depth);
+                std::array<double, channel_count<Format>> sum{};
+                for (std::size_t k = 0; k < 16; ++k) {
+                    const auto c = gnomon_bit_cast<channel_array<Format>>(Format::from_depth(z[k]));
+                    for (std::size_t j = 0; j < c.size(); ++j) sum[j] += double(weight[k]) * double(c[j]);
+                }
+                for (std::size_t j = 0; j < sum.size(); ++j) to[j] = float(sum[j]);
+            }
+        });
+    });
+}
+
+/// Errors by storage of the moments of a map, for two_point_distribution: the variance of a single depth, and the largest error
+/// of a channel of theta4.
+struct moments_noise {
+    float least_variance, channel;
+};
+/// The errors of moments that are rounded to the format once.
+template <class Source> inline constexpr moments_noise stored_noise{float(two_point_least_variance), 0x1p-25f};
+template <>
+inline constexpr moments_noise stored_noise<moments4_unorm16>{float(two_point_unorm16_least_variance), 0x1p-17f};
+template <>
+inline constexpr moments_noise stored_noise<moments4_half>{float(16 * two_point_unorm16_least_variance), 0x1p-13f};
+
+/// Fill the given rows of a rectified map from a map of four moments and its mip chain: a trilinear sample as wide as the texel's
+/// footprint becomes a distribution of two depths, each of which is mapped, and their mean (Peters et al. 2017, Alg. 2). Depths
+/// that noise cannot tell from the far plane are no occluders.
+template <storage_format Format, storage_format Source>
+void rectify_moments(mip_view<const format_texel<Source>> moments, const light_map& light, const rectified_frame& frame,
+                     std::span<const rectified_row> rows, map_view<format_texel<Format>> target, row_range band,
+                     moments_noise noise = stored_noise<Source>)
+{
+    constexpr std::string_view pass = "rectify_moments";
+    expect_mips(pass, moments);
+    detail::expect_rectify(pass, map_view<const format_texel<Source>>(moments.texels, moments.width, moments.height),
+                           rows, target, band);
+    const float turn = frame.azimuth_length / float(rows.size());
+    const float texels = (std::max)((std::abs)(light.texels_x), (std::abs)(light.texels_y));
+    const float far_plane = 1 - gnomon_sqrt(noise.least_variance);
+    detail::with_measure(frame.depth, [&]<rectified_depth measure>() {
+        detail::rectify_rows<Format>(target, band, [&](std::size_t v, std::size_t u, std::size_t count, float* to) {
+            const detail::rectified_places at(light, frame, rows[v], target.width);
+            const detail::rectified_mapping map(light, rows[v], far_plane);
+            for (std::size_t i = 0; i < count; ++i, to += channel_count<Format>) {
+                const float r = at.radius(u + i);
+                const float level = rectified_level(rectified_footprint(r, at.step, turn, texels));
+                const moments4<float> b = Source::to_moments(
+                    trilinear<Source>(moments, at.x + r * at.dx, at.y + r * at.dy, level, border_mode::lit));
+                const distribution2<float> d = two_point_distribution(
+                    b.b1, b.b2, two_point_third_moment(b.b1, b.b2, b.b3, noise.channel), noise.least_variance);
+                const auto channels = [&](float depth) {
+                    return gnomon_bit_cast<channel_array<Format>>(
+                        Format::from_depth(map.template operator()<measure>(r, depth)));
+                };
+                const auto c1 = channels(d.depth1), c2 = channels(d.depth2);
+                for (std::size_t j = 0; j < c1.size(); ++j)
+                    to[j] = float(double(d.weight1) * double(c1[j]) + double(d.weight2) * double(c2[j]));
+            }
+        });
+    });
+}
+
+GNOMON_NAMESPACE_END
+#endif
