@@ -79,7 +79,7 @@ TEST_CASE("lit parts are those that no triangle shadows, of random triangles, li
     std::uniform_real_distribution<float> place(-1, 1);
     const auto anywhere = [&] { return glm::vec3(place(random), place(random), place(random)); };
     int dark = 0, light = 0;
-    for (int trial = 0; trial < 30; ++trial) {
+    for (int trial = 0; trial < 40; ++trial) {
         scene world{"random", {{.name = "", .positions = {}, .normals = {}, .triangles = {}}}};
         mesh& part = world.meshes[0];
         std::vector<std::array<vec, 3>> triangles;
@@ -96,8 +96,9 @@ TEST_CASE("lit parts are those that no triangle shadows, of random triangles, li
         const camera sun = orthographic_view(part.positions, glm::dvec3(anywhere()));
         const shadow_volumes shadows(world, sun);
         for (int i = 0; i < 60; ++i) {
-            // Rays from inside and from far away, with and without an end.
-            const glm::dvec3 origin(anywhere() * (i % 3 ? 1.f : 100.f)), target(anywhere());
+            // Rays from inside and from far away, some of them almost along the light, with and without an end.
+            const glm::dvec3 target(anywhere()), away = double(i % 4 - 1.5) * 1e5 * sun.forward;
+            const glm::dvec3 origin = glm::dvec3(anywhere() * (i % 3 ? 1.f : 100.f)) + (i % 7 ? 0.0 : 1.0) * away;
             const view_ray ray{origin, glm::normalize(target - origin)};
             const double length = i % 5 ? (i % 2 ? 1 : 2) * glm::length(target - origin) : infinity;
             const std::vector<lit_segment> lit = shadows.lit(ray, length);
@@ -105,7 +106,7 @@ TEST_CASE("lit parts are those that no triangle shadows, of random triangles, li
                 CHECK(lit[k].from < lit[k].to);
                 CHECK(lit[k].to <= (k + 1 < lit.size() ? lit[k + 1].from : length));
             }
-            const std::vector<double> at = changes(triangles, vec(sun.forward), ray, std::min(length, 1e3));
+            const std::vector<double> at = changes(triangles, vec(sun.forward), ray, std::min(length, 1e6));
             for (std::size_t k = 0; k + 1 < at.size(); ++k) {
                 if (at[k + 1] - at[k] < 1e-7) continue;
                 const double middle = 0.5 * (at[k] + at[k + 1]);

@@ -83,11 +83,11 @@ prism behind(triangle_corners corner)
     return result;
 }
 
-// A ray in light axes. Embree follows it towards larger z: from the point at distance `start`, forwards or, if the sense
-// is -1, backwards. `left` is a part outside of which all is known to be shadowed.
+// A ray in light axes, whose point at distance `start` is the origin of Embree's ray. `left` is a part outside of which all
+// is known to be shadowed.
 struct shadowed_ray {
     view_ray ray;
-    double start, sense;
+    double start;
     lit_segment left;
     std::vector<lit_segment> shadows{};
 };
@@ -139,7 +139,7 @@ struct shadow_volumes::state {
         *args->bounds_o = {from.x, from.y, from.z, 0, to.x, to.y, 1e15f, 0};
     }
 
-    // Notes the shadow of a triangle. A shadow at an end of what is left shortens it, and Embree's ray, too.
+    // Notes the shadow of a triangle. A shadow at an end of what is left shortens it, at the far end Embree's ray, too.
     static void shadow(const RTCIntersectFunctionNArguments* args)
     {
         if (args->valid[0] != -1) return;
@@ -155,8 +155,7 @@ struct shadow_volumes::state {
         if (part.from == left.from) left.from = part.to;
         else left.to = part.from;
         auto& ray = reinterpret_cast<RTCRayHit*>(args->rayhit)->ray;
-        const double end = query.sense * ((query.sense > 0 ? left.to : left.from) - query.start);
-        ray.tfar = left.from < left.to ? std::min(ray.tfar, self.embree_length(end)) : -1;
+        ray.tfar = left.from < left.to ? std::min(ray.tfar, self.embree_length(left.to - query.start)) : -1;
     }
 };
 
@@ -200,10 +199,9 @@ std::vector<lit_segment> shadow_volumes::lit(const view_ray& ray, double length)
 {
     const view_ray local{state_->light.position(ray.origin), state_->light.direction(ray.direction)};
     const lit_segment near = state_->within_bounds(local, {0, length});
-    const bool forwards = local.direction.z >= 0;
-    shadowed_ray query{local, forwards ? near.from : near.to, forwards ? 1.0 : -1.0, {0, length}};
+    shadowed_ray query{local, near.from, {0, length}};
     if (near.from < near.to) {
-        const glm::vec3 origin(local.origin + query.start * local.direction), direction(query.sense * local.direction);
+        const glm::vec3 origin(local.origin + near.from * local.direction), direction(local.direction);
         RTCRayHit embree{};
         embree.ray.org_x = origin.x, embree.ray.org_y = origin.y, embree.ray.org_z = origin.z;
         embree.ray.dir_x = direction.x, embree.ray.dir_y = direction.y, embree.ray.dir_z = direction.z;
