@@ -193,7 +193,8 @@ scattering_stage veils_stage(double aspect)
     result.world.name = "veils";
     mesh veils = painted("veils", {0.50f, 0.20f, 0.16f});
     veils.opacity = {0.35f, 0.50f, 0.55f};
-    for (const float z : {-7.5f, -5.0f, -2.5f, 0.f}) add_quad(veils, {-1.3f - 0.2f * z, 0.9f, z}, {3.4f, 0, 0.3f}, {0, 3.3f, 0});
+    for (const float z : {-7.5f, -5.0f, -2.5f, 0.f})
+        add_quad(veils, {-1.3f - 0.2f * z, 0.9f, z}, {3.4f, 0, 0.3f}, {0, 3.3f, 0});
     result.world.meshes.push_back(std::move(veils));
     return result;
 }
@@ -300,12 +301,15 @@ scattering_stage hazy_model_stage(scene model, double aspect)
     const bounds box = bounds_of({"", {plain.world.meshes.begin(), plain.world.meshes.end() - 1}});
     // The light comes from the far side, over the model.
     const glm::dvec3 across = plain.eye.forward;
-    scattering_stage result{
-        plain,
-        {.scattering = glm::vec3(0.25f), .absorption = glm::vec3(0.02f), .asymmetry = 0.4f, .irradiance = sunlight(3)}};
+    scattering_stage result{plain,
+                            {.scattering = glm::vec3(0.25f),
+                             .absorption = glm::vec3(0.02f),
+                             .asymmetry = 0.2f,
+                             .irradiance = sunlight(1.5f)}};
     const glm::vec3 direction =
         glm::normalize(glm::vec3(static_cast<float>(-across.x), -0.7f, static_cast<float>(-across.z)));
     result.light = orthographic_view(casters_and_shadows(box, direction), direction);
+    result.light_size = glm::dvec2(0);
     return result;
 }
 
