@@ -5,6 +5,7 @@ usage: lint.py ROOT    prints one line, path:line: rule: detail, for each breach
 
 ROOT holds include/gnomon and, beside it, examples, tests and bench, for which length, includes and build files count.
 """
+import math
 import os
 import re
 import sys
@@ -56,8 +57,9 @@ CONSTRUCTS = [
     ("foreign macro", r"# *define (?!GNOMON_)"),
 ]
 CONSTRUCTS = [(rule, re.compile(pattern, re.MULTILINE)) for rule, pattern in CONSTRUCTS]
+DIVISOR = re.compile(r"/\s*(?:GNOMON_LITERAL\(\w+\)|Real\((-?[\d.e+-]+)\))") # drivers multiply by its rounded reciprocal
 RULES = [rule for rule, _ in CONSTRUCTS] + [
-    "reserved word", "fused multiply-add", "not ASCII", "include of a library", "include of a .hpp",
+    "reserved word", "fused multiply-add", "division by a constant", "not ASCII", "include of a library", "include of a .hpp",
     "include goes up", "no include guard", "too long", "test too long", "no comment", "unclear beginning", "field", "source", "mask",
     "unused helper", "source of another folder", "macro of others",
     "mutable global"]
@@ -115,6 +117,9 @@ def lint_kernel(text, words):
             yield match.start(), "reserved word", f"{match[0]} (a built-in type)"
     for match in re.finditer(r"\b(?:\w+_)?fma\s*\(", without_body_of("two_product", code)):
         yield match.start(), "fused multiply-add", "belongs into two_product"
+    for match in DIVISOR.finditer(code):
+        if not match[1] or math.frexp(abs(float(match[1])))[0] > 0.5: # by a power of two, both are exact
+            yield match.start(), "division by a constant", f"{match[0]}: multiply by a GNOMON_CONSTANT"
 
 
 def lint_includes(path, text):

@@ -17,6 +17,7 @@ import subprocess
 import sys
 import tempfile
 from fractions import Fraction
+from functools import lru_cache
 from pathlib import Path
 
 from languages import ROUTES, complaints
@@ -34,6 +35,11 @@ SUBSETS = [["moments4", "variance"], ["moments6", "moments4"]]
 DEFINED = re.compile(r"^GNOMON_(?:(?:LIST_)?STRUCT|CONSTANT)\((\w+)", re.MULTILINE)
 GLOBAL = re.compile(r"^(?:typedef )?(?:static inline |__constant |static |const )*(?!return|else|precision)\w+ (\w+)(\(| = |\s*\{)",
                     re.MULTILINE)
+
+
+@lru_cache(maxsize=4)
+def words_of(text):
+    return frozenset(re.findall(r"\w+", text))
 
 
 class Refused(Exception):
@@ -56,7 +62,7 @@ class Names:
 
     def packaged(self, name, text):
         """The name as the package of this text has it."""
-        return self.prefix + name if re.search(rf"\b{self.prefix}{name}\b", text) else name
+        return self.prefix + name if self.prefix + name in words_of(text) else name
 
     def plain(self, text):
         """The text with the headers' own names."""
