@@ -1080,6 +1080,8 @@ static inline hankel4 absorbance4_factor(absorbance4 b, float alpha)
     return hankel4_constant_bias(m, bias4_raw_b2, bias4_raw_b4, alpha);
 }
 
+__constant float absorbance_scale = 5.421010862427522170037e-20f; // 2^-64
+
 /// The transmittance in [0, 1] of absorbance b0 of which the share before the receiver is an intensity, as of
 /// bounds_intensity.
 /// Domain: b0 >= 0, clamped; intensity in [0, 1], clamped.
@@ -1087,7 +1089,9 @@ static inline hankel4 absorbance4_factor(absorbance4 b, float alpha)
 /// Error: 2^-p (2 + 2 b0), relative.
 static inline float absorbance_transmittance(float b0, float intensity)
 {
-    float t = polynomial_exp(-1.0f * (gnomon_max(0.0f, b0) * saturate_or_zero(intensity)));
+    // No comparison with NaN, which Metal's fast mathematics would lose. Scaling by a power of two changes no bits.
+    float absorbed = saturate_or_zero(b0 * absorbance_scale) * 18446744073709551616.0f;
+    float t = polynomial_exp(-1.0f * (absorbed * saturate_or_zero(intensity)));
     return gnomon_min(t, 1.0f);
 }
 

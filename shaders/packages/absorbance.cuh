@@ -1615,6 +1615,8 @@ GNOMON_INLINE constexpr hankel4<Real> absorbance4_factor(absorbance4<Real> b, st
     return hankel4_constant_bias(m, literal<Real>(bias4_raw_b2), literal<Real>(bias4_raw_b4), alpha);
 }
 
+inline constexpr double absorbance_scale = 5.421010862427522170037e-20; // 2^-64
+
 /// The transmittance in [0, 1] of absorbance b0 of which the share before the receiver is an intensity, as of
 /// bounds_intensity.
 /// Domain: b0 >= 0, clamped; intensity in [0, 1], clamped.
@@ -1623,7 +1625,9 @@ GNOMON_INLINE constexpr hankel4<Real> absorbance4_factor(absorbance4<Real> b, st
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real absorbance_transmittance(Real b0, Real intensity)
 {
-    Real t = polynomial_exp(Real(-1) * (gnomon_max(Real(0), b0) * saturate_or_zero(intensity)));
+    // No comparison with NaN, which Metal's fast mathematics would lose. Scaling by a power of two changes no bits.
+    Real absorbed = saturate_or_zero(b0 * literal<Real>(absorbance_scale)) * Real(18446744073709551616.0);
+    Real t = polynomial_exp(Real(-1) * (absorbed * saturate_or_zero(intensity)));
     return gnomon_min(t, Real(1));
 }
 

@@ -977,6 +977,8 @@ fn absorbance4_factor(b: absorbance4_, alpha: f32) -> hankel4_
     return hankel4_constant_bias(m, bias4_raw_b2_, bias4_raw_b4_, alpha);
 }
 
+const absorbance_scale: f32 = 0x1.p-64; // 5.421010862427522170037e-20, 2^-64
+
 /// The transmittance in [0, 1] of absorbance b0 of which the share before the receiver is an intensity, as of
 /// bounds_intensity.
 /// Domain: b0 >= 0, clamped; intensity in [0, 1], clamped.
@@ -984,7 +986,9 @@ fn absorbance4_factor(b: absorbance4_, alpha: f32) -> hankel4_
 /// Error: 2^-p (2 + 2 b0), relative.
 fn absorbance_transmittance(b0: f32, intensity: f32) -> f32
 {
-    let t = polynomial_exp(-1.0 * (gnomon_max(0.0, b0) * saturate_or_zero(intensity)));
+    // No comparison with NaN, which Metal's fast mathematics would lose. Scaling by a power of two changes no bits.
+    let absorbed = saturate_or_zero(b0 * absorbance_scale) * 18446744073709551616.0;
+    let t = polynomial_exp(-1.0 * (absorbed * saturate_or_zero(intensity)));
     return gnomon_min(t, 1.0);
 }
 

@@ -3448,6 +3448,8 @@ hankel4 absorbance4_factor(absorbance4 b, float alpha)
     return hankel4_constant_bias(m, bias4_raw_b2, bias4_raw_b4, alpha);
 }
 
+const float absorbance_scale = 5.421010862427522170037e-20; // 2^-64
+
 /// The transmittance in [0, 1] of absorbance b0 of which the share before the receiver is an intensity, as of
 /// bounds_intensity.
 /// Domain: b0 >= 0, clamped; intensity in [0, 1], clamped.
@@ -3455,7 +3457,9 @@ hankel4 absorbance4_factor(absorbance4 b, float alpha)
 /// Error: 2^-p (2 + 2 b0), relative.
 float absorbance_transmittance(float b0, float intensity)
 {
-    float t = polynomial_exp(-1.0 * (gnomon_max(0.0, b0) * saturate_or_zero(intensity)));
+    // No comparison with NaN, which Metal's fast mathematics would lose. Scaling by a power of two changes no bits.
+    float absorbed = saturate_or_zero(b0 * absorbance_scale) * 18446744073709551616.0;
+    float t = polynomial_exp(-1.0 * (absorbed * saturate_or_zero(intensity)));
     return gnomon_min(t, 1.0);
 }
 
@@ -9220,8 +9224,9 @@ float variance_summed_intensity(channels2 c, float most_texels, float z_f)
     variance_summed_moments b = gnomon_variance_summed_decode(c, noise);
     float distance_ = (clamp_or_nan(z_f, -1.0, 1.0) - b.mean) - 2.0 * noise;
     float d = gnomon_max(0.0, distance_);
-    float intensity = saturate_or_zero(d * d / (b.variance + d * d));
-    return gnomon_select(c.c2 == c.c2, intensity, 0.0);
+    // 1, or 0 for NaN, without a comparison, which Metal's fast mathematics would lose.
+    float known = saturate_or_zero(c.c2 + 1.0);
+    return known * saturate_or_zero(d * d / (b.variance + d * d));
 }
 
 /// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.

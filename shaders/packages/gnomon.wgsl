@@ -3301,6 +3301,8 @@ fn absorbance4_factor(b: absorbance4_, alpha: f32) -> hankel4_
     return hankel4_constant_bias(m, bias4_raw_b2_, bias4_raw_b4_, alpha);
 }
 
+const absorbance_scale: f32 = 0x1.p-64; // 5.421010862427522170037e-20, 2^-64
+
 /// The transmittance in [0, 1] of absorbance b0 of which the share before the receiver is an intensity, as of
 /// bounds_intensity.
 /// Domain: b0 >= 0, clamped; intensity in [0, 1], clamped.
@@ -3308,7 +3310,9 @@ fn absorbance4_factor(b: absorbance4_, alpha: f32) -> hankel4_
 /// Error: 2^-p (2 + 2 b0), relative.
 fn absorbance_transmittance(b0: f32, intensity: f32) -> f32
 {
-    let t = polynomial_exp(-1.0 * (gnomon_max(0.0, b0) * saturate_or_zero(intensity)));
+    // No comparison with NaN, which Metal's fast mathematics would lose. Scaling by a power of two changes no bits.
+    let absorbed = saturate_or_zero(b0 * absorbance_scale) * 18446744073709551616.0;
+    let t = polynomial_exp(-1.0 * (absorbed * saturate_or_zero(intensity)));
     return gnomon_min(t, 1.0);
 }
 
@@ -8908,8 +8912,9 @@ fn variance_summed_intensity(c: channels2_, most_texels: f32, z_f: f32) -> f32
     let b = gnomon_variance_summed_decode(c, noise);
     let distance_ = (clamp_or_nan(z_f, -1.0, 1.0) - b.mean) - 2.0 * noise;
     let d = gnomon_max(0.0, distance_);
-    let intensity = saturate_or_zero(d * d / (b.variance + d * d));
-    return gnomon_select(c.c2_ == c.c2_, intensity, 0.0);
+    // 1, or 0 for NaN, without a comparison, which Metal's fast mathematics would lose.
+    let known = saturate_or_zero(c.c2_ + 1.0);
+    return known * saturate_or_zero(d * d / (b.variance + d * d));
 }
 
 /// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.

@@ -1205,8 +1205,9 @@ static inline float variance_summed_intensity(channels2 c, float most_texels, fl
     variance_summed_moments b = gnomon_variance_summed_decode(c, noise);
     float distance_ = (clamp_or_nan(z_f, -1.0f, 1.0f) - b.mean) - 2.0f * noise;
     float d = gnomon_max(0.0f, distance_);
-    float intensity = saturate_or_zero(d * d / (b.variance + d * d));
-    return gnomon_select(c.c2 == c.c2, intensity, 0.0f);
+    // 1, or 0 for NaN, without a comparison, which Metal's fast mathematics would lose.
+    float known = saturate_or_zero(c.c2 + 1.0f);
+    return known * saturate_or_zero(d * d / (b.variance + d * d));
 }
 
 /// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.

@@ -1710,8 +1710,9 @@ GNOMON_INLINE constexpr Real variance_summed_intensity(channels2<Real> c, std::t
     variance_summed_moments b = variance_summed_decode(c, noise);
     Real distance_ = (clamp_or_nan(z_f, Real(-1), Real(1)) - b.mean) - Real(2) * noise;
     Real d = gnomon_max(Real(0), distance_);
-    Real intensity = saturate_or_zero(d * d / (b.variance + d * d));
-    return gnomon_select(c.c2 == c.c2, intensity, Real(0));
+    // 1, or 0 for NaN, without a comparison, which Metal's fast mathematics would lose.
+    Real known = saturate_or_zero(c.c2 + Real(1));
+    return known * saturate_or_zero(d * d / (b.variance + d * d));
 }
 
 /// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.

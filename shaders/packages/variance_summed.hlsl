@@ -1174,8 +1174,9 @@ float variance_summed_intensity(channels2 c, float most_texels, float z_f)
     variance_summed_moments b = gnomon_variance_summed_decode(c, noise);
     float distance_ = (clamp_or_nan(z_f, -1.0, 1.0) - b.mean) - 2.0 * noise;
     float d = gnomon_max(0.0, distance_);
-    float intensity = saturate_or_zero(d * d / (b.variance + d * d));
-    return gnomon_select(c.c2 == c.c2, intensity, 0.0);
+    // 1, or 0 for NaN, without a comparison, which Metal's fast mathematics would lose.
+    float known = saturate_or_zero(c.c2 + 1.0);
+    return known * saturate_or_zero(d * d / (b.variance + d * d));
 }
 
 /// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.

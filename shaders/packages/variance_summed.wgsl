@@ -1085,8 +1085,9 @@ fn variance_summed_intensity(c: channels2_, most_texels: f32, z_f: f32) -> f32
     let b = gnomon_variance_summed_decode(c, noise);
     let distance_ = (clamp_or_nan(z_f, -1.0, 1.0) - b.mean) - 2.0 * noise;
     let d = gnomon_max(0.0, distance_);
-    let intensity = saturate_or_zero(d * d / (b.variance + d * d));
-    return gnomon_select(c.c2_ == c.c2_, intensity, 0.0);
+    // 1, or 0 for NaN, without a comparison, which Metal's fast mathematics would lose.
+    let known = saturate_or_zero(c.c2_ + 1.0);
+    return known * saturate_or_zero(d * d / (b.variance + d * d));
 }
 
 /// Mean blocker depth in [-1, z_f] from the channels of a search rectangle.

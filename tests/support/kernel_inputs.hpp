@@ -34,6 +34,7 @@ template <class T> class kernel_inputs {
             if (found == std::end(input_families<T>)) wrong(kernel, "there is no family " + word);
             families_.push_back(found);
             given += found->numbers;
+            informs_.resize(given, word != "texels"); // of which a NaN names a default
         }
         if (given != numbers)
             wrong(kernel, "needs " + std::to_string(numbers) + " numbers, its families give " + std::to_string(given));
@@ -48,6 +49,14 @@ template <class T> class kernel_inputs {
                 draw_row(row, kind == row_kind::all ? block_ % 4 : kind == row_kind::tame ? 0 : 2 + block_ % 2);
                 for (std::size_t j = 0; j < numbers_; ++j) to[j * block_rows + i] = row[j];
             }
+    }
+
+    /// Whether a number that informs is NaN, which a kernel answers by lit.
+    [[nodiscard]] bool lacks_information(const std::vector<T>& row) const
+    {
+        for (std::size_t j = 0; j < row.size(); ++j)
+            if (informs_[j] && std::isnan(row[j])) return true;
+        return false;
     }
 
   private:
@@ -91,6 +100,7 @@ template <class T> class kernel_inputs {
     hostile_source<T> special_;
     std::size_t numbers_, block_ = 0;
     std::vector<const input_family<T>*> families_;
+    std::vector<bool> informs_;
 };
 
 } // namespace gnomon::test

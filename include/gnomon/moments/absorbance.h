@@ -79,6 +79,8 @@ GNOMON_KERNEL GNOMON_T(hankel4) absorbance4_factor(GNOMON_T(absorbance4) b, GNOM
     return hankel4_constant_bias(m, GNOMON_LITERAL(bias4_raw_b2), GNOMON_LITERAL(bias4_raw_b4), alpha);
 }
 
+GNOMON_CONSTANT(absorbance_scale, 5.421010862427522170037e-20); // 2^-64
+
 /// The transmittance in [0, 1] of absorbance b0 of which the share before the receiver is an intensity, as of
 /// bounds_intensity.
 /// Domain: b0 >= 0, clamped; intensity in [0, 1], clamped.
@@ -86,7 +88,9 @@ GNOMON_KERNEL GNOMON_T(hankel4) absorbance4_factor(GNOMON_T(absorbance4) b, GNOM
 /// Error: 2^-p (2 + 2 b0), relative.
 GNOMON_KERNEL Real absorbance_transmittance(Real b0, Real intensity)
 {
-    Real t = polynomial_exp(Real(-1) * (gnomon_max(Real(0), b0) * saturate_or_zero(intensity)));
+    // No comparison with NaN, which Metal's fast mathematics would lose. Scaling by a power of two changes no bits.
+    Real absorbed = saturate_or_zero(b0 * GNOMON_LITERAL(absorbance_scale)) * Real(18446744073709551616.0);
+    Real t = polynomial_exp(Real(-1) * (absorbed * saturate_or_zero(intensity)));
     return gnomon_min(t, Real(1));
 }
 
