@@ -3,6 +3,7 @@
 // receivers; last the comparators. What is C++ only (.hpp: formats as types, passes over maps, adapters, packs) is included by name.
 #ifndef GNOMON_GNOMON_H
 #define GNOMON_GNOMON_H
+#include "comparators/froxels.h"
 #include "comparators/hamburger_cholesky.h"
 #include "comparators/percentage_closer_soft.h"
 #include "comparators/prism.h"

@@ -413,6 +413,42 @@ template <class T> GNOMON_INLINE constexpr T gnomon_high_part(T a)
 
 #endif
 
+// numerics/round.h ----------------------------------------------------------------------------------------------------
+// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
+// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
+#ifndef GNOMON_NUMERICS_ROUND_H
+#define GNOMON_NUMERICS_ROUND_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The whole number nearest to x, ties to even.
+/// Domain: |x| <= 2^22 in float, 2^51 in double.
+/// NaN: stays NaN.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real nearest_integer(Real x)
+{
+    Real rounder = Real(-12582912);
+    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
+        rounder = Real(-6755399441055744.0);
+    }
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
+}
+
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real nearest_natural(Real x)
+{
+    Real rounder = Real(8388608);
+    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
+        rounder = Real(4503599627370496.0);
+    }
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
 // numerics/select.h ---------------------------------------------------------------------------------------------------
 // Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
 #ifndef GNOMON_NUMERICS_SELECT_H
@@ -440,6 +476,441 @@ GNOMON_INLINE constexpr Real clamp_or_high(Real x, std::type_identity_t<Real> lo
 /// NaN: 0, lit.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real saturate_or_zero(Real x) { return gnomon_saturate(x); }
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// numerics/exp.h ------------------------------------------------------------------------------------------------------
+// Exponential function and natural logarithm with the same bits in every language.
+//
+// The argument is reduced by a power of two (Cody & Waite 1980). ln 2 has two parts, the first of 10 bits, so that its
+// multiples are exact. A minimax polynomial approximates the function on the reduced range: a short one for float, a
+// long one for double. tests/derivations/minimax.cpp prints the coefficients of both.
+#ifndef GNOMON_NUMERICS_EXP_H
+#define GNOMON_NUMERICS_EXP_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+inline constexpr double exp_log2_e = 1.4426950408889634;
+inline constexpr double exp_ln2_low = -2.1219444005469058e-4;
+inline constexpr double exp_sqrt_2 = 1.4142135623730951;
+inline constexpr double exp_sqrt_half = 0.70710678118654752;
+
+// exp x = 1 + x + x^2 p(x), |x| <= ln 2 / 2: relative error 2^-28.0 and 2^-57.4, coefficients rounded.
+inline constexpr double exp_float_0 = 0.49999993561656014;
+inline constexpr double exp_float_1 = 0.16666518908321371;
+inline constexpr double exp_float_2 = 0.041668318723256166;
+inline constexpr double exp_float_3 = 0.0083689258101569408;
+inline constexpr double exp_float_4 = 0.00138210541669496;
+inline constexpr double exp_double_0 = 0.50000000000000111;
+inline constexpr double exp_double_1 = 0.16666666666666424;
+inline constexpr double exp_double_2 = 0.041666666666526318;
+inline constexpr double exp_double_3 = 0.0083333333334836331;
+inline constexpr double exp_double_4 = 0.0013888888944739634;
+inline constexpr double exp_double_5 = 0.00019841269536328214;
+inline constexpr double exp_double_6 = 2.4801491857967717e-05;
+inline constexpr double exp_double_7 = 2.7557554255829581e-06;
+inline constexpr double exp_double_8 = 2.7630720120614683e-07;
+inline constexpr double exp_double_9 = 2.5011956595275024e-08;
+
+// 2 artanh y = 2 y + y^3 p(y^2), |y| <= (sqrt 2 - 1) / (sqrt 2 + 1): relative error 2^-30.2 and 2^-59.3.
+inline constexpr double log_float_0 = 0.66666776085218282;
+inline constexpr double log_float_1 = 0.39977574040563962;
+inline constexpr double log_float_2 = 0.29870936689734456;
+inline constexpr double log_double_0 = 0.6666666666666734;
+inline constexpr double log_double_1 = 0.39999999999416375;
+inline constexpr double log_double_2 = 0.28571428742015142;
+inline constexpr double log_double_3 = 0.22222198610815577;
+inline constexpr double log_double_4 = 0.1818356240364567;
+inline constexpr double log_double_5 = 0.15314098871014789;
+inline constexpr double log_double_6 = 0.14795474816803084;
+
+/// (e^r - 1 - r) / r^2.
+/// Domain: |r| <= ln 2 / 2.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real exp_remainder(Real r)
+{
+    Real p = literal<Real>(exp_float_0) + r *
+             (literal<Real>(exp_float_1) + r *
+              (literal<Real>(exp_float_2) + r * (literal<Real>(exp_float_3) + r * literal<Real>(exp_float_4))));
+    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
+        p = literal<Real>(exp_double_0) + r *
+            (literal<Real>(exp_double_1) + r *
+             (literal<Real>(exp_double_2) + r *
+              (literal<Real>(exp_double_3) + r *
+               (literal<Real>(exp_double_4) + r *
+                (literal<Real>(exp_double_5) + r *
+                 (literal<Real>(exp_double_6) + r *
+                  (literal<Real>(exp_double_7) + r *
+                   (literal<Real>(exp_double_8) + r * literal<Real>(exp_double_9)))))))));
+    }
+    return p;
+}
+
+/// e^x, always a finite, normal number.
+/// Domain: [-87, 88] in float, [-708, 709] in double; x is clamped.
+/// NaN: stays NaN.
+/// Error: 1 ulp in float, 1.2 ulp in double, where subtracting up to 1023 ln 2 from x costs 3 2^-56 of the result,
+/// nearly 0.4 ulp.
+/// Source: Cody & Waite 1980
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real polynomial_exp(Real x)
+{
+    Real low = Real(-87);
+    Real high = Real(88);
+    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
+        low = Real(-708);
+        high = Real(709);
+    }
+    x = clamp_or_nan(x, low, high);
+    Real n = nearest_integer(x * literal<Real>(exp_log2_e));
+    Real r = gnomon_difference(x, n * Real(0.693359375)) - n * literal<Real>(exp_ln2_low);
+    return (Real(1) + (r + r * r * exp_remainder(r))) * gnomon_power_of_two(n);
+}
+
+/// The number significand 2^exponent.
+template <class Real, class = require_real<Real>> struct scaled_number { Real significand, exponent; };
+
+/// s with a factor of 2^k moved from the significand to the exponent if the significand is at least 2^k, with a factor
+/// of 2^-k if it is at most 2^-k.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr scaled_number<Real> scaled_number_step(scaled_number<Real> s, Real k)
+{
+    Real up = gnomon_power_of_two(k);
+    Real down = gnomon_power_of_two(-k);
+    mask_t<Real> large = up <= s.significand;
+    mask_t<Real> tiny = s.significand <= down;
+    scaled_number<Real> r;
+    r.significand = gnomon_select(large, s.significand * down, gnomon_select(tiny, s.significand * up, s.significand));
+    r.exponent = gnomon_select(large, s.exponent + k, gnomon_select(tiny, s.exponent - k, s.exponent));
+    return r;
+}
+
+/// The natural logarithm of x.
+/// Domain: [2^-126, 2^127] in float, [2^-1022, 2^1023] in double; x is clamped, so that 0 and negative numbers give the
+/// value at the lower end.
+/// NaN: stays NaN.
+/// Error: 0.9 ulp in float and in double.
+/// Source: Cody & Waite 1980
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real polynomial_log(Real x)
+{
+    scaled_number<Real> s;
+    s.exponent = Real(0);
+    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
+        s.significand = clamp_or_nan(x, gnomon_power_of_two(Real(-1022)), gnomon_power_of_two(Real(1023)));
+        s = scaled_number_step(s, Real(512));
+        s = scaled_number_step(s, Real(256));
+        s = scaled_number_step(s, Real(128));
+    } else {
+        s.significand = clamp_or_nan(x, gnomon_power_of_two(Real(-126)), gnomon_power_of_two(Real(127)));
+    }
+    s = scaled_number_step(s, Real(64));
+    s = scaled_number_step(s, Real(32));
+    s = scaled_number_step(s, Real(16));
+    s = scaled_number_step(s, Real(8));
+    s = scaled_number_step(s, Real(4));
+    s = scaled_number_step(s, Real(2));
+    s = scaled_number_step(s, Real(1));
+    mask_t<Real> large = literal<Real>(exp_sqrt_2) < s.significand;
+    mask_t<Real> tiny = s.significand < literal<Real>(exp_sqrt_half);
+    Real m = gnomon_select(large, s.significand * Real(0.5),
+                           gnomon_select(tiny, s.significand * Real(2), s.significand));
+    Real n = gnomon_select(large, s.exponent + Real(1), gnomon_select(tiny, s.exponent - Real(1), s.exponent));
+
+    // As in fdlibm, with exact f and y = f / (2 + f):
+    // log(1 + f) = 2 artanh y = f - (f^2 / 2 - y (f^2 / 2 + y^2 p(y^2))).
+    Real f = m - Real(1);
+    Real y = f / (Real(2) + f);
+    Real z = y * y;
+    Real p = literal<Real>(log_float_0) + z * (literal<Real>(log_float_1) + z * literal<Real>(log_float_2));
+    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
+        p = literal<Real>(log_double_0) + z *
+            (literal<Real>(log_double_1) + z *
+             (literal<Real>(log_double_2) + z *
+              (literal<Real>(log_double_3) + z *
+               (literal<Real>(log_double_4) + z * (literal<Real>(log_double_5) + z * literal<Real>(log_double_6))))));
+    }
+    Real square = Real(0.5) * f * f;
+    Real rest = y * (square + z * p) + n * literal<Real>(exp_ln2_low);
+    return n * Real(0.693359375) - ((square - rest) - f);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// scattering/single_scattering.h --------------------------------------------------------------------------------------
+// Single scattering of a directional light in a homogeneous medium along a view ray (Peters et al. 2017, Sec. 5.1.1 and
+// 5.3.1):
+//
+//     radiance = e^(-extinction s) surface + scattering phase irradiance (1 - e^(-extinction s)) / extinction (1 -
+// intensity)
+//
+// over a distance s, where intensity is the shadow of the ray, weighted by transmittance. extinction and scattering are
+// per unit of length, and scattering is the albedo times extinction: the paper's formula has no such factor, its phase
+// function holds the scattering coefficient. Light is not attenuated on its way from the light source to the view ray.
+//
+// omega_l is the direction to the light, omega_p that to the camera. Along a view ray with the polar angle theta
+// (rectified.h) omega_l.omega_p = cos theta: 1 looking along the light, -1 looking into it. Phase functions take the
+// cosine of the scattering angle, -omega_l.omega_p = -cos theta: light that goes straight on to the camera has 1.
+#ifndef GNOMON_SCATTERING_SINGLE_SCATTERING_H
+#define GNOMON_SCATTERING_SINGLE_SCATTERING_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+inline constexpr double phase_isotropic = 0.079577471545947668; // 1 / (4 pi), for every angle
+inline constexpr double phase_greatest_asymmetry = 0.9990234375;
+
+/// The integral of the transmittance along a ray, (1 - e^(-extinction distance)) / extinction, without cancellation:
+/// the length of a ray without extinction that scatters as much. In [0, distance].
+/// Domain: both at least 0, also infinite; negative numbers count as 0.
+/// NaN: as 0.
+/// Error: 4.5 ulp.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real attenuated_length(Real distance_, Real extinction)
+{
+    Real whole = gnomon_max(distance_, Real(0));
+    Real rate = gnomon_max(extinction, Real(0));
+    Real depth = gnomon_max(rate * whole, Real(0));
+    mask_t<Real> thin = depth < Real(0.34375);
+    Real r = Real(-1) * gnomon_select(thin, depth, Real(0));
+    Real thick = (Real(1) - polynomial_exp(Real(-1) * depth)) / gnomon_select(thin, Real(1), rate);
+    return gnomon_select(thin, whole * (Real(1) + r * exp_remainder(r)), thick);
+}
+
+/// (1 - e^-x) / x, the mean transmittance along a ray of the optical depth x, in [0, 1]; 1 for 0, without cancellation.
+/// Domain: x at least 0, also infinite; negative x counts as 0.
+/// NaN: 1.
+/// Error: 4.5 ulp.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real attenuated_mean(Real x) { return attenuated_length(Real(1), x); }
+
+/// e^-x, the transmittance of the optical depth x, in [0, 1].
+/// Domain: x at least 0, also infinite; negative x counts as 0. Not below e^-87 in float, e^-708 in double.
+/// NaN: 1.
+/// Error: 1 ulp in float, 1.2 ulp in double.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real transmittance_over(Real x)
+{
+    return gnomon_min(Real(1), polynomial_exp(Real(-1) * gnomon_max(x, Real(0))));
+}
+
+/// The Henyey-Greenstein phase function, per steradian, of the cosine of the scattering angle. asymmetry is its mean
+/// cosine: positive for media that scatter forward, 0 for isotropic ones.
+/// Domain: cosine in [-1, 1], asymmetry in [-1 + 2^-10, 1 - 2^-10], clamped.
+/// NaN: NaN for a cosine of NaN; an asymmetry of NaN counts as 0.
+/// Error: relative, 2^(3 - p) for |asymmetry| <= 1/2.
+/// Source: Henyey & Greenstein 1941
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real phase_henyey_greenstein(Real cosine, std::type_identity_t<Real> asymmetry)
+{
+    Real c = clamp_or_nan(cosine, Real(-1), Real(1));
+    Real g = gnomon_min(gnomon_max(gnomon_abs(asymmetry), Real(0)), literal<Real>(phase_greatest_asymmetry));
+    Real off = Real(1) - gnomon_select(asymmetry < Real(0), Real(-1) * c, c);
+    Real rest = Real(1) - g;
+    Real d = rest * rest + (g + g) * off;
+    return literal<Real>(phase_isotropic) * (rest * (Real(1) + g)) / (d * gnomon_sqrt(d));
+}
+
+/// The overestimation of visibility for the ray of a polar angle with this cosine, (1 + cosine) / 2, for
+/// bounds_intensity. Looking into the light no occluder can be before the ray in depth, so it is 0, and no light leaks;
+/// looking along the light none can be behind the ray, so it is 1, and no light is lost.
+/// Domain: cosine in [-1, 1], clamped.
+/// NaN: 1.
+/// Source: Peters 2017, Sec. 5.3.1
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real adaptive_overestimation(Real cosine)
+{
+    return Real(1) - saturate_or_zero(Real(0.5) - Real(0.5) * cosine);
+}
+
+/// Radiance that reaches the camera: that of the surface, attenuated, and light scattered into the view ray. intensity
+/// is the shadow of the ray, 0 where all of the ray is lit.
+/// Domain: distance, extinction, scattering, phase, irradiance and surface at least 0 and finite.
+/// NaN: an intensity of NaN counts as 0.
+/// Error: relative, 2^(4 - p) for optical depths up to 1.
+/// Source: Peters 2017, Sec. 5.1.1
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real scattering_radiance(Real surface, Real intensity, Real distance_,
+                                                 std::type_identity_t<Real> extinction,
+                                                 std::type_identity_t<Real> scattering, Real phase,
+                                                 std::type_identity_t<Real> irradiance)
+{
+    Real depth = extinction * distance_;
+    Real lit = (scattering * phase * irradiance) * attenuated_length(distance_, extinction);
+    return transmittance_over(depth) * surface + lit * (Real(1) - saturate_or_zero(intensity));
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// scattering/transmittance_weights.h ----------------------------------------------------------------------------------
+// Weights of prefix averages along the rows of a rectified map (Peters et al. 2017, Sec. 5.1.1). Texel u has the weight
+// w_u, and the average up to texel u is the one before, moved towards texel u by its share of the sum of weights:
+//
+//     mean_u = mean_(u - 1) + g_u (texel_u - mean_(u - 1)),        g_u = w_u / (w_0 + ... + w_u),        g_0 = 1
+//
+// All g_u are in [0, 1], so that prefix averages of moments are moments. In a homogeneous medium texel u is seen
+// through u texels of the medium: w_u = q^u up to a factor that cancels, so that
+//
+//     g_u = q g_(u - 1) / (1 + q g_(u - 1)),        q = transmittance of one texel
+//
+// holds for every extinction: q = 1 without any, q = 0 in an opaque medium. Weights that vary from texel to texel, as
+// those of scattering/height_fog.h, are summed by transmittance_share_add.
+//
+//     (for a row)   q = transmittance_step(extinction, radius_step, sine of the row's mean polar angle)
+//     (for u > 0)   g = transmittance_weight_next(g, q);   mean = mean + g (texel - mean)
+//
+// A ray that ends within texel u, a share f of it, has an average between that of texel u - 1 and that of texel u, but
+// not at f: transmittance_weight_within is exact.
+#ifndef GNOMON_SCATTERING_TRANSMITTANCE_WEIGHTS_H
+#define GNOMON_SCATTERING_TRANSMITTANCE_WEIGHTS_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The transmittance of the medium from one texel of a row to the next, in [0, 1]. extinction is per unit of length;
+/// the view ray crosses the texels of radius_step at an angle to the light that has this sine.
+/// Domain: at least 0, also infinite; negative numbers count as 0.
+/// NaN: 1, also where an extinction of 0 meets a sine of 0.
+/// Error: relative, 2.5 2^-p for each unit of the optical depth extinction radius_step / sine, and 2 2^-p.
+/// Source: Peters 2017, Sec. 5.1.1
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real transmittance_step(std::type_identity_t<Real> extinction, Real radius_step, Real sine)
+{
+    return transmittance_over((extinction * radius_step) / sine);
+}
+
+/// The share g_u of texel u in its prefix average, from the share g of the texel before and the ratio of their weights,
+/// q. In [0, 1].
+/// Domain: g and q in [0, 1], clamped.
+/// NaN: 0.
+/// Error: relative, 1.5 roundings beside the errors of g and q.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real transmittance_weight_next(Real g, Real q)
+{
+    Real next = saturate_or_zero(q) * saturate_or_zero(g);
+    return next / (Real(1) + next);
+}
+
+/// The share of the way from the average before a texel to the one up to it, for a ray that ends a share f within the
+/// texel: v / (1 - g (1 - v)), v = (1 - q^f) / (1 - q), where g is the share of the texel. In [0, 1].
+/// Domain: g, q and f in [0, 1], clamped.
+/// NaN: as 0 for g and f, as 1 for q.
+/// Error: 8 2^-p.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real transmittance_weight_within(Real g, Real q, Real f)
+{
+    Real share = saturate_or_zero(f);
+    Real depth = Real(-1) * polynomial_log(gnomon_min(q, Real(1)));
+    Real v = gnomon_min(Real(1), share * attenuated_mean(share * depth) / attenuated_mean(depth));
+    Real rest = Real(1) - saturate_or_zero(g) * (Real(1) - v);
+    return gnomon_select(Real(0) < rest, saturate_or_zero(v / rest), Real(1));
+}
+
+/// A sum of weights, and the share in it of the weight that was added last.
+template <class Real, class = require_real<Real>> struct transmittance_share { Real total, share; };
+
+/// The state after the first texel of a row, whose share is 1.
+/// Domain: a weight of at least 0; negative weights count as 0.
+/// NaN: a weight of 0.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr transmittance_share<Real> transmittance_share_begin(Real weight)
+{
+    transmittance_share<Real> r;
+    r.total = gnomon_max(weight, Real(0));
+    r.share = Real(1);
+    return r;
+}
+
+/// The state after one more texel with a weight. Its share, in [0, 1], is 1 while all weights are 0.
+/// Domain: as for transmittance_share_begin. While the sum is not finite the share is 0.
+/// NaN: a weight of 0.
+/// Error: relative, one rounding for each texel.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr transmittance_share<Real> transmittance_share_add(transmittance_share<Real> state, Real weight)
+{
+    Real added = gnomon_max(weight, Real(0));
+    transmittance_share<Real> r;
+    r.total = state.total + added;
+    r.share = saturate_or_zero(added / r.total);
+    r.share = gnomon_select(r.total == Real(0), Real(1), r.share);
+    return r;
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// comparators/froxels.h -----------------------------------------------------------------------------------------------
+// Single scattering by a grid of froxels (Wronski 2014), which most engines use: cells of the view frustum, few columns
+// of pixels wide, in slices whose thickness grows with the distance. Each froxel looks up the shadow map once; slice by
+// slice the intensities are averaged from the camera on, and each pixel interpolates between averages.
+//
+//     slices = froxel_slices_from(nearest, farthest, count);
+//     (slice k = 0)   sum = transmittance_share_begin(froxel_weight(extinction, 0, froxel_distance(0, slices)));
+//     (slice k > 0)   sum = transmittance_share_add(sum, froxel_weight(extinction, froxel_distance(k - 1, slices),
+//                                                                      froxel_distance(k, slices)));
+//                     mean = mean + sum.share (intensity of the froxel - mean)
+//     (for a pixel)   mean at slice froxel_slice_of(distance, slices), interpolated between slices and columns
+//
+// Distances are from the camera, so that slices are spheres, and the weights of a slice are those of all its froxels.
+// Slice 0 reaches from the camera to the nearest distance. passes/froxels.hpp does the same over a whole grid.
+#ifndef GNOMON_COMPARATORS_FROXELS_H
+#define GNOMON_COMPARATORS_FROXELS_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The end of slice 0, the logarithm of the quotient of the ends of neighbouring slices, and the last slice.
+template <class Real, class = require_real<Real>> struct froxel_slices { Real nearest, growth, last; };
+
+/// Slices of which the first ends at nearest and the last at farthest.
+/// Domain: nearest and farthest in [2^-60, 2^60] with nearest <= farthest, and 2 to 65536 slices; others are limited to
+/// that.
+/// NaN: the upper limit.
+/// Source: Wronski 2014
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr froxel_slices<Real> froxel_slices_from(Real nearest, Real farthest, Real count)
+{
+    froxel_slices<Real> r;
+    Real least = gnomon_power_of_two(Real(-60));
+    Real most = gnomon_power_of_two(Real(60));
+    r.nearest = clamp_or_high(nearest, least, most);
+    r.last = clamp_or_high(count, Real(2), Real(65536)) - Real(1);
+    Real quotient = clamp_or_high(farthest, r.nearest, most) / r.nearest;
+    r.growth = polynomial_log(quotient) / r.last;
+    return r;
+}
+
+/// The distance at which slice k ends.
+/// Domain: k limited to the slices.
+/// NaN: the end of the last slice.
+/// Error: relative, 2^(7 - p).
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real froxel_distance(Real k, froxel_slices<Real> slices)
+{
+    return slices.nearest * polynomial_exp(clamp_or_high(k, Real(0), slices.last) * slices.growth);
+}
+
+/// The slice that ends at this distance, with a fraction between two ends.
+/// Domain: any distance, limited to the ends of the first and of the last slice.
+/// NaN: the last slice.
+/// Error: 2^(7 - p) of the last slice.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real froxel_slice_of(Real distance_, froxel_slices<Real> slices)
+{
+    Real slice = polynomial_log(distance_ / slices.nearest) / slices.growth;
+    return clamp_or_high(slice, Real(0), slices.last);
+}
+
+/// Light scattered to the camera between two distances, relative to that of clear air of unit length: the weight of a
+/// froxel's intensity in its column.
+/// Domain: extinction and distances at least 0, nearer <= farther.
+/// NaN: 0 for a distance; an extinction of NaN counts as 0.
+/// Error: relative, 8 2^-p for optical depths up to 1.
+/// Source: Hillaire 2015
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real froxel_weight(std::type_identity_t<Real> extinction, Real nearer, Real farther)
+{
+    Real thickness = gnomon_max(farther - nearer, Real(0));
+    return transmittance_over(extinction * nearer) * (thickness * attenuated_mean(extinction * thickness));
+}
 
 GNOMON_WARNINGS_ON } // namespace gnomon
 
@@ -671,42 +1142,6 @@ GNOMON_INLINE constexpr moments6<Real> moments6_add(moments6<Real> sum, moments6
     sum.b5 = sum.b5 + b.b5 * weight;
     sum.b6 = sum.b6 + b.b6 * weight;
     return sum;
-}
-
-GNOMON_WARNINGS_ON } // namespace gnomon
-
-#endif
-
-// numerics/round.h ----------------------------------------------------------------------------------------------------
-// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
-// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
-#ifndef GNOMON_NUMERICS_ROUND_H
-#define GNOMON_NUMERICS_ROUND_H
-
-GNOMON_WARNINGS_OFF namespace gnomon {
-
-/// The whole number nearest to x, ties to even.
-/// Domain: |x| <= 2^22 in float, 2^51 in double.
-/// NaN: stays NaN.
-template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real nearest_integer(Real x)
-{
-    Real rounder = Real(-12582912);
-    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
-        rounder = Real(-6755399441055744.0);
-    }
-    return gnomon_sum(gnomon_difference(x, rounder), rounder);
-}
-
-/// The whole number nearest to x, ties to even.
-/// Domain: x >= 0, of any size.
-/// NaN: stays NaN.
-template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real nearest_natural(Real x)
-{
-    Real rounder = Real(8388608);
-    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
-        rounder = Real(4503599627370496.0);
-    }
-    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon
@@ -2510,163 +2945,6 @@ GNOMON_INLINE constexpr depth_time_range<Real> fragment_cover_end(fragment_cover
     timed_fragment n = state.nearest;
     depth_time_range cover = range_between(n.t, n.z, Real(1) - n.t, state.far_depth, n.id);
     return range_select(covers, cover, range_empty(Real(-1)));
-}
-
-GNOMON_WARNINGS_ON } // namespace gnomon
-
-#endif
-
-// numerics/exp.h ------------------------------------------------------------------------------------------------------
-// Exponential function and natural logarithm with the same bits in every language.
-//
-// The argument is reduced by a power of two (Cody & Waite 1980). ln 2 has two parts, the first of 10 bits, so that its
-// multiples are exact. A minimax polynomial approximates the function on the reduced range: a short one for float, a
-// long one for double. tests/derivations/minimax.cpp prints the coefficients of both.
-#ifndef GNOMON_NUMERICS_EXP_H
-#define GNOMON_NUMERICS_EXP_H
-
-GNOMON_WARNINGS_OFF namespace gnomon {
-
-inline constexpr double exp_log2_e = 1.4426950408889634;
-inline constexpr double exp_ln2_low = -2.1219444005469058e-4;
-inline constexpr double exp_sqrt_2 = 1.4142135623730951;
-inline constexpr double exp_sqrt_half = 0.70710678118654752;
-
-// exp x = 1 + x + x^2 p(x), |x| <= ln 2 / 2: relative error 2^-28.0 and 2^-57.4, coefficients rounded.
-inline constexpr double exp_float_0 = 0.49999993561656014;
-inline constexpr double exp_float_1 = 0.16666518908321371;
-inline constexpr double exp_float_2 = 0.041668318723256166;
-inline constexpr double exp_float_3 = 0.0083689258101569408;
-inline constexpr double exp_float_4 = 0.00138210541669496;
-inline constexpr double exp_double_0 = 0.50000000000000111;
-inline constexpr double exp_double_1 = 0.16666666666666424;
-inline constexpr double exp_double_2 = 0.041666666666526318;
-inline constexpr double exp_double_3 = 0.0083333333334836331;
-inline constexpr double exp_double_4 = 0.0013888888944739634;
-inline constexpr double exp_double_5 = 0.00019841269536328214;
-inline constexpr double exp_double_6 = 2.4801491857967717e-05;
-inline constexpr double exp_double_7 = 2.7557554255829581e-06;
-inline constexpr double exp_double_8 = 2.7630720120614683e-07;
-inline constexpr double exp_double_9 = 2.5011956595275024e-08;
-
-// 2 artanh y = 2 y + y^3 p(y^2), |y| <= (sqrt 2 - 1) / (sqrt 2 + 1): relative error 2^-30.2 and 2^-59.3.
-inline constexpr double log_float_0 = 0.66666776085218282;
-inline constexpr double log_float_1 = 0.39977574040563962;
-inline constexpr double log_float_2 = 0.29870936689734456;
-inline constexpr double log_double_0 = 0.6666666666666734;
-inline constexpr double log_double_1 = 0.39999999999416375;
-inline constexpr double log_double_2 = 0.28571428742015142;
-inline constexpr double log_double_3 = 0.22222198610815577;
-inline constexpr double log_double_4 = 0.1818356240364567;
-inline constexpr double log_double_5 = 0.15314098871014789;
-inline constexpr double log_double_6 = 0.14795474816803084;
-
-/// (e^r - 1 - r) / r^2.
-/// Domain: |r| <= ln 2 / 2.
-template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real exp_remainder(Real r)
-{
-    Real p = literal<Real>(exp_float_0) + r *
-             (literal<Real>(exp_float_1) + r *
-              (literal<Real>(exp_float_2) + r * (literal<Real>(exp_float_3) + r * literal<Real>(exp_float_4))));
-    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
-        p = literal<Real>(exp_double_0) + r *
-            (literal<Real>(exp_double_1) + r *
-             (literal<Real>(exp_double_2) + r *
-              (literal<Real>(exp_double_3) + r *
-               (literal<Real>(exp_double_4) + r *
-                (literal<Real>(exp_double_5) + r *
-                 (literal<Real>(exp_double_6) + r *
-                  (literal<Real>(exp_double_7) + r *
-                   (literal<Real>(exp_double_8) + r * literal<Real>(exp_double_9)))))))));
-    }
-    return p;
-}
-
-/// e^x, always a finite, normal number.
-/// Domain: [-87, 88] in float, [-708, 709] in double; x is clamped.
-/// NaN: stays NaN.
-/// Error: 1 ulp in float, 1.2 ulp in double, where subtracting up to 1023 ln 2 from x costs 3 2^-56 of the result,
-/// nearly 0.4 ulp.
-/// Source: Cody & Waite 1980
-template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real polynomial_exp(Real x)
-{
-    Real low = Real(-87);
-    Real high = Real(88);
-    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
-        low = Real(-708);
-        high = Real(709);
-    }
-    x = clamp_or_nan(x, low, high);
-    Real n = nearest_integer(x * literal<Real>(exp_log2_e));
-    Real r = gnomon_difference(x, n * Real(0.693359375)) - n * literal<Real>(exp_ln2_low);
-    return (Real(1) + (r + r * r * exp_remainder(r))) * gnomon_power_of_two(n);
-}
-
-/// The number significand 2^exponent.
-template <class Real, class = require_real<Real>> struct scaled_number { Real significand, exponent; };
-
-/// s with a factor of 2^k moved from the significand to the exponent if the significand is at least 2^k, with a factor
-/// of 2^-k if it is at most 2^-k.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr scaled_number<Real> scaled_number_step(scaled_number<Real> s, Real k)
-{
-    Real up = gnomon_power_of_two(k);
-    Real down = gnomon_power_of_two(-k);
-    mask_t<Real> large = up <= s.significand;
-    mask_t<Real> tiny = s.significand <= down;
-    scaled_number<Real> r;
-    r.significand = gnomon_select(large, s.significand * down, gnomon_select(tiny, s.significand * up, s.significand));
-    r.exponent = gnomon_select(large, s.exponent + k, gnomon_select(tiny, s.exponent - k, s.exponent));
-    return r;
-}
-
-/// The natural logarithm of x.
-/// Domain: [2^-126, 2^127] in float, [2^-1022, 2^1023] in double; x is clamped, so that 0 and negative numbers give the
-/// value at the lower end.
-/// NaN: stays NaN.
-/// Error: 0.9 ulp in float and in double.
-/// Source: Cody & Waite 1980
-template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real polynomial_log(Real x)
-{
-    scaled_number<Real> s;
-    s.exponent = Real(0);
-    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
-        s.significand = clamp_or_nan(x, gnomon_power_of_two(Real(-1022)), gnomon_power_of_two(Real(1023)));
-        s = scaled_number_step(s, Real(512));
-        s = scaled_number_step(s, Real(256));
-        s = scaled_number_step(s, Real(128));
-    } else {
-        s.significand = clamp_or_nan(x, gnomon_power_of_two(Real(-126)), gnomon_power_of_two(Real(127)));
-    }
-    s = scaled_number_step(s, Real(64));
-    s = scaled_number_step(s, Real(32));
-    s = scaled_number_step(s, Real(16));
-    s = scaled_number_step(s, Real(8));
-    s = scaled_number_step(s, Real(4));
-    s = scaled_number_step(s, Real(2));
-    s = scaled_number_step(s, Real(1));
-    mask_t<Real> large = literal<Real>(exp_sqrt_2) < s.significand;
-    mask_t<Real> tiny = s.significand < literal<Real>(exp_sqrt_half);
-    Real m = gnomon_select(large, s.significand * Real(0.5),
-                           gnomon_select(tiny, s.significand * Real(2), s.significand));
-    Real n = gnomon_select(large, s.exponent + Real(1), gnomon_select(tiny, s.exponent - Real(1), s.exponent));
-
-    // As in fdlibm, with exact f and y = f / (2 + f):
-    // log(1 + f) = 2 artanh y = f - (f^2 / 2 - y (f^2 / 2 + y^2 p(y^2))).
-    Real f = m - Real(1);
-    Real y = f / (Real(2) + f);
-    Real z = y * y;
-    Real p = literal<Real>(log_float_0) + z * (literal<Real>(log_float_1) + z * literal<Real>(log_float_2));
-    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
-        p = literal<Real>(log_double_0) + z *
-            (literal<Real>(log_double_1) + z *
-             (literal<Real>(log_double_2) + z *
-              (literal<Real>(log_double_3) + z *
-               (literal<Real>(log_double_4) + z * (literal<Real>(log_double_5) + z * literal<Real>(log_double_6))))));
-    }
-    Real square = Real(0.5) * f * f;
-    Real rest = y * (square + z * p) + n * literal<Real>(exp_ln2_low);
-    return n * Real(0.693359375) - ((square - rest) - f);
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon
@@ -8201,206 +8479,6 @@ GNOMON_INLINE constexpr rectified_interval<Real> rectified_row_polar(rectified_c
     polar = rectified_row_edge(polar, q.b, q.c, left, right, whole);
     polar = rectified_row_edge(polar, q.c, q.d, left, right, whole);
     return rectified_interval_end(rectified_row_edge(polar, q.d, q.a, left, right, whole));
-}
-
-GNOMON_WARNINGS_ON } // namespace gnomon
-
-#endif
-
-// scattering/single_scattering.h --------------------------------------------------------------------------------------
-// Single scattering of a directional light in a homogeneous medium along a view ray (Peters et al. 2017, Sec. 5.1.1 and
-// 5.3.1):
-//
-//     radiance = e^(-extinction s) surface + scattering phase irradiance (1 - e^(-extinction s)) / extinction (1 -
-// intensity)
-//
-// over a distance s, where intensity is the shadow of the ray, weighted by transmittance. extinction and scattering are
-// per unit of length, and scattering is the albedo times extinction: the paper's formula has no such factor, its phase
-// function holds the scattering coefficient. Light is not attenuated on its way from the light source to the view ray.
-//
-// omega_l is the direction to the light, omega_p that to the camera. Along a view ray with the polar angle theta
-// (rectified.h) omega_l.omega_p = cos theta: 1 looking along the light, -1 looking into it. Phase functions take the
-// cosine of the scattering angle, -omega_l.omega_p = -cos theta: light that goes straight on to the camera has 1.
-#ifndef GNOMON_SCATTERING_SINGLE_SCATTERING_H
-#define GNOMON_SCATTERING_SINGLE_SCATTERING_H
-
-GNOMON_WARNINGS_OFF namespace gnomon {
-
-inline constexpr double phase_isotropic = 0.079577471545947668; // 1 / (4 pi), for every angle
-inline constexpr double phase_greatest_asymmetry = 0.9990234375;
-
-/// The integral of the transmittance along a ray, (1 - e^(-extinction distance)) / extinction, without cancellation:
-/// the length of a ray without extinction that scatters as much. In [0, distance].
-/// Domain: both at least 0, also infinite; negative numbers count as 0.
-/// NaN: as 0.
-/// Error: 4.5 ulp.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real attenuated_length(Real distance_, Real extinction)
-{
-    Real whole = gnomon_max(distance_, Real(0));
-    Real rate = gnomon_max(extinction, Real(0));
-    Real depth = gnomon_max(rate * whole, Real(0));
-    mask_t<Real> thin = depth < Real(0.34375);
-    Real r = Real(-1) * gnomon_select(thin, depth, Real(0));
-    Real thick = (Real(1) - polynomial_exp(Real(-1) * depth)) / gnomon_select(thin, Real(1), rate);
-    return gnomon_select(thin, whole * (Real(1) + r * exp_remainder(r)), thick);
-}
-
-/// (1 - e^-x) / x, the mean transmittance along a ray of the optical depth x, in [0, 1]; 1 for 0, without cancellation.
-/// Domain: x at least 0, also infinite; negative x counts as 0.
-/// NaN: 1.
-/// Error: 4.5 ulp.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real attenuated_mean(Real x) { return attenuated_length(Real(1), x); }
-
-/// e^-x, the transmittance of the optical depth x, in [0, 1].
-/// Domain: x at least 0, also infinite; negative x counts as 0. Not below e^-87 in float, e^-708 in double.
-/// NaN: 1.
-/// Error: 1 ulp in float, 1.2 ulp in double.
-template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real transmittance_over(Real x)
-{
-    return gnomon_min(Real(1), polynomial_exp(Real(-1) * gnomon_max(x, Real(0))));
-}
-
-/// The Henyey-Greenstein phase function, per steradian, of the cosine of the scattering angle. asymmetry is its mean
-/// cosine: positive for media that scatter forward, 0 for isotropic ones.
-/// Domain: cosine in [-1, 1], asymmetry in [-1 + 2^-10, 1 - 2^-10], clamped.
-/// NaN: NaN for a cosine of NaN; an asymmetry of NaN counts as 0.
-/// Error: relative, 2^(3 - p) for |asymmetry| <= 1/2.
-/// Source: Henyey & Greenstein 1941
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real phase_henyey_greenstein(Real cosine, std::type_identity_t<Real> asymmetry)
-{
-    Real c = clamp_or_nan(cosine, Real(-1), Real(1));
-    Real g = gnomon_min(gnomon_max(gnomon_abs(asymmetry), Real(0)), literal<Real>(phase_greatest_asymmetry));
-    Real off = Real(1) - gnomon_select(asymmetry < Real(0), Real(-1) * c, c);
-    Real rest = Real(1) - g;
-    Real d = rest * rest + (g + g) * off;
-    return literal<Real>(phase_isotropic) * (rest * (Real(1) + g)) / (d * gnomon_sqrt(d));
-}
-
-/// The overestimation of visibility for the ray of a polar angle with this cosine, (1 + cosine) / 2, for
-/// bounds_intensity. Looking into the light no occluder can be before the ray in depth, so it is 0, and no light leaks;
-/// looking along the light none can be behind the ray, so it is 1, and no light is lost.
-/// Domain: cosine in [-1, 1], clamped.
-/// NaN: 1.
-/// Source: Peters 2017, Sec. 5.3.1
-template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real adaptive_overestimation(Real cosine)
-{
-    return Real(1) - saturate_or_zero(Real(0.5) - Real(0.5) * cosine);
-}
-
-/// Radiance that reaches the camera: that of the surface, attenuated, and light scattered into the view ray. intensity
-/// is the shadow of the ray, 0 where all of the ray is lit.
-/// Domain: distance, extinction, scattering, phase, irradiance and surface at least 0 and finite.
-/// NaN: an intensity of NaN counts as 0.
-/// Error: relative, 2^(4 - p) for optical depths up to 1.
-/// Source: Peters 2017, Sec. 5.1.1
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real scattering_radiance(Real surface, Real intensity, Real distance_,
-                                                 std::type_identity_t<Real> extinction,
-                                                 std::type_identity_t<Real> scattering, Real phase,
-                                                 std::type_identity_t<Real> irradiance)
-{
-    Real depth = extinction * distance_;
-    Real lit = (scattering * phase * irradiance) * attenuated_length(distance_, extinction);
-    return transmittance_over(depth) * surface + lit * (Real(1) - saturate_or_zero(intensity));
-}
-
-GNOMON_WARNINGS_ON } // namespace gnomon
-
-#endif
-
-// scattering/transmittance_weights.h ----------------------------------------------------------------------------------
-// Weights of prefix averages along the rows of a rectified map (Peters et al. 2017, Sec. 5.1.1). Texel u has the weight
-// w_u, and the average up to texel u is the one before, moved towards texel u by its share of the sum of weights:
-//
-//     mean_u = mean_(u - 1) + g_u (texel_u - mean_(u - 1)),        g_u = w_u / (w_0 + ... + w_u),        g_0 = 1
-//
-// All g_u are in [0, 1], so that prefix averages of moments are moments. In a homogeneous medium texel u is seen
-// through u texels of the medium: w_u = q^u up to a factor that cancels, so that
-//
-//     g_u = q g_(u - 1) / (1 + q g_(u - 1)),        q = transmittance of one texel
-//
-// holds for every extinction: q = 1 without any, q = 0 in an opaque medium. Weights that vary from texel to texel, as
-// those of scattering/height_fog.h, are summed by transmittance_share_add.
-//
-//     (for a row)   q = transmittance_step(extinction, radius_step, sine of the row's mean polar angle)
-//     (for u > 0)   g = transmittance_weight_next(g, q);   mean = mean + g (texel - mean)
-//
-// A ray that ends within texel u, a share f of it, has an average between that of texel u - 1 and that of texel u, but
-// not at f: transmittance_weight_within is exact.
-#ifndef GNOMON_SCATTERING_TRANSMITTANCE_WEIGHTS_H
-#define GNOMON_SCATTERING_TRANSMITTANCE_WEIGHTS_H
-
-GNOMON_WARNINGS_OFF namespace gnomon {
-
-/// The transmittance of the medium from one texel of a row to the next, in [0, 1]. extinction is per unit of length;
-/// the view ray crosses the texels of radius_step at an angle to the light that has this sine.
-/// Domain: at least 0, also infinite; negative numbers count as 0.
-/// NaN: 1, also where an extinction of 0 meets a sine of 0.
-/// Error: relative, 2.5 2^-p for each unit of the optical depth extinction radius_step / sine, and 2 2^-p.
-/// Source: Peters 2017, Sec. 5.1.1
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real transmittance_step(std::type_identity_t<Real> extinction, Real radius_step, Real sine)
-{
-    return transmittance_over((extinction * radius_step) / sine);
-}
-
-/// The share g_u of texel u in its prefix average, from the share g of the texel before and the ratio of their weights,
-/// q. In [0, 1].
-/// Domain: g and q in [0, 1], clamped.
-/// NaN: 0.
-/// Error: relative, 1.5 roundings beside the errors of g and q.
-template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real transmittance_weight_next(Real g, Real q)
-{
-    Real next = saturate_or_zero(q) * saturate_or_zero(g);
-    return next / (Real(1) + next);
-}
-
-/// The share of the way from the average before a texel to the one up to it, for a ray that ends a share f within the
-/// texel: v / (1 - g (1 - v)), v = (1 - q^f) / (1 - q), where g is the share of the texel. In [0, 1].
-/// Domain: g, q and f in [0, 1], clamped.
-/// NaN: as 0 for g and f, as 1 for q.
-/// Error: 8 2^-p.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real transmittance_weight_within(Real g, Real q, Real f)
-{
-    Real share = saturate_or_zero(f);
-    Real depth = Real(-1) * polynomial_log(gnomon_min(q, Real(1)));
-    Real v = gnomon_min(Real(1), share * attenuated_mean(share * depth) / attenuated_mean(depth));
-    Real rest = Real(1) - saturate_or_zero(g) * (Real(1) - v);
-    return gnomon_select(Real(0) < rest, saturate_or_zero(v / rest), Real(1));
-}
-
-/// A sum of weights, and the share in it of the weight that was added last.
-template <class Real, class = require_real<Real>> struct transmittance_share { Real total, share; };
-
-/// The state after the first texel of a row, whose share is 1.
-/// Domain: a weight of at least 0; negative weights count as 0.
-/// NaN: a weight of 0.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr transmittance_share<Real> transmittance_share_begin(Real weight)
-{
-    transmittance_share<Real> r;
-    r.total = gnomon_max(weight, Real(0));
-    r.share = Real(1);
-    return r;
-}
-
-/// The state after one more texel with a weight. Its share, in [0, 1], is 1 while all weights are 0.
-/// Domain: as for transmittance_share_begin. While the sum is not finite the share is 0.
-/// NaN: a weight of 0.
-/// Error: relative, one rounding for each texel.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr transmittance_share<Real> transmittance_share_add(transmittance_share<Real> state, Real weight)
-{
-    Real added = gnomon_max(weight, Real(0));
-    transmittance_share<Real> r;
-    r.total = state.total + added;
-    r.share = saturate_or_zero(added / r.total);
-    r.share = gnomon_select(r.total == Real(0), Real(1), r.share);
-    return r;
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon

@@ -135,18 +135,23 @@ TEST_CASE("no pass of soft shadows allocates")
     CHECK(moments4_summed::intensity(channels, 784.0f, 0.5f) > 0.9f);
 }
 
-TEST_CASE("no pass over min-max rows allocates")
+TEST_CASE("no pass over min-max rows or froxels allocates")
 {
     using namespace gnomon;
-    std::array<float, 32 * 2> depths{};
-    std::array<depth_interval, min_max_nodes(32) * 2> nodes{};
+    std::array<float, 128 * 2> depths{};
+    std::array<depth_interval, min_max_nodes(128) * 2> nodes{};
     std::array<min_max_block_weight, 3> blocks{};
-    const map_view<depth_interval> tree{nodes, min_max_nodes(32), 2};
+    const map_view<depth_interval> tree{nodes, min_max_nodes(128), 2};
     const long before = allocations;
-    build_min_max_rows({depths, 32, 2}, tree, {0, 2});
-    const float shadow = min_max_intensity({depths, 32, 2}, tree, min_max_weights_of(0.9, blocks), 1, 20.5f, 0.5f);
+    build_min_max_rows({depths, 128, 2}, tree, {0, 2});
+    const float shadow = min_max_intensity({depths, 128, 2}, tree, min_max_weights_of(0.9, blocks), 1, 20.5f, 0.5f);
+    std::array<float, 3 * 2 * 2> froxels{};
+    const auto slices = froxel_slices_from(1.0f, 8.0f, 2.0f);
+    integrate_froxels({froxels, 3, 2, 2}, slices, 0.5f, {0, 2});
+    const float lit = froxel_intensity({froxels, 3, 2, 2}, 1, 1, froxel_slice_of(4.0f, slices));
     CHECK(allocations == before);
     CHECK(shadow == 1);
+    CHECK(lit == 0);
 }
 
 TEST_CASE_TEMPLATE("no pass over summed-area tables allocates", Table, gnomon::moments4_summed, gnomon::moments6_summed,

@@ -6,7 +6,7 @@
 //     weights = min_max_weights_of(q, blocks);                                       once for each factor q
 //     intensity = min_max_intensity(depths, nodes, weights, row, x, z_f);            for each ray
 //
-// A row's texels stand in blocks of 16. Above the blocks stands a binary tree, with the least and the greatest depth of all
+// A row's texels stand in blocks of 64, of which a processor compares many at a time. Above the blocks stands a binary tree, with the least and the greatest depth of all
 // that a node covers. Nodes that are wholly before the ray's depth, or not at all, count by the weight of their texels; of
 // other nodes the children are visited, and of other blocks the texels.
 //
@@ -14,16 +14,19 @@
 #ifndef GNOMON_PASSES_MIN_MAX_ROWS_HPP
 #define GNOMON_PASSES_MIN_MAX_ROWS_HPP
 
+#include "../scattering/transmittance_weights.h"
 #include "../soft/depth_interval.h"
 #include "depth_pyramid.hpp"
 
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 GNOMON_NAMESPACE_BEGIN
 
 /// Rows are whole blocks of so many texels.
-inline constexpr std::size_t min_max_block = 16;
+inline constexpr std::size_t min_max_block = 64;
 
 /// The number of nodes of a row of so many texels, some of them unused. Node 1 is the root, below node n are 2 n and 2 n + 1,
 /// and the last half of all nodes are the blocks in their order.
@@ -37,6 +40,7 @@ struct min_max_block_weight {
 /// Weights of the texels of rows. The first texel of the row has weight 1.
 struct min_max_weights {
     std::array<float, min_max_block> texels{};      // of a block whose first texel has weight 1
+    std::array<float, min_max_block> before{};      // the sum of the weights of the texels before, in such a block
     std::span<const min_max_block_weight> blocks{}; // and one for the end of the row
 };
 
@@ -47,10 +51,11 @@ struct min_max_weights {
 inline min_max_weights min_max_weights_of(double q, std::span<min_max_block_weight> blocks)
 {
     const double factor = clamp_or_high(q, 0.0, 1.0);
-    min_max_weights r{{}, blocks};
+    min_max_weights r{{}, {}, blocks};
     double weight = 1, of_block = 0, before = 0, first = 1;
-    for (float& texel : r.texels) {
-        texel = float(weight);
+    for (std::size_t k = 0; k < min_max_block; ++k) {
+        r.texels[k] = float(weight);
+        r.before[k] = float(of_block);
         of_block += weight;
         weight *= factor;
     }
@@ -95,13 +100,52 @@ inline void build_min_max_rows(map_view<const float> depths, map_view<depth_inte
 
 namespace detail {
 
-/// The weight of a texel's part up to fraction over that of the texel, where the next texel has q times as much.
-inline float weight_within(float q, float fraction)
-{
-    const float p = 1 - q;
-    if (p > 0.05f) return (1 - std::pow(q, fraction)) / p;
-    return fraction * (1 + 0.5f * p * (1 - fraction) * (1 + (1.0f / 3) * p * (2 - fraction))); // of a series in p
-}
+/// The sum of the weights of those of a block's first count texels that are before z.
+class texels_before {
+  public:
+    texels_before(const std::array<float, min_max_block>& weights, float z) : weights_(weights.data()), z_(z) {}
+
+#if defined(__GNUC__)
+    GNOMON_INLINE void add(const float* texels, std::size_t count, float first)
+    {
+        for (std::size_t k = 0; k < count; k += lanes) {
+            numbers depth, weight;
+            std::memcpy(&depth, texels + k, sizeof depth);
+            std::memcpy(&weight, weights_ + k, sizeof weight);
+            const flags counted = (depth < z_) & (places < std::int32_t(count - k));
+            sums_ += counted ? first * weight : numbers{};
+        }
+    }
+    [[nodiscard]] float total() const
+    {
+        numbers r = sums_;
+        for (std::size_t n = lanes / 2; n > 0; n /= 2)
+            for (std::size_t k = 0; k < n; ++k) r[k] += r[k + n];
+        return r[0];
+    }
+
+  private:
+    static constexpr std::size_t lanes = 16;
+    typedef float numbers __attribute__((vector_size(4 * lanes)));
+    typedef std::int32_t flags __attribute__((vector_size(4 * lanes)));
+    static constexpr flags places{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+
+    numbers sums_{};
+#else
+    void add(const float* texels, std::size_t count, float first)
+    {
+        float sum = 0;
+        for (std::size_t k = 0; k < count; ++k) sum += texels[k] < z_ ? weights_[k] : 0;
+        sum_ += first * sum;
+    }
+    [[nodiscard]] float total() const { return sum_; }
+
+  private:
+    float sum_ = 0;
+#endif
+    const float* weights_;
+    float z_;
+};
 
 } // namespace detail
 
@@ -123,7 +167,7 @@ inline float min_max_intensity(map_view<const float> depths, map_view<const dept
     const std::size_t leaves = nodes.width / 2, blocks = last / min_max_block, rest = last % min_max_block;
 
     // By blocks: the largest node that begins at the block and is not beyond the end, unless it must be opened.
-    std::array<float, min_max_block> opened{};
+    detail::texels_before opened(weights.texels, z);
     float shadowed = 0;
     std::size_t at = 0, level = blocks > 0 ? std::size_t(std::bit_width(blocks)) - 1 : 0;
     while (at < blocks) {
@@ -136,24 +180,16 @@ inline float min_max_intensity(map_view<const float> depths, map_view<const dept
         }
         if (found.decided > 0)
             shadowed += found.intensity * (weights.blocks[at + size].before - weights.blocks[at].before);
-        else
-            for (std::size_t k = 0; k < min_max_block; ++k)
-                opened[k] += texel[min_max_block * at + k] < z ? weights.blocks[at].first * weights.texels[k] : 0.0f;
+        else opened.add(texel + min_max_block * at, min_max_block, weights.blocks[at].first);
         at += size;
         level += (at >> level) % 2 == 0;
     }
+    opened.add(texel + min_max_block * blocks, rest, weights.blocks[blocks].first);
 
-    const float first = weights.blocks[blocks].first;
-    const float part = detail::weight_within(weights.texels[1], end - float(last));
-    float all = weights.blocks[blocks].before;
-    texel += min_max_block * blocks;
-    for (std::size_t k = 0; k < min_max_block; ++k) {
-        const float weight = k < rest ? first * weights.texels[k] : k == rest ? first * weights.texels[k] * part : 0.0f;
-        opened[k] += texel[k] < z ? weight : 0.0f;
-        all += weight;
-    }
-    for (const float sum : opened) shadowed += sum;
-    return saturate_or_zero(shadowed / all);
+    const float part = weights.blocks[blocks].first * weights.texels[rest] *
+                       transmittance_weight_within(0.0f, weights.texels[1], end - float(last));
+    const float all = weights.blocks[blocks].before + weights.blocks[blocks].first * weights.before[rest] + part;
+    return saturate_or_zero((shadowed + opened.total() + (texel[last] < z ? part : 0)) / all);
 }
 
 GNOMON_NAMESPACE_END
