@@ -273,7 +273,8 @@ fn scattering_radiance(surface: f32, intensity: f32, distance_: f32, extinction:
 //     (for u > 0)   g = transmittance_weight_next(g, q);   mean = mean + g (texel - mean)
 //
 // A ray that ends within texel u, a share f of it, has an average between that of texel u - 1 and that of texel u, but
-// not at f: transmittance_weight_within is exact.
+// not at f: transmittance_weight_within is exact. transmittance_weight_between is so for averages at any two distances,
+// as in mip levels.
 
 /// The transmittance of the medium from one texel of a row to the next, in [0, 1]. extinction is per unit of length;
 /// the view ray crosses the texels of radius_step at an angle to the light that has this sine.
@@ -309,6 +310,21 @@ fn transmittance_weight_within(g: f32, q: f32, f: f32) -> f32
     let v = gnomon_min(1.0, share * attenuated_mean(share * depth) / attenuated_mean(depth));
     let rest = 1.0 - saturate_or_zero(g) * (1.0 - v);
     return gnomon_select(0.0 < rest, saturate_or_zero(v / rest), 1.0);
+}
+
+/// The share of the way from the average over a distance before to the average over before + length, for a ray that
+/// ends at before + f length: exact where light and shadow do not change along the length. Distances are in texels, of
+/// that optical depth each; for one texel, the same as transmittance_weight_within without the shares of the texels
+/// before. In [0, 1].
+/// Domain: before, length and optical_depth at least 0, the last also infinite; f in [0, 1], clamped.
+/// NaN: 0, also where before and f are 0, or optical_depth is infinite.
+/// Error: 24 2^-p.
+fn transmittance_weight_between(before: f32, length_: f32, f: f32, optical_depth: f32) -> f32
+{
+    let part = saturate_or_zero(f) * length_;
+    let above = attenuated_length(part, optical_depth) * attenuated_length(before + length_, optical_depth);
+    let below = attenuated_length(before + part, optical_depth) * attenuated_length(length_, optical_depth);
+    return saturate_or_zero(above / below);
 }
 
 /// A sum of weights, and the share in it of the weight that was added last.

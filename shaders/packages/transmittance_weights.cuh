@@ -760,7 +760,8 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 //     (for u > 0)   g = transmittance_weight_next(g, q);   mean = mean + g (texel - mean)
 //
 // A ray that ends within texel u, a share f of it, has an average between that of texel u - 1 and that of texel u, but
-// not at f: transmittance_weight_within is exact.
+// not at f: transmittance_weight_within is exact. transmittance_weight_between is so for averages at any two distances,
+// as in mip levels.
 #ifndef GNOMON_SCATTERING_TRANSMITTANCE_WEIGHTS_H
 #define GNOMON_SCATTERING_TRANSMITTANCE_WEIGHTS_H
 
@@ -802,6 +803,22 @@ GNOMON_INLINE constexpr Real transmittance_weight_within(Real g, Real q, Real f)
     Real v = gnomon_min(Real(1), share * attenuated_mean(share * depth) / attenuated_mean(depth));
     Real rest = Real(1) - saturate_or_zero(g) * (Real(1) - v);
     return gnomon_select(Real(0) < rest, saturate_or_zero(v / rest), Real(1));
+}
+
+/// The share of the way from the average over a distance before to the average over before + length, for a ray that
+/// ends at before + f length: exact where light and shadow do not change along the length. Distances are in texels, of
+/// that optical depth each; for one texel, the same as transmittance_weight_within without the shares of the texels
+/// before. In [0, 1].
+/// Domain: before, length and optical_depth at least 0, the last also infinite; f in [0, 1], clamped.
+/// NaN: 0, also where before and f are 0, or optical_depth is infinite.
+/// Error: 24 2^-p.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real transmittance_weight_between(Real before, Real length_, Real f, Real optical_depth)
+{
+    Real part = saturate_or_zero(f) * length_;
+    Real above = attenuated_length(part, optical_depth) * attenuated_length(before + length_, optical_depth);
+    Real below = attenuated_length(before + part, optical_depth) * attenuated_length(length_, optical_depth);
+    return saturate_or_zero(above / below);
 }
 
 /// A sum of weights, and the share in it of the weight that was added last.

@@ -305,7 +305,8 @@ float scattering_radiance(float surface, float intensity, float distance_, float
 //     (for u > 0)   g = transmittance_weight_next(g, q);   mean = mean + g (texel - mean)
 //
 // A ray that ends within texel u, a share f of it, has an average between that of texel u - 1 and that of texel u, but
-// not at f: transmittance_weight_within is exact.
+// not at f: transmittance_weight_within is exact. transmittance_weight_between is so for averages at any two distances,
+// as in mip levels.
 #ifndef GNOMON_SCATTERING_TRANSMITTANCE_WEIGHTS_H
 #define GNOMON_SCATTERING_TRANSMITTANCE_WEIGHTS_H
 
@@ -343,6 +344,21 @@ float transmittance_weight_within(float g, float q, float f)
     float v = gnomon_min(1.0, share * attenuated_mean(share * depth) / attenuated_mean(depth));
     float rest = 1.0 - saturate_or_zero(g) * (1.0 - v);
     return gnomon_select(0.0 < rest, saturate_or_zero(v / rest), 1.0);
+}
+
+/// The share of the way from the average over a distance before to the average over before + length, for a ray that
+/// ends at before + f length: exact where light and shadow do not change along the length. Distances are in texels, of
+/// that optical depth each; for one texel, the same as transmittance_weight_within without the shares of the texels
+/// before. In [0, 1].
+/// Domain: before, length and optical_depth at least 0, the last also infinite; f in [0, 1], clamped.
+/// NaN: 0, also where before and f are 0, or optical_depth is infinite.
+/// Error: 24 2^-p.
+float transmittance_weight_between(float before, float length_, float f, float optical_depth)
+{
+    float part = saturate_or_zero(f) * length_;
+    float above = attenuated_length(part, optical_depth) * attenuated_length(before + length_, optical_depth);
+    float below = attenuated_length(before + part, optical_depth) * attenuated_length(length_, optical_depth);
+    return saturate_or_zero(above / below);
 }
 
 /// A sum of weights, and the share in it of the weight that was added last.

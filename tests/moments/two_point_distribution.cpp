@@ -4,6 +4,7 @@
 #include "support/distributions.hpp"
 #include "support/effort.hpp"
 
+#include <gnomon/moments/quantization.h>
 #include <gnomon/moments/two_point.h>
 
 #include <doctest/doctest.h>
@@ -140,4 +141,56 @@ TEST_CASE_TEMPLATE("for any bit pattern, the two depths are within 8193 of 0", T
     CHECK(near.score > 4096);
     // A case whose depths would be 10000.
     CHECK(farthest(two_point_distribution(T(0), T(6e7), T(2.4e11), least_variance)) <= 8193);
+}
+
+// The distance between a distribution of two depths and what Algorithm 2 finds from 4 x 16 UNORM: the integral of the difference of
+// their shares before each depth.
+TEST_CASE("taking noise out of the skew brings close depths nearer, and others not much farther")
+{
+    bit_source bits(5);
+    const auto mean_distance = [&](double apart, float noise, bool equal) {
+        double sum = 0;
+        const std::int64_t count = effort(20'000);
+        for (std::int64_t i = 0; i < count; ++i) {
+            const double w = equal ? 0.5 : bits.uniform(0, 1), z1 = bits.uniform(-1, 1 - apart), z2 = z1 + apart;
+            moments4<double> b = moments4_scale(moments4_from_depth(z1), 1 - w);
+            b = moments4_add(b, moments4_from_depth(z2), w);
+            const auto exact = gnomon_bit_cast<std::array<double, 4>>(theta4(b));
+            std::array<float, 4> stored{};
+            for (std::size_t k = 0; k < 4; ++k) stored[k] = float(std::floor(exact[k] * 65535 + 0.5) / 65535);
+            const moments4<float> r = theta4_inverse(gnomon_bit_cast<channels4<float>>(stored));
+            const distribution2<float> d = two_point_distribution(
+                r.b1, r.b2, two_point_third_moment(r.b1, r.b2, r.b3, noise), float(two_point_unorm16_least_variance));
+            std::array<double, 4> z{z1, z2, double(d.depth1), double(d.depth2)};
+            std::sort(z.begin(), z.end());
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double at = (z[k] + z[k + 1]) / 2;
+                const double share = (z1 < at ? 1 - w : 0) + (z2 < at ? w : 0);
+                const double found = (double(d.depth1) < at ? double(d.weight1) : 0.0) +
+                                     (double(d.depth2) < at ? double(d.weight2) : 0.0);
+                sum += std::abs(share - found) * (z[k + 1] - z[k]);
+            }
+        }
+        return sum / double(count);
+    };
+    CHECK(mean_distance(0.05, 0x1p-17f, true) < 0.92 * mean_distance(0.05, 0, true));
+    CHECK(mean_distance(0.05, 0x1p-17f, false) < 0.96 * mean_distance(0.05, 0, false));
+    CHECK(mean_distance(0.1, 0x1p-17f, true) < mean_distance(0.1, 0, true));
+    for (const double apart : {0.1, 0.2, 0.5}) {
+        CHECK(mean_distance(apart, 0x1p-17f, false) < 1.15 * mean_distance(apart, 0, false));
+        CHECK(mean_distance(apart, 0x1p-17f, false) < 6e-3);
+    }
+}
+
+// A single depth in 4 x 16 UNORM has a variance of 5.26 times half a code at most.
+TEST_CASE("the variance of a single depth in 4 x 16 UNORM is below two_point_unorm16_least_variance")
+{
+    const summit found = climb(1, 200'000, 7, [](const std::vector<double>& p) {
+        auto c = gnomon_bit_cast<std::array<double, 4>>(theta4(moments4_from_depth(2 * p[0] - 1)));
+        for (double& x : c) x = std::floor(x * 65535 + 0.5) / 65535;
+        const moments4<double> b = theta4_inverse(gnomon_bit_cast<channels4<double>>(c));
+        return b.b2 - b.b1 * b.b1;
+    });
+    CHECK(found.score <= double(two_point_unorm16_least_variance));
+    CHECK(found.score > 3.5e-5);
 }

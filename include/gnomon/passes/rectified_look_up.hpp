@@ -35,16 +35,6 @@ inline rectified_place rectified_place_of(const rectified_frame& frame, const re
             rectified_row_of(position.azimuth, frame.azimuth_start, frame.azimuth_length, float(height))};
 }
 
-/// The share of the way from the average over a distance to the average over a length more, for a ray that ends a share f of
-/// the length beyond the distance, in a medium of that extinction: of the weights of transmittance, so 1 / (before + f) times
-/// f (before + 1) for a length of 1 and no extinction. In [0, 1].
-inline float average_share(float before, float length, float f, float extinction)
-{
-    const auto weight = [&](float distance) { return attenuated_length(distance, extinction); };
-    return saturate_or_zero(weight(f * length) * weight(before + length) /
-                            (weight(before + f * length) * weight(length)));
-}
-
 /// Channels at (x, y) of a level of a map whose texels are wide columns of the map, and high rows.
 template <texel_format Format>
 channel_array<Format> rectified_channels_of(map_view<const format_texel<Format>> map, float x, float y, float wide,
@@ -55,7 +45,7 @@ channel_array<Format> rectified_channels_of(map_view<const format_texel<Format>>
     const float before = (float(nx.lower) + 0.5f) * wide + 0.5f;
     const auto row = [&](std::size_t v) {
         const std::size_t of_map = (std::min)(std::size_t((float(v) + 0.5f) * high), rows.size() - 1);
-        const float share = average_share(before, wide, nx.fraction, rows[of_map].optical_depth);
+        const float share = transmittance_weight_between(before, wide, nx.fraction, rows[of_map].optical_depth);
         return mix(load_channels<Format>(map(nx.lower, v)), load_channels<Format>(map(nx.upper, v)), share);
     };
     return mix(row(ny.lower), row(ny.upper), ny.fraction);

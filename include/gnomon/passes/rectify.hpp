@@ -53,7 +53,7 @@ struct rectified_mapping {
 
 /// The texels of a row: radii, and places in the map.
 struct rectified_places {
-    float x, y, dx, dy; // the eye, and the way in the map for a unit of radius
+    float x, y, dx, dy, side_x, side_y; // the eye, and the way in the map for a unit of radius, and of length beside it
     float step;
 
     rectified_places(const light_map& light, const rectified_frame& frame, const rectified_row& row,
@@ -62,6 +62,8 @@ struct rectified_places {
           y(light.y),
           dx(row.cosine * light.texels_x),
           dy(row.sine * light.texels_y),
+          side_x((std::abs)(row.sine * light.texels_x)),
+          side_y((std::abs)(row.cosine * light.texels_y)),
           step(rectified_radius_step(frame, columns))
     {}
     [[nodiscard]] float radius(std::size_t u) const { return (float(u) + 0.5f) * step; }
@@ -178,14 +180,12 @@ void rectify_filtered(map_view<const float> depths, const light_map& light, cons
             const detail::rectified_places at(light, frame, rows[v], target.width);
             const detail::rectified_mapping map(light, rows[v]);
             for (std::size_t i = 0; i < count; ++i, to += channel_count<Format>) {
-                const float r = at.radius(u + i), across = r * turn;
-                const auto spacing = [&](float along, float beside) {
-                    return gnomon_max(0.5f * ((std::abs)(along)*at.step + (std::abs)(beside)*across), 1.0f);
+                const float r = at.radius(u + i);
+                const auto spacing = [&](float along, float side) {
+                    return gnomon_max(0.5f * ((std::abs)(along)*at.step + side * (r * turn)), 1.0f);
                 };
-                const detail::spline_texels x(at.x + r * at.dx,
-                                              spacing(at.dx, at.dy * light.texels_x / light.texels_y));
-                const detail::spline_texels y(at.y + r * at.dy,
-                                              spacing(at.dy, at.dx * light.texels_y / light.texels_x));
+                const detail::spline_texels x(at.x + r * at.dx, spacing(at.dx, at.side_x));
+                const detail::spline_texels y(at.y + r * at.dy, spacing(at.dy, at.side_y));
                 std::array<float, 16> z, weight;
                 for (std::size_t k = 0; k < 16; ++k) {
                     z[k] = detail::nearest_depth(depths, x.at[k % 4], y.at[k / 4]);

@@ -137,11 +137,11 @@ template <template <class...> class Channels> struct float_texel : coded_texel<C
     static constexpr Channels<float> decode(const texel& t) { return gnomon_bit_cast<Channels<float>>(t); }
     static void encode_row(const float* numbers, texel* to, std::size_t count)
     {
-        std::memcpy(to, numbers, count * sizeof(texel));
+        for (std::size_t i = 0; i < count; ++i) std::memcpy(to + i, numbers + i * texel{}.size(), sizeof(texel));
     }
     static void decode_row(const texel* from, float* numbers, std::size_t count)
     {
-        std::memcpy(numbers, from, count * sizeof(texel));
+        for (std::size_t i = 0; i < count; ++i) std::memcpy(numbers + i * texel{}.size(), from + i, sizeof(texel));
     }
 };
 
