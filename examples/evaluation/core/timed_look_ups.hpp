@@ -42,22 +42,16 @@ using receiver_pack = gnomon::pack<xsimd::batch<float>>;
 
 namespace detail {
 
-template <class Channels, class Real> struct fetched {
-    Channels channels;
-    Real depth;
-};
-
 // fetch(i) returns the values of group i of receivers.
-template <class Channels, class Real, class Fetch, class Kernel>
+template <class Values, class Real, class Fetch, class Kernel>
 timed_look_up timed_groups(std::size_t receivers, int lanes, Fetch fetch, Kernel kernel)
 {
     const std::size_t groups = receivers / std::size_t(lanes);
-    std::vector<fetched<Channels, Real>> values(groups);
+    std::vector<Values> values(groups);
     tbb::parallel_for(std::size_t(0), groups, [&](std::size_t i) { values[i] = fetch(i); });
     const auto run = [=](const auto& value_of, std::span<float> result) {
         for (std::size_t i = 0; i < groups; ++i) {
-            const fetched<Channels, Real>& f = value_of(i);
-            const Real found = kernel(f.channels, f.depth);
+            const Real found = kernel(value_of(i));
             if constexpr (std::is_same_v<Real, float>) result[i] = found;
             else found.store_unaligned(&result[i * std::size_t(lanes)]);
             asm volatile("" ::: "memory"); // one at a time, whatever the compiler could do with some methods' loops
@@ -67,40 +61,51 @@ timed_look_up timed_groups(std::size_t receivers, int lanes, Fetch fetch, Kernel
     return {lanes,
             {covered,
              [=, values = std::move(values)](std::span<float> result) {
-                 run([&](std::size_t i) -> const fetched<Channels, Real>& { return values[i]; }, result);
+                 run([&](std::size_t i) -> const Values& { return values[i]; }, result);
              }},
             {covered, [=](std::span<float> result) { run(fetch, result); }}};
 }
 
+template <template <class> class Channels> struct channels_at_depth {
+    template <class Real> struct values {
+        Channels<Real> channels;
+        Real depth;
+    };
+};
+
 } // namespace detail
 
-// fetch(receiver) returns channels as Channels<float>, and kernel(channels, depth) their shadow, of floats and of packs.
-// Receivers that are left over by packs are not timed. The receivers outlive what is returned.
+// fetch(receiver) returns Values<float>, a struct of floats, and kernel(values) the shadow, of floats and of packs. Receivers
+// that are left over by packs are not timed. The receivers outlive what is returned.
+template <template <class> class Values, class Receiver, class Fetch, class Kernel>
+std::vector<timed_look_up> timed_values(std::span<const Receiver> where, Fetch fetch, Kernel kernel)
+{
+    using pack = receiver_pack;
+    constexpr std::size_t count = sizeof(Values<float>) / sizeof(float);
+    const auto by_packs = [=](std::size_t group) {
+        alignas(pack) std::array<std::array<float, pack::size>, count> lanes;
+        for (std::size_t lane = 0; lane < pack::size; ++lane) {
+            const auto numbers = std::bit_cast<std::array<float, count>>(fetch(where[group * pack::size + lane]));
+            for (std::size_t k = 0; k < count; ++k) lanes[k][lane] = numbers[k];
+        }
+        return std::bit_cast<Values<pack>>(lanes);
+    };
+    return {detail::timed_groups<Values<float>, float>(
+                where.size(), 1, [=](std::size_t i) { return fetch(where[i]); }, kernel),
+            detail::timed_groups<Values<pack>, pack>(where.size(), int(pack::size), by_packs, kernel)};
+}
+
+// fetch(receiver) returns channels as Channels<float>, and kernel(channels, depth) their shadow at the receiver's depth.
 template <template <class> class Channels, class Fetch, class Kernel>
 std::vector<timed_look_up> timed_look_ups(std::span<const map_receiver> where, Fetch fetch, Kernel kernel)
 {
-    using pack = receiver_pack;
-    using one = detail::fetched<Channels<float>, float>;
-    using several = detail::fetched<Channels<pack>, pack>;
-    constexpr std::size_t count = sizeof(Channels<float>) / sizeof(float);
-    const auto by_packs = [=](std::size_t group) {
-        alignas(pack) std::array<std::array<float, pack::size>, count> lanes;
-        alignas(pack) std::array<float, pack::size> depths;
-        for (std::size_t lane = 0; lane < pack::size; ++lane) {
-            const map_receiver& r = where[group * pack::size + lane];
-            const auto numbers = std::bit_cast<std::array<float, count>>(fetch(r));
-            for (std::size_t k = 0; k < count; ++k) lanes[k][lane] = numbers[k];
-            depths[lane] = r.depth;
-        }
-        return several{std::bit_cast<Channels<pack>>(lanes), pack::load_aligned(depths.data())};
-    };
-    return {detail::timed_groups<Channels<float>, float>(
-                where.size(), 1,
-                [=](std::size_t i) {
-                    return one{fetch(where[i]), where[i].depth};
-                },
-                kernel),
-            detail::timed_groups<Channels<pack>, pack>(where.size(), int(pack::size), by_packs, kernel)};
+    using values = typename detail::channels_at_depth<Channels>::template values<float>;
+    return timed_values<detail::channels_at_depth<Channels>::template values>(
+        where,
+        [=](const map_receiver& r) {
+            return values{fetch(r), r.depth};
+        },
+        [=](const auto& v) { return kernel(v.channels, v.depth); });
 }
 
 } // namespace gnomon::evaluation
