@@ -4,6 +4,8 @@
 #include "renderer/output/image.hpp"
 #include "renderer/scene/stage.hpp"
 
+#include <glm/vec3.hpp>
+
 #include <cstddef>
 #include <span>
 #include <string>
@@ -23,6 +25,9 @@ class magnified_places {
 
     // The picture with the places framed, above the places magnified.
     renderer::picture figure(const renderer::picture& whole) const;
+
+    // The same with the contrast of each magnified place stretched by a factor about a colour.
+    renderer::picture figure(const renderer::picture& whole, float contrast, std::span<const glm::vec3> middles) const;
 
   private:
     std::vector<renderer::point_of_interest> places_;
