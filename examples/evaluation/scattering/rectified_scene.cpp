@@ -1,0 +1,136 @@
+#include "rectified_scene.hpp"
+
+#include <gnomon/passes/rectified_look_up.hpp>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace gnomon::evaluation {
+
+namespace {
+
+rectified_corners<float> corners_of(const scattering_scene& scene)
+{
+    const auto corner = [&](std::size_t k) {
+        return rectified_corner<float>{scene.corners[k].x, scene.corners[k].y, scene.corners[k].z};
+    };
+    return {corner(0), corner(1), corner(2), corner(3)};
+}
+
+// Occluders of a texel: depths and their weights.
+template <std::size_t count> struct occluders {
+    std::array<float, count> depths, weights;
+
+    double share_before(double z_f) const
+    {
+        double result = 0;
+        for (std::size_t i = 0; i < count; ++i)
+            if (double(depths[i]) < z_f) result += double(weights[i]);
+        return result;
+    }
+};
+
+// The look-up of rectified_look_up.hpp, in double, on counts of occluders in place of channels.
+template <class Texel> class counted_look_up {
+  public:
+    counted_look_up(const rectified_scene& map, const renderer::image<Texel>& texels) : map_(map), texels_(texels) {}
+
+    double visibility(const rectified_ray& ray) const
+    {
+        const std::size_t height = map_.rows.size();
+        const auto levels = std::size_t(std::bit_width(std::max(map_.columns, height)));
+        const detail::rectified_place at = detail::rectified_place_of(map_.frame, ray.position, map_.columns, height);
+        const detail::neighbours n = detail::neighbours_of<border_mode::clamp>(ray.level, levels);
+        double result = at_level(ray, at, n.lower);
+        if (n.fraction > 0) result += double(n.fraction) * (at_level(ray, at, n.upper) - result);
+        return 1 - result;
+    }
+
+  private:
+    double at_level(const rectified_ray& ray, const detail::rectified_place& at, std::size_t level) const
+    {
+        const std::size_t size = std::size_t(1) << level, height = map_.rows.size();
+        const float scale = 1 / float(size);
+        const std::size_t rows = std::max<std::size_t>(height >> level, 1);
+        const detail::neighbours ny = detail::rectified_rows_of(at.y * scale, rows, map_.frame.wraps());
+        const auto row = [&](std::size_t v) {
+            double sum = 0;
+            for (std::size_t j = 0; j < size; ++j) sum += of_row(ray, at.x, v * size + j, size);
+            return sum / double(size);
+        };
+        const double lower = row(ny.lower);
+        return ny.fraction > 0 ? lower + double(ny.fraction) * (row(ny.upper) - lower) : lower;
+    }
+
+    // The share in shadow between the centres of two texels of a level, each `size` texels wide.
+    double of_row(const rectified_ray& ray, float x, std::size_t v, std::size_t size) const
+    {
+        const rectified_row& row = map_.rows[v];
+        const double z_f = double(rectified_depth_of(map_.frame.depth, ray.position.polar, row.range));
+        const detail::neighbours n = detail::neighbours_of<border_mode::clamp>(
+            x / float(size) - 0.5f, std::max<std::size_t>(map_.columns / size, 1));
+        double weight = 1, all = 0, shadowed = 0, lower = 0, upper = 0;
+        for (std::size_t u = 0; u < (n.upper + 1) * size; ++u) {
+            all += weight;
+            shadowed += weight * texels_(int(u), int(v)).share_before(z_f);
+            weight *= double(row.factor);
+            if (u / size == n.lower) lower += shadowed / all;
+            if (u / size == n.upper) upper += shadowed / all;
+        }
+        const float before = (float(n.lower) + 0.5f) * float(size) + 0.5f;
+        const float share = detail::average_share(before, float(size), n.fraction, row.optical_depth);
+        return (lower + double(share) * (upper - lower)) / double(size);
+    }
+
+    const rectified_scene& map_;
+    const renderer::image<Texel>& texels_;
+};
+
+template <class Texel>
+std::vector<float> counted(const rectified_scene& map, const renderer::image<Texel>& texels,
+                           std::span<const view_segment> where)
+{
+    const counted_look_up<Texel> look_up(map, texels);
+    std::vector<float> result(where.size());
+    tbb::parallel_for(std::size_t(0), where.size(),
+                      [&](std::size_t i) { result[i] = float(look_up.visibility(map.ray(where[i]))); });
+    return result;
+}
+
+} // namespace
+
+std::string id_of(const rectified_options& options)
+{
+    constexpr const char* sources[] = {"texel", "texels", "moments"};
+    return fmt::format("{}_{}_{}", sources[static_cast<int>(options.source)],
+                       options.depth == rectified_depth::polar ? "polar" : "cosine",
+                       options.range_per_row ? "row" : "frustum");
+}
+
+rectified_scene::rectified_scene(const scattering_scene& scene, const rectified_options& options)
+    : columns(scene.columns), rows(scene.rows), scene_(scene), options_(options)
+{
+    const rectified_corners<float> far_plane = corners_of(scene);
+    const rectified_frustum<float> bounds = rectified_frustum_from_corners(far_plane);
+    frame = rectified_frame_of(bounds, options.depth);
+    row_angle_ = frame.azimuth_length / float(rows.size());
+    column_width_ = rectified_radius_step(frame, columns);
+    if (options.range_per_row) rectified_rows(frame, far_plane, scene.extinction, columns, rows);
+    else rectified_rows(frame, bounds, scene.extinction, columns, rows);
+}
+
+std::vector<float> rectified_scene::exact(std::span<const view_segment> where) const
+{
+    renderer::image<float> depths(int(columns), int(rows.size()));
+    rectify_depths(scene_.depths.plain(), scene_.map, frame, rows, {depths.pixels, columns, rows.size()},
+                   {0, rows.size()});
+    renderer::image<occluders<1>> texels(depths.width, depths.height);
+    for (std::size_t i = 0; i < depths.pixels.size(); ++i) texels.pixels[i] = {{depths.pixels[i]}, {1}};
+    return counted(*this, texels, where);
+}
+
+} // namespace gnomon::evaluation

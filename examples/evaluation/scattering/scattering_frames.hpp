@@ -1,0 +1,29 @@
+// Errors that move: changes between frames of a camera that moves past a gate, and between two pictures of which one has an
+// object more (Peters et al. 2017, Figures 17 and 18).
+#pragma once
+
+#include "scattering_comparison.hpp"
+
+#include <string>
+#include <vector>
+
+namespace gnomon::evaluation {
+
+// Blocks of a page, and rows whose estimates and references are changes of visibility from one frame to the next. The mean
+// absolute error of such a row is the mean change beyond that of the reference.
+struct compared_frames {
+    std::vector<block> blocks;
+    std::vector<report_row> rows;
+};
+
+inline constexpr int gate_frames = 4;
+inline constexpr float gate_frame_time = 0.15f; // in the time of the stage
+
+// Steps that each begins.
+std::size_t steps_of_gate_frames();
+std::size_t steps_of_entering_frames();
+
+compared_frames compare_gate_frames(const settings& how, const std::filesystem::path& folder, steps& all);
+compared_frames compare_entering_frames(const settings& how, const std::filesystem::path& folder, steps& all);
+
+} // namespace gnomon::evaluation

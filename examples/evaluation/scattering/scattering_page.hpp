@@ -1,0 +1,21 @@
+// Blocks of a scene with scattering air that is rendered by every method.
+#pragma once
+
+#include "scattering_comparison.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace gnomon::evaluation {
+
+// Two methods side by side, of which these two are first seen; numbers; speed against accuracy; pictures of errors.
+std::vector<block> blocks_of(const compared_scattering_scene& scene, const std::array<std::string, 2>& first);
+
+// Words for a picture, for those who cannot see the picture.
+std::string alt_of(const compared_scattering_scene& scene, const scattering_row_set& method);
+
+// Colours of error pictures with their meaning.
+std::vector<std::pair<std::string, std::string>> key_of_errors();
+
+} // namespace gnomon::evaluation

@@ -1,0 +1,110 @@
+#include "evaluation/core/driver.hpp"
+#include "hazy_scene.hpp"
+#include "renderer/import/model.hpp"
+#include "scattering_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace gnomon::evaluation {
+
+namespace {
+
+constexpr std::array<const char*, 2> first_seen{"scatter4_unorm16_paper", "scatter6_unorm16"};
+
+// Pictures and maps of a part of the size in the quick setting; the paper's maps in the full one.
+settings sizes_of(settings how)
+{
+    if (how.supersampling == 1) how.width = how.width * 3 / 8, how.height = how.height * 3 / 8, how.map_resolution /= 2;
+    how.supersampling = 1; // as in the paper
+    return how;
+}
+
+page page_of(const char* id, const std::string& title, const std::string& summary)
+{
+    return {.driver = id, .title = title, .family = "scattering", .summary = summary, .front = {}, .blocks = {}};
+}
+
+text_block introduction(const settings& how)
+{
+    return {
+        .title = {},
+        .text = fmt::format(
+            "Light that haze scatters once, after Section 5 of Peters et al., <i>Improved Moment Shadow Maps for "
+            "Translucent Occluders, Soft Shadows and Single Scattering</i> (JCGT 2017). The shadow map of a "
+            "directional "
+            "light is resampled so that each view ray is a row of constant depth. Weighted prefix averages over the "
+            "rows "
+            "hold the shadow of every view ray, which one look-up by moments returns.\n\nPictures have {} x {} pixels, "
+            "shadow maps {} x {} texels, rectified maps {} columns and {} rows. Surfaces are shadowed by rays, so that "
+            "only the air differs. Two references for the visibility of a view ray, its in-scattering over the value "
+            "without occluders: the exact count of the same rectified map under the same weights, in double, against "
+            "which only the reconstruction counts; and lit and unlit segments by ray tracing, integrated in closed "
+            "form.",
+            how.width, how.height, how.map_resolution, how.map_resolution, how.map_resolution / 2, how.map_resolution)};
+}
+
+void write(const compared_scattering_scene& shown, page& to, std::vector<report_row>& rows)
+{
+    for (block& b : blocks_of(shown, {first_seen[0], first_seen[1]})) to.blocks.push_back(std::move(b));
+    for (const scattering_row_set& m : shown.methods) rows.insert(rows.end(), m.rows.begin(), m.rows.end());
+}
+
+void set_front(page& of, const compared_scattering_scene& shown)
+{
+    const scattering_row_set& best = shown.method(first_seen[1]);
+    of.front = shown_picture{best.picture, alt_of(shown, best), escaped(best.of->label)};
+}
+
+void single_scattering(const settings& given)
+{
+    const settings how = sizes_of(given);
+    const std::filesystem::path folder = how.folder("single_scattering");
+    const std::vector<const hazy_scene*> scenes = registry_of<scene_entry>().all_of<hazy_scene>();
+    std::size_t count = 0;
+    for (const hazy_scene* s : scenes) count += steps_of_comparison(s->id);
+    steps all("single_scattering", count);
+    page result = page_of("single_scattering", "Single scattering",
+                          "Shafts of light in haze by one look-up of moments per pixel, and by ray marching.");
+    result.blocks.push_back(introduction(how));
+    std::vector<report_row> rows;
+    for (const hazy_scene* s : scenes) {
+        const renderer::scattering_stage stage = s->stage(double(how.width) / how.height);
+        const scattering_view view(stage, how);
+        const compared_scattering_scene found = compare_scattering_methods(*s, view, how, folder, all);
+        write(found, result, rows);
+        if (s == scenes.front()) set_front(result, found);
+    }
+    write_page(folder, result);
+    merge_report(how.out / "report.json", rows);
+}
+
+void scattering_model(const settings& given)
+{
+    const settings how = sizes_of(given);
+    const std::filesystem::path folder = how.folder("scattering_model");
+    const renderer::scattering_stage stage =
+        renderer::hazy_model_stage(renderer::load_model(how.model.file), double(how.width) / how.height);
+    const scene_entry& scene = registry_of<scene_entry>().at("model");
+    steps all("scattering_model", steps_of_comparison(scene.id));
+    page result = page_of("scattering_model", fmt::format("A model in haze: {}", stage.world.name),
+                          "A model from a file in scattering air, by every method of single scattering.");
+    result.blocks.push_back(introduction(how));
+    const scattering_view view(stage, how);
+    const compared_scattering_scene found = compare_scattering_methods(scene, view, how, folder, all);
+    std::vector<report_row> rows;
+    write(found, result, rows);
+    set_front(result, found);
+    write_page(folder, result);
+    merge_report(how.out / "report.json", rows);
+}
+
+const registered<driver> entry{
+    driver{.id = "single_scattering", .label = "Single scattering", .order = 17, .run = single_scattering}};
+const registered<driver> of_model{driver{
+    .id = "scattering_model", .label = "A model in haze", .order = 73, .run = scattering_model, .of = subject::model}};
+
+} // namespace
+
+} // namespace gnomon::evaluation
