@@ -81,9 +81,9 @@ template <class Texel> class counted_look_up {
             if (u / size == n.lower) lower += shadowed / all;
             if (u / size == n.upper) upper += shadowed / all;
         }
-        const float before = (float(n.lower) + 0.5f) * float(size) + 0.5f;
-        const float share = detail::average_share(before, float(size), n.fraction, row.optical_depth);
-        return (lower + double(share) * (upper - lower)) / double(size);
+        const double width = double(size), before = (double(n.lower) + 0.5) * width + 0.5;
+        const double share = transmittance_weight_between(before, width, double(n.fraction), double(row.optical_depth));
+        return (lower + share * (upper - lower)) / width;
     }
 
     const rectified_scene& map_;
