@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compiles the examples of README.md, docs/lessons.md, docs/engines.md and docs/shaders.md, so that what a newcomer copies works.
+"""Compiles the examples of README.md and of pages in docs, so that what a newcomer copies works.
 
 usage: examples.py ROOT PACKAGES               prints what a compiler has against an example; exit code 1 if there is any
        examples.py ROOT PACKAGES SECTION CHECKER...    those of a section, by a checker that takes a folder: in WGSL beside packages
@@ -34,6 +34,12 @@ EXAMPLES = {
         "Translucent occluders": (".frag", GLSLANG),
         "Table of soft shadows": (".comp", GLSLANG),
         "Soft shadows": (".frag", GLSLANG),
+        "Resampling for single scattering": (".frag", GLSLANG),
+        "Averages along view rays": (".comp", GLSLANG),
+        "Single scattering": (".frag", GLSLANG),
+    },
+    "docs/scattering.md": {
+        "Passes": (".cpp", ["g++", *CXX, "-c"]),
     },
     "docs/shaders.md": {
         "Vulkan": (".frag", GLSLANG),

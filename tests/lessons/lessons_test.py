@@ -244,5 +244,24 @@ class Lesson10(Lesson):
         self.check_document("lesson_soft_shadow")
 
 
+class Lesson11(Lesson):
+    NUMBER = 11
+
+    def test_shafts_of_light_stand_before_the_wall_below_the_windows(self):
+        row = linear(self.drawn()[320:340, 640:900]).mean(axis=(0, 2))
+        shafts = (row - np.convolve(row, np.ones(81) / 81, "same"))[45:-45]
+        self.assertGreater(shafts.std(), 0.005)
+        self.assertGreaterEqual(np.count_nonzero(np.diff(np.sign(shafts))), 3)
+
+    def test_air_is_dark_where_no_light_reaches_the_view_ray(self):
+        chamber = linear(self.drawn()[250:312, 488:540]).mean(axis=2) # seen through the opening, behind a shaft
+        dark, shaft = chamber[:4, :8].mean(), chamber[-8:, 8:].mean()
+        self.assertLess(dark, 0.025)
+        self.assertGreater(shaft, 4 * dark)
+
+    def test_the_document_shows_this_very_picture(self):
+        self.check_document("lesson_single_scattering")
+
+
 if __name__ == "__main__":
     unittest.main()
