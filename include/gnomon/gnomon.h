@@ -49,6 +49,7 @@
 #include "motion/triangle/edge_widening.h"
 #include "motion/triangle/moving_triangle.h"
 #include "motion/triangle/triangle_setup.h"
+#include "scattering/height_fog.h"
 #include "scattering/rectified.h"
 #include "scattering/rectified_frustum.h"
 #include "scattering/single_scattering.h"

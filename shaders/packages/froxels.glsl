@@ -250,7 +250,7 @@ float attenuated_length(float distance_, float extinction)
 /// (1 - e^-x) / x, the mean transmittance along a ray of the optical depth x, in [0, 1]; 1 for 0, without cancellation.
 /// Domain: x at least 0, also infinite; negative x counts as 0.
 /// NaN: 1.
-/// Error: 4.5 ulp.
+/// Error: 3.5 ulp.
 float attenuated_mean(float x) { return attenuated_length(1.0, x); }
 
 /// e^-x, the transmittance of the optical depth x, in [0, 1].
@@ -263,7 +263,7 @@ float transmittance_over(float x) { return gnomon_min(1.0, polynomial_exp(-1.0 *
 /// cosine: positive for media that scatter forward, 0 for isotropic ones.
 /// Domain: cosine in [-1, 1], asymmetry in [-1 + 2^-10, 1 - 2^-10], clamped.
 /// NaN: NaN for a cosine of NaN; an asymmetry of NaN counts as 0.
-/// Error: relative, 2^(3 - p) for |asymmetry| <= 1/2.
+/// Error: relative, 10 2^-p for |asymmetry| <= 1/2.
 /// Source: Henyey & Greenstein 1941
 float phase_henyey_greenstein(float cosine, float asymmetry)
 {
@@ -283,11 +283,24 @@ float phase_henyey_greenstein(float cosine, float asymmetry)
 /// Source: Peters 2017, Sec. 5.3.1
 float adaptive_overestimation(float cosine) { return 1.0 - saturate_or_zero(0.5 - 0.5 * cosine); }
 
+/// The overestimation of visibility (1 + cosine^5) / 2: as adaptive_overestimation at both ends and at a right angle to
+/// the light, and close to 1/2, which halves the worst error, in a wide range about it. Shown visibility exceeds its
+/// lower bound by this share of the weight at the ray: within 5 degrees of the ray into the light at most 1% leaks,
+/// whatever the occluders. Within 5 degrees of the ray along the light at most 1% is lost.
+/// Domain: cosine in [-1, 1], clamped.
+/// NaN: 1.
+float plateau_overestimation(float cosine)
+{
+    float c = clamp_or_high(cosine, -1.0, 1.0);
+    float square = c * c;
+    return adaptive_overestimation(square * square * c);
+}
+
 /// Radiance that reaches the camera: that of the surface, attenuated, and light scattered into the view ray. intensity
 /// is the shadow of the ray, 0 where all of the ray is lit.
 /// Domain: distance, extinction, scattering, phase, irradiance and surface at least 0 and finite.
 /// NaN: an intensity of NaN counts as 0.
-/// Error: relative, 2^(4 - p) for optical depths up to 1.
+/// Error: relative, 9 2^-p for optical depths up to 1.
 /// Source: Peters 2017, Sec. 5.1.1
 float scattering_radiance(float surface, float intensity, float distance_, float extinction, float scattering,
                           float phase, float irradiance)
@@ -337,7 +350,7 @@ float transmittance_step(float extinction, float radius_step, float sine)
 /// q. In [0, 1].
 /// Domain: g and q in [0, 1], clamped.
 /// NaN: 0.
-/// Error: relative, 1.5 roundings beside the errors of g and q.
+/// Error: relative, 3 2^-p beside those of g and q; 256 2^-p after 1024 texels.
 float transmittance_weight_next(float g, float q)
 {
     float next = saturate_or_zero(q) * saturate_or_zero(g);
@@ -345,7 +358,7 @@ float transmittance_weight_next(float g, float q)
 }
 
 /// The share of the way from the average before a texel to the one up to it, for a ray that ends a share f within the
-/// texel: v / (1 - g (1 - v)), v = (1 - q^f) / (1 - q), where g is the share of the texel. In [0, 1].
+/// texel: v / (1 - g + g v), v = (1 - q^f) / (1 - q), where g is the share of the texel. In [0, 1].
 /// Domain: g, q and f in [0, 1], clamped.
 /// NaN: as 0 for g and f, as 1 for q.
 /// Error: 8 2^-p.
@@ -354,7 +367,8 @@ float transmittance_weight_within(float g, float q, float f)
     float share = saturate_or_zero(f);
     float depth = -1.0 * polynomial_log(gnomon_min(q, 1.0));
     float v = gnomon_min(1.0, share * attenuated_mean(share * depth) / attenuated_mean(depth));
-    float rest = 1.0 - saturate_or_zero(g) * (1.0 - v);
+    float last = saturate_or_zero(g);
+    float rest = (1.0 - last) + last * v;
     return gnomon_select(0.0 < rest, saturate_or_zero(v / rest), 1.0);
 }
 

@@ -371,7 +371,7 @@ static inline rectified_position rectified_from_position(float x, float y, float
 /// The cosine of polar at a point, in [-1, 1]; 1 at the eye.
 /// Domain: as for rectified_from_position.
 /// NaN: NaN.
-/// Error: 4 2^-p.
+/// Error: 3 2^-p.
 static inline float rectified_cosine(float x, float y, float z)
 {
     float distance_ = gnomon_sqrt((x * x + y * y) + z * z);
@@ -470,7 +470,7 @@ static inline float rectified_footprint(float radius, float radius_step, float a
 /// The mip level, in [0, 16], whose texels are as wide as a footprint of so many texels of level 0.
 /// Domain: any footprint.
 /// NaN: 0.
-/// Error: 4 2^-p of the largest level.
+/// Error: 2 2^-p of the largest level.
 static inline float rectified_level(float footprint)
 {
     float wide = clamp_or_nan(footprint, 1.0f, 65536.0f);

@@ -854,7 +854,7 @@ GNOMON_INLINE constexpr rectified_position<Real> rectified_from_position(Real x,
 /// The cosine of polar at a point, in [-1, 1]; 1 at the eye.
 /// Domain: as for rectified_from_position.
 /// NaN: NaN.
-/// Error: 4 2^-p.
+/// Error: 3 2^-p.
 template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real rectified_cosine(Real x, Real y, Real z)
 {
     Real distance_ = gnomon_sqrt((x * x + y * y) + z * z);
@@ -965,7 +965,7 @@ GNOMON_INLINE constexpr Real rectified_footprint(Real radius, std::type_identity
 /// The mip level, in [0, 16], whose texels are as wide as a footprint of so many texels of level 0.
 /// Domain: any footprint.
 /// NaN: 0.
-/// Error: 4 2^-p of the largest level.
+/// Error: 2 2^-p of the largest level.
 template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real rectified_level(Real footprint)
 {
     Real wide = clamp_or_nan(footprint, Real(1), Real(65536));

@@ -371,7 +371,7 @@ rectified_position rectified_from_position(float x, float y, float z)
 /// The cosine of polar at a point, in [-1, 1]; 1 at the eye.
 /// Domain: as for rectified_from_position.
 /// NaN: NaN.
-/// Error: 4 2^-p.
+/// Error: 3 2^-p.
 float rectified_cosine(float x, float y, float z)
 {
     float distance_ = gnomon_sqrt((x * x + y * y) + z * z);
@@ -467,7 +467,7 @@ float rectified_footprint(float radius, float radius_step, float azimuth_step, f
 /// The mip level, in [0, 16], whose texels are as wide as a footprint of so many texels of level 0.
 /// Domain: any footprint.
 /// NaN: 0.
-/// Error: 4 2^-p of the largest level.
+/// Error: 2 2^-p of the largest level.
 float rectified_level(float footprint)
 {
     float wide = clamp_or_nan(footprint, 1.0, 65536.0);

@@ -326,7 +326,7 @@ fn rectified_from_position(x: f32, y: f32, z: f32) -> rectified_position
 /// The cosine of polar at a point, in [-1, 1]; 1 at the eye.
 /// Domain: as for rectified_from_position.
 /// NaN: NaN.
-/// Error: 4 2^-p.
+/// Error: 3 2^-p.
 fn rectified_cosine(x: f32, y: f32, z: f32) -> f32
 {
     let distance_ = gnomon_sqrt((x * x + y * y) + z * z);
@@ -422,7 +422,7 @@ fn rectified_footprint(radius: f32, radius_step: f32, azimuth_step: f32, texels_
 /// The mip level, in [0, 16], whose texels are as wide as a footprint of so many texels of level 0.
 /// Domain: any footprint.
 /// NaN: 0.
-/// Error: 4 2^-p of the largest level.
+/// Error: 2 2^-p of the largest level.
 fn rectified_level(footprint: f32) -> f32
 {
     let wide = clamp_or_nan(footprint, 1.0, 65536.0);

@@ -371,7 +371,7 @@ static inline rectified_position rectified_from_position(float x, float y, float
 /// The cosine of polar at a point, in [-1, 1]; 1 at the eye.
 /// Domain: as for rectified_from_position.
 /// NaN: NaN.
-/// Error: 4 2^-p.
+/// Error: 3 2^-p.
 static inline float rectified_cosine(float x, float y, float z)
 {
     float distance_ = gnomon_sqrt((x * x + y * y) + z * z);
@@ -470,7 +470,7 @@ static inline float rectified_footprint(float radius, float radius_step, float a
 /// The mip level, in [0, 16], whose texels are as wide as a footprint of so many texels of level 0.
 /// Domain: any footprint.
 /// NaN: 0.
-/// Error: 4 2^-p of the largest level.
+/// Error: 2 2^-p of the largest level.
 static inline float rectified_level(float footprint)
 {
     float wide = clamp_or_nan(footprint, 1.0f, 65536.0f);
@@ -622,11 +622,12 @@ static inline float gnomon_rectified_azimuth_between(rectified_corner a, rectifi
 /// The bounds of rectified coordinates over all view rays to a far plane with these corners: sharp, so that rays touch
 /// each. azimuth_start is in [-pi, pi], azimuth_length in [0, 2 pi]: at most pi, or 2 pi if the axis is within the far
 /// plane. A corner on the axis has no azimuth and counts for none.
-/// Domain: coordinates are 0 or have magnitudes in [2^-20, 2^20] in float, [2^-160, 2^160] in double; corners of a
+/// Domain: coordinates are 0 or have magnitudes in [2^-30, 2^30] in float, [2^-300, 2^300] in double; corners of a
 /// convex quadrilateral that the eye does not lie in. Corners that are all at the eye give zeros; others that are no
 /// such quadrilateral, some bounds.
 /// NaN: an edge that a NaN makes unknown counts for no angle.
-/// Error: a ray exceeds the bounds by at most 8 2^-p of radius in radius, 16 2^-p in azimuth and 2^(4 - p) in polar.
+/// Error: for fields of view up to 160 degrees a point of the far plane exceeds the bounds by at most 4 2^-p radius in
+/// radius, by 16 2^-p radius sideways, and by 8 2^-p in polar.
 /// Source: Peters 2017, App. A
 static inline rectified_frustum rectified_frustum_from_corners(rectified_corners q)
 {
@@ -695,7 +696,7 @@ static inline rectified_interval gnomon_rectified_row_edge(rectified_interval bo
 /// Domain: as for rectified_frustum_from_corners; first <= last, both within 3 pi of 0. More than 3 radians get the
 /// angles of all rays.
 /// NaN: as for rectified_frustum_from_corners.
-/// Error: a ray exceeds the bounds by at most 2^(5 - p).
+/// Error: for fields of view up to 160 degrees a ray exceeds the bounds by at most 16 2^-p.
 static inline rectified_interval rectified_row_polar(rectified_corners q, float first, float last)
 {
     gnomon_cosine_sine left = polynomial_cosine_sine(first);

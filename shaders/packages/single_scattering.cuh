@@ -680,7 +680,7 @@ GNOMON_INLINE constexpr Real attenuated_length(Real distance_, Real extinction)
 /// (1 - e^-x) / x, the mean transmittance along a ray of the optical depth x, in [0, 1]; 1 for 0, without cancellation.
 /// Domain: x at least 0, also infinite; negative x counts as 0.
 /// NaN: 1.
-/// Error: 4.5 ulp.
+/// Error: 3.5 ulp.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real attenuated_mean(Real x) { return attenuated_length(Real(1), x); }
 
@@ -697,7 +697,7 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real t
 /// cosine: positive for media that scatter forward, 0 for isotropic ones.
 /// Domain: cosine in [-1, 1], asymmetry in [-1 + 2^-10, 1 - 2^-10], clamped.
 /// NaN: NaN for a cosine of NaN; an asymmetry of NaN counts as 0.
-/// Error: relative, 2^(3 - p) for |asymmetry| <= 1/2.
+/// Error: relative, 10 2^-p for |asymmetry| <= 1/2.
 /// Source: Henyey & Greenstein 1941
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real phase_henyey_greenstein(Real cosine, std::type_identity_t<Real> asymmetry)
@@ -721,11 +721,24 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real a
     return Real(1) - saturate_or_zero(Real(0.5) - Real(0.5) * cosine);
 }
 
+/// The overestimation of visibility (1 + cosine^5) / 2: as adaptive_overestimation at both ends and at a right angle to
+/// the light, and close to 1/2, which halves the worst error, in a wide range about it. Shown visibility exceeds its
+/// lower bound by this share of the weight at the ray: within 5 degrees of the ray into the light at most 1% leaks,
+/// whatever the occluders. Within 5 degrees of the ray along the light at most 1% is lost.
+/// Domain: cosine in [-1, 1], clamped.
+/// NaN: 1.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real plateau_overestimation(Real cosine)
+{
+    Real c = clamp_or_high(cosine, Real(-1), Real(1));
+    Real square = c * c;
+    return adaptive_overestimation(square * square * c);
+}
+
 /// Radiance that reaches the camera: that of the surface, attenuated, and light scattered into the view ray. intensity
 /// is the shadow of the ray, 0 where all of the ray is lit.
 /// Domain: distance, extinction, scattering, phase, irradiance and surface at least 0 and finite.
 /// NaN: an intensity of NaN counts as 0.
-/// Error: relative, 2^(4 - p) for optical depths up to 1.
+/// Error: relative, 9 2^-p for optical depths up to 1.
 /// Source: Peters 2017, Sec. 5.1.1
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real scattering_radiance(Real surface, Real intensity, Real distance_,

@@ -680,7 +680,7 @@ GNOMON_INLINE constexpr Real attenuated_length(Real distance_, Real extinction)
 /// (1 - e^-x) / x, the mean transmittance along a ray of the optical depth x, in [0, 1]; 1 for 0, without cancellation.
 /// Domain: x at least 0, also infinite; negative x counts as 0.
 /// NaN: 1.
-/// Error: 4.5 ulp.
+/// Error: 3.5 ulp.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real attenuated_mean(Real x) { return attenuated_length(Real(1), x); }
 
@@ -697,7 +697,7 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real t
 /// cosine: positive for media that scatter forward, 0 for isotropic ones.
 /// Domain: cosine in [-1, 1], asymmetry in [-1 + 2^-10, 1 - 2^-10], clamped.
 /// NaN: NaN for a cosine of NaN; an asymmetry of NaN counts as 0.
-/// Error: relative, 2^(3 - p) for |asymmetry| <= 1/2.
+/// Error: relative, 10 2^-p for |asymmetry| <= 1/2.
 /// Source: Henyey & Greenstein 1941
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real phase_henyey_greenstein(Real cosine, std::type_identity_t<Real> asymmetry)
@@ -721,11 +721,24 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real a
     return Real(1) - saturate_or_zero(Real(0.5) - Real(0.5) * cosine);
 }
 
+/// The overestimation of visibility (1 + cosine^5) / 2: as adaptive_overestimation at both ends and at a right angle to
+/// the light, and close to 1/2, which halves the worst error, in a wide range about it. Shown visibility exceeds its
+/// lower bound by this share of the weight at the ray: within 5 degrees of the ray into the light at most 1% leaks,
+/// whatever the occluders. Within 5 degrees of the ray along the light at most 1% is lost.
+/// Domain: cosine in [-1, 1], clamped.
+/// NaN: 1.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real plateau_overestimation(Real cosine)
+{
+    Real c = clamp_or_high(cosine, Real(-1), Real(1));
+    Real square = c * c;
+    return adaptive_overestimation(square * square * c);
+}
+
 /// Radiance that reaches the camera: that of the surface, attenuated, and light scattered into the view ray. intensity
 /// is the shadow of the ray, 0 where all of the ray is lit.
 /// Domain: distance, extinction, scattering, phase, irradiance and surface at least 0 and finite.
 /// NaN: an intensity of NaN counts as 0.
-/// Error: relative, 2^(4 - p) for optical depths up to 1.
+/// Error: relative, 9 2^-p for optical depths up to 1.
 /// Source: Peters 2017, Sec. 5.1.1
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real scattering_radiance(Real surface, Real intensity, Real distance_,
@@ -783,7 +796,7 @@ GNOMON_INLINE constexpr Real transmittance_step(std::type_identity_t<Real> extin
 /// q. In [0, 1].
 /// Domain: g and q in [0, 1], clamped.
 /// NaN: 0.
-/// Error: relative, 1.5 roundings beside the errors of g and q.
+/// Error: relative, 3 2^-p beside those of g and q; 256 2^-p after 1024 texels.
 template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real transmittance_weight_next(Real g, Real q)
 {
     Real next = saturate_or_zero(q) * saturate_or_zero(g);
@@ -791,7 +804,7 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real t
 }
 
 /// The share of the way from the average before a texel to the one up to it, for a ray that ends a share f within the
-/// texel: v / (1 - g (1 - v)), v = (1 - q^f) / (1 - q), where g is the share of the texel. In [0, 1].
+/// texel: v / (1 - g + g v), v = (1 - q^f) / (1 - q), where g is the share of the texel. In [0, 1].
 /// Domain: g, q and f in [0, 1], clamped.
 /// NaN: as 0 for g and f, as 1 for q.
 /// Error: 8 2^-p.
@@ -801,7 +814,8 @@ GNOMON_INLINE constexpr Real transmittance_weight_within(Real g, Real q, Real f)
     Real share = saturate_or_zero(f);
     Real depth = Real(-1) * polynomial_log(gnomon_min(q, Real(1)));
     Real v = gnomon_min(Real(1), share * attenuated_mean(share * depth) / attenuated_mean(depth));
-    Real rest = Real(1) - saturate_or_zero(g) * (Real(1) - v);
+    Real last = saturate_or_zero(g);
+    Real rest = (Real(1) - last) + last * v;
     return gnomon_select(Real(0) < rest, saturate_or_zero(v / rest), Real(1));
 }
 

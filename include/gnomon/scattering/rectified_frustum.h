@@ -143,11 +143,12 @@ GNOMON_DETAIL_KERNEL Real rectified_azimuth_between(GNOMON_T(rectified_corner) a
 /// The bounds of rectified coordinates over all view rays to a far plane with these corners: sharp, so that rays touch each.
 /// azimuth_start is in [-pi, pi], azimuth_length in [0, 2 pi]: at most pi, or 2 pi if the axis is within the far plane.
 /// A corner on the axis has no azimuth and counts for none.
-/// Domain: coordinates are 0 or have magnitudes in [2^-20, 2^20] in float, [2^-160, 2^160] in double; corners of a convex
+/// Domain: coordinates are 0 or have magnitudes in [2^-30, 2^30] in float, [2^-300, 2^300] in double; corners of a convex
 /// quadrilateral that the eye does not lie in. Corners that are all at the eye give zeros; others that are no such
 /// quadrilateral, some bounds.
 /// NaN: an edge that a NaN makes unknown counts for no angle.
-/// Error: a ray exceeds the bounds by at most 8 2^-p of radius in radius, 16 2^-p in azimuth and 2^(4 - p) in polar.
+/// Error: for fields of view up to 160 degrees a point of the far plane exceeds the bounds by at most 4 2^-p radius in radius, by
+/// 16 2^-p radius sideways, and by 8 2^-p in polar.
 /// Source: Peters 2017, App. A
 GNOMON_KERNEL GNOMON_T(rectified_frustum) rectified_frustum_from_corners(GNOMON_T(rectified_corners) q)
 {
@@ -219,7 +220,7 @@ GNOMON_DETAIL_KERNEL GNOMON_T(rectified_interval) rectified_row_edge(GNOMON_T(re
 /// Domain: as for rectified_frustum_from_corners; first <= last, both within 3 pi of 0. More than 3 radians get the angles
 /// of all rays.
 /// NaN: as for rectified_frustum_from_corners.
-/// Error: a ray exceeds the bounds by at most 2^(5 - p).
+/// Error: for fields of view up to 160 degrees a ray exceeds the bounds by at most 16 2^-p.
 GNOMON_KERNEL GNOMON_T(rectified_interval) rectified_row_polar(GNOMON_T(rectified_corners) q, Real first, Real last)
 {
     cosine_sine left = polynomial_cosine_sine(first);
