@@ -74,11 +74,20 @@ inline float rectified_depth_of(rectified_depth depth, float polar, rectified_ra
 
 namespace detail {
 
-inline rectified_row rectified_row_over(const rectified_frame& frame, rectified_interval<float> polar, float extinction,
-                                        float radius_step, float azimuth)
+/// The mean sine of the polar angles of view rays that fill the solid angle of an interval, by Simpson's rule: where the light
+/// direction is in view, most rays are far from it.
+inline float rectified_mean_sine(rectified_interval<float> polar)
+{
+    const float a = polynomial_sin(polar.least), b = polynomial_sin(polar.most);
+    const float middle = polynomial_sin(0.5f * (polar.least + polar.most));
+    const float sum = a + 4 * middle + b;
+    return sum > 0 ? (a * a + 4 * middle * middle + b * b) / sum : 0;
+}
+
+inline rectified_row rectified_row_over(const rectified_frame& frame, rectified_interval<float> polar, float sine,
+                                        float extinction, float radius_step, float azimuth)
 {
     const cosine_sine<float> direction = polynomial_cosine_sine(azimuth);
-    const float sine = polynomial_sin(0.5f * (polar.least + polar.most));
     return {direction.cosine, direction.sine, rectified_range_of(frame.depth, polar),
             transmittance_step(extinction, radius_step, sine), extinction * radius_step / sine};
 }
@@ -97,14 +106,16 @@ inline void rectified_rows(const rectified_frame& frame, const rectified_frustum
 {
     detail::expect_rectified_rows(columns, rows);
     const rectified_interval<float> polar{bounds.polar_least, bounds.polar_most};
+    const float sine = polynomial_sin(0.5f * (polar.least + polar.most));
     const float step = frame.azimuth_length / float(rows.size());
     for (std::size_t v = 0; v < rows.size(); ++v)
-        rows[v] = detail::rectified_row_over(frame, polar, extinction, rectified_radius_step(frame, columns),
+        rows[v] = detail::rectified_row_over(frame, polar, sine, extinction, rectified_radius_step(frame, columns),
                                              frame.azimuth_start + (float(v) + 0.5f) * step);
 }
 
-/// Fill the rows of a map of that many columns, each with the range of depth and the transmittance of a texel of the view rays
-/// that read it: those of its azimuths and of half a row on either side, between which look-ups interpolate.
+/// Fill the rows of a map of that many columns, each with the range of depth of the view rays that read it, and the
+/// transmittance of a texel for their mean sine: rays of its azimuths and of half a row on either side, between which look-ups
+/// interpolate.
 inline void rectified_rows(const rectified_frame& frame, const rectified_corners<float>& far_plane, float extinction,
                            std::size_t columns, std::span<rectified_row> rows)
 {
@@ -112,8 +123,9 @@ inline void rectified_rows(const rectified_frame& frame, const rectified_corners
     const float step = frame.azimuth_length / float(rows.size());
     for (std::size_t v = 0; v < rows.size(); ++v) {
         const float middle = frame.azimuth_start + (float(v) + 0.5f) * step;
-        rows[v] = detail::rectified_row_over(frame, rectified_row_polar(far_plane, middle - step, middle + step),
-                                             extinction, rectified_radius_step(frame, columns), middle);
+        const rectified_interval<float> polar = rectified_row_polar(far_plane, middle - step, middle + step);
+        rows[v] = detail::rectified_row_over(frame, polar, detail::rectified_mean_sine(polar), extinction,
+                                             rectified_radius_step(frame, columns), middle);
     }
 }
 
