@@ -140,11 +140,10 @@ TEST_CASE("no pass over min-max rows or froxels allocates")
     using namespace gnomon;
     std::array<float, 128 * 2> depths{};
     std::array<depth_interval, min_max_nodes(128) * 2> nodes{};
-    std::array<min_max_block_weight, 3> blocks{};
     const map_view<depth_interval> tree{nodes, min_max_nodes(128), 2};
     const long before = allocations;
     build_min_max_rows({depths, 128, 2}, tree, {0, 2});
-    const float shadow = min_max_intensity({depths, 128, 2}, tree, min_max_weights_of(0.9, blocks), 1, 20.5f, 0.5f);
+    const float shadow = min_max_intensity({depths, 128, 2}, tree, 0.9f, 1, 20.5f, 0.5f);
     std::array<float, 3 * 2 * 2> froxels{};
     const auto slices = froxel_slices_from(1.0f, 8.0f, 2.0f);
     integrate_froxels({froxels, 3, 2, 2}, slices, 0.5f, {0, 2});

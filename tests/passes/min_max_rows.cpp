@@ -24,17 +24,9 @@ struct rows_of_map {
     double q;
     std::vector<float> depths;
     std::vector<depth_interval> nodes;
-    std::vector<min_max_block_weight> blocks;
-    min_max_weights weights;
 
     rows_of_map(std::size_t w, std::size_t h, double factor, auto depth)
-        : width(w),
-          height(h),
-          q(factor),
-          depths(w * h),
-          nodes(min_max_nodes(w) * h),
-          blocks(w / min_max_block + 1),
-          weights(min_max_weights_of(factor, blocks))
+        : width(w), height(h), q(factor), depths(w * h), nodes(min_max_nodes(w) * h)
     {
         for (float& z : depths) z = float(depth());
         build_min_max_rows({depths, width, height}, {nodes, min_max_nodes(width), height}, {0, height});
@@ -42,7 +34,7 @@ struct rows_of_map {
     [[nodiscard]] float intensity(std::size_t row, float x, float z_f) const
     {
         const std::span<const depth_interval> all(nodes);
-        return min_max_intensity({depths, width, height}, {all, min_max_nodes(width), height}, weights, row, x, z_f);
+        return min_max_intensity({depths, width, height}, {all, min_max_nodes(width), height}, float(q), row, x, z_f);
     }
     /// The weighted count, texel by texel.
     [[nodiscard]] double counted(std::size_t row, double x, float z_f) const

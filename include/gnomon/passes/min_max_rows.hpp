@@ -3,14 +3,15 @@
 // scattering without any error of reconstruction, to compare with.
 //
 //     build_min_max_rows(depths, nodes, {0, height});                                once for a map
-//     weights = min_max_weights_of(q, blocks);                                       once for each factor q
-//     intensity = min_max_intensity(depths, nodes, weights, row, x, z_f);            for each ray
+//     q = transmittance_step(extinction, radius_step, sine of the polar angle);      for each ray, of one texel
+//     intensity = min_max_intensity(depths, nodes, q, row, x, z_f);
 //
-// A row's texels stand in blocks of 64, of which a processor compares many at a time. Above the blocks stands a binary tree, with the least and the greatest depth of all
-// that a node covers. Nodes that are wholly before the ray's depth, or not at all, count by the weight of their texels; of
-// other nodes the children are visited, and of other blocks the texels.
+// A row's texels stand in blocks of 64, of which a processor compares many at a time. Above the blocks stands a binary tree,
+// with the least and the greatest depth of all that a node covers. Nodes that are wholly before the ray's depth, or not at
+// all, count by the weight of their texels; of other nodes the children are visited, and of other blocks the texels.
 //
-// The weight of a texel is q times that of the texel before, as transmittance falls along a ray.
+// The weight of a texel is q times that of the texel before. Sums of weights are products, without cancellation, and the
+// weights are those of the ray, not of the mean over its row as in a map of prefix averages.
 #ifndef GNOMON_PASSES_MIN_MAX_ROWS_HPP
 #define GNOMON_PASSES_MIN_MAX_ROWS_HPP
 
@@ -31,41 +32,6 @@ inline constexpr std::size_t min_max_block = 64;
 /// The number of nodes of a row of so many texels, some of them unused. Node 1 is the root, below node n are 2 n and 2 n + 1,
 /// and the last half of all nodes are the blocks in their order.
 constexpr std::size_t min_max_nodes(std::size_t width) { return 2 * std::bit_ceil(width / min_max_block); }
-
-/// The weight of all texels before a block, and that of its first texel.
-struct min_max_block_weight {
-    float before, first;
-};
-
-/// Weights of the texels of rows. The first texel of the row has weight 1.
-struct min_max_weights {
-    std::array<float, min_max_block> texels{};      // of a block whose first texel has weight 1
-    std::array<float, min_max_block> before{};      // the sum of the weights of the texels before, in such a block
-    std::span<const min_max_block_weight> blocks{}; // and one for the end of the row
-};
-
-/// Weights where each texel has q times the weight of the texel before. blocks, which is written, has an element for each
-/// block of a row and one for its end.
-/// Domain: q in [0, 1]; others are limited to it.
-/// NaN: 1, clear air.
-inline min_max_weights min_max_weights_of(double q, std::span<min_max_block_weight> blocks)
-{
-    const double factor = clamp_or_high(q, 0.0, 1.0);
-    min_max_weights r{{}, {}, blocks};
-    double weight = 1, of_block = 0, before = 0, first = 1;
-    for (std::size_t k = 0; k < min_max_block; ++k) {
-        r.texels[k] = float(weight);
-        r.before[k] = float(of_block);
-        of_block += weight;
-        weight *= factor;
-    }
-    for (min_max_block_weight& b : blocks) {
-        b = {float(before), float(first)};
-        before += first * of_block;
-        first *= weight;
-    }
-    return r;
-}
 
 /// Fill the given rows of nodes from the rows of depths. Depths are limited to [-1, 1]; a NaN is the far plane.
 inline void build_min_max_rows(map_view<const float> depths, map_view<depth_interval> nodes, row_range rows)
@@ -100,76 +66,105 @@ inline void build_min_max_rows(map_view<const float> depths, map_view<depth_inte
 
 namespace detail {
 
-/// The sum of the weights of those of a block's first count texels that are before z.
+/// Sums of the weights of texels in blocks, and of those before z: q^k for texel k of a block, times the weight of its first.
 class texels_before {
   public:
-    texels_before(const std::array<float, min_max_block>& weights, float z) : weights_(weights.data()), z_(z) {}
-
 #if defined(__GNUC__)
+    texels_before(float q, float z) : z_(z)
+    {
+        float power = q;
+        for (std::int32_t bit = 1; bit < lanes; bit *= 2) {
+            weights_ *= (places & bit) > 0 ? numbers{} + power : numbers{} + 1;
+            power *= power;
+        }
+        next_ = power;
+    }
     GNOMON_INLINE void add(const float* texels, std::size_t count, float first)
     {
         for (std::size_t k = 0; k < count; k += lanes) {
-            numbers depth, weight;
+            numbers depth;
             std::memcpy(&depth, texels + k, sizeof depth);
-            std::memcpy(&weight, weights_ + k, sizeof weight);
-            const flags counted = (depth < z_) & (places < std::int32_t(count - k));
-            sums_ += counted ? first * weight : numbers{};
+            const numbers weight = places < std::int32_t(count - k) ? first * weights_ : numbers{};
+            all_ += weight;
+            before_ += depth < z_ ? weight : numbers{};
+            first *= next_;
         }
     }
-    [[nodiscard]] float total() const
+    [[nodiscard]] float total() const { return sum(all_); }
+    [[nodiscard]] float before() const { return sum(before_); }
+
+  private:
+    static constexpr std::int32_t lanes = 16;
+    typedef float numbers __attribute__((vector_size(4 * lanes)));
+    typedef std::int32_t flags __attribute__((vector_size(4 * lanes)));
+    static constexpr flags places{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+
+    static float sum(const numbers& of)
     {
-        numbers r = sums_;
+        numbers r = of;
         for (std::size_t n = lanes / 2; n > 0; n /= 2)
             for (std::size_t k = 0; k < n; ++k) r[k] += r[k + n];
         return r[0];
     }
 
-  private:
-    static constexpr std::size_t lanes = 16;
-    typedef float numbers __attribute__((vector_size(4 * lanes)));
-    typedef std::int32_t flags __attribute__((vector_size(4 * lanes)));
-    static constexpr flags places{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-
-    numbers sums_{};
+    numbers weights_ = numbers{} + 1, all_{}, before_{};
+    float next_, z_;
 #else
+    texels_before(float q, float z) : q_(q), z_(z) {}
     void add(const float* texels, std::size_t count, float first)
     {
-        float sum = 0;
-        for (std::size_t k = 0; k < count; ++k) sum += texels[k] < z_ ? weights_[k] : 0;
-        sum_ += first * sum;
+        float all = 0, before = 0;
+        for (std::size_t k = 0; k < count; ++k) {
+            all += first;
+            before += texels[k] < z_ ? first : 0;
+            first *= q_;
+        }
+        all_ += all;
+        before_ += before;
     }
-    [[nodiscard]] float total() const { return sum_; }
+    [[nodiscard]] float total() const { return all_; }
+    [[nodiscard]] float before() const { return before_; }
 
   private:
-    float sum_ = 0;
+    float q_, z_, all_ = 0, before_ = 0;
 #endif
-    const float* weights_;
-    float z_;
 };
 
 } // namespace detail
 
 /// Shadow intensity in [0, 1] at depth z_f of the part of a row up to x texels: the weight of texels with a depth before z_f
-/// over the weight of all. The last texel counts by the weight of its part. At x = 0 the first texel counts alone.
-/// Domain: rows that build_min_max_rows accepts; any x, limited to the row; any z_f, limited to [-1, 1].
-/// NaN: 0, lit; texels of depth NaN are lit.
+/// over the weight of all, where each texel has q times the weight of the texel before. The last texel counts by the weight
+/// of its part. At x = 0 the first texel counts alone.
+/// Domain: rows that build_min_max_rows accepts; any x, limited to the row; z_f limited to [-1, 1], and q to [0, 1].
+/// NaN: 0, lit, for x or z_f; a q of NaN is 1; texels of depth NaN are lit.
 /// Error: 3e-6, for up to 4096 texels.
 /// Source: Chen 2011
-inline float min_max_intensity(map_view<const float> depths, map_view<const depth_interval> nodes,
-                               const min_max_weights& weights, std::size_t row, float x, float z_f)
+inline float min_max_intensity(map_view<const float> depths, map_view<const depth_interval> nodes, float q,
+                               std::size_t row, float x, float z_f)
 {
-    const float z = clamp_or_nan(z_f, -1.0f, 1.0f);
+    const float z = clamp_or_nan(z_f, -1.0f, 1.0f), factor = clamp_or_high(q, 0.0f, 1.0f);
     if (!(z > -1) || (std::isnan)(x)) return 0;
     const float* texel = &depths(0, row);
     const depth_interval* node = &nodes(0, row);
     const float end = clamp_or_high(x, 0x1p-20f, float(depths.width));
     const auto last = (std::min)(std::size_t(end), depths.width - 1);
-    const std::size_t leaves = nodes.width / 2, blocks = last / min_max_block, rest = last % min_max_block;
+    const std::size_t leaves = nodes.width / 2, blocks = last / min_max_block;
+
+    // The weight of the texels of a node over that of the first, and the factor over all of them, for each level.
+    struct level_weight {
+        float all, factor;
+    };
+    std::array<level_weight, std::numeric_limits<std::size_t>::digits> levels;
+    level_weight of_level{1, factor};
+    const auto doubled = [](level_weight w) { return level_weight{w.all + w.all * w.factor, w.factor * w.factor}; };
+    for (std::size_t k = 1; k < min_max_block; k *= 2) of_level = doubled(of_level);
+    const std::size_t top = blocks > 0 ? std::size_t(std::bit_width(blocks)) - 1 : 0;
+    for (std::size_t k = 0; k <= top; ++k, of_level = doubled(of_level)) levels[k] = of_level;
 
     // By blocks: the largest node that begins at the block and is not beyond the end, unless it must be opened.
-    detail::texels_before opened(weights.texels, z);
-    float shadowed = 0;
-    std::size_t at = 0, level = blocks > 0 ? std::size_t(std::bit_width(blocks)) - 1 : 0;
+    detail::texels_before opened(factor, z);
+    float before = 0, all = 0, first = 1;
+    std::size_t at = 0, level = top;
     while (at < blocks) {
         const std::size_t size = std::size_t{1} << level;
         const depth_interval& i = node[(leaves + at) >> level];
@@ -178,18 +173,21 @@ inline float min_max_intensity(map_view<const float> depths, map_view<const dept
             --level;
             continue;
         }
-        if (found.decided > 0)
-            shadowed += found.intensity * (weights.blocks[at + size].before - weights.blocks[at].before);
-        else opened.add(texel + min_max_block * at, min_max_block, weights.blocks[at].first);
+        if (found.decided > 0) {
+            all += first * levels[level].all;
+            before += found.intensity * (first * levels[level].all);
+        } else opened.add(texel + min_max_block * at, min_max_block, first);
+        first *= levels[level].factor;
         at += size;
         level += (at >> level) % 2 == 0;
     }
-    opened.add(texel + min_max_block * blocks, rest, weights.blocks[blocks].first);
-
-    const float part = weights.blocks[blocks].first * weights.texels[rest] *
-                       transmittance_weight_within(0.0f, weights.texels[1], end - float(last));
-    const float all = weights.blocks[blocks].before + weights.blocks[blocks].first * weights.before[rest] + part;
-    return saturate_or_zero((shadowed + opened.total() + (texel[last] < z ? part : 0)) / all);
+    const std::size_t rest = last % min_max_block;
+    opened.add(texel + min_max_block * blocks, rest, first);
+    float power = factor;
+    for (std::size_t k = rest; k > 0; k /= 2, power *= power) first *= k % 2 == 1 ? power : 1;
+    const float part = first * transmittance_weight_within(0.0f, factor, end - float(last));
+    before += texel[last] < z ? part : 0;
+    return saturate_or_zero((before + opened.before()) / (all + part + opened.total()));
 }
 
 GNOMON_NAMESPACE_END
