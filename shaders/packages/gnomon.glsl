@@ -326,12 +326,12 @@ float scattering_radiance(float surface, float intensity, float distance_, float
 // holds for every extinction: q = 1 without any, q = 0 in an opaque medium. Weights that vary from texel to texel, as
 // those of scattering/height_fog.h, are summed by transmittance_share_add.
 //
-//     (for a row)   q = transmittance_step(extinction, radius_step, sine of the row's mean polar angle)
+//     (for a row)   q = transmittance_step(extinction, radius_step, mean sine of the row's polar angles)
 //     (for u > 0)   g = transmittance_weight_next(g, q);   mean = mean + g (texel - mean)
 //
 // A ray that ends within texel u, a share f of it, has an average between that of texel u - 1 and that of texel u, but
-// not at f: transmittance_weight_within is exact. transmittance_weight_between is so for averages at any two distances,
-// as in mip levels.
+// not at f: transmittance_weight_within is exact. transmittance_weight_between is exact between averages over any two
+// distances, as in mips.
 #ifndef GNOMON_SCATTERING_TRANSMITTANCE_WEIGHTS_H
 #define GNOMON_SCATTERING_TRANSMITTANCE_WEIGHTS_H
 
@@ -373,9 +373,9 @@ float transmittance_weight_within(float g, float q, float f)
 }
 
 /// The share of the way from the average over a distance before to the average over before + length, for a ray that
-/// ends at before + f length: exact where light and shadow do not change along the length. Distances are in texels, of
-/// that optical depth each; for one texel, the same as transmittance_weight_within without the shares of the texels
-/// before. In [0, 1].
+/// ends at before + f length: exact where light and shadow do not change along the length. Distances are in texels of
+/// that optical depth. For one texel this is transmittance_weight_within without the shares of the texels before. In
+/// [0, 1].
 /// Domain: before, length and optical_depth at least 0, the last also infinite; f in [0, 1], clamped.
 /// NaN: 0, also where before and f are 0, or optical_depth is infinite.
 /// Error: 24 2^-p.
@@ -6833,32 +6833,33 @@ gnomon_edge_equation edge_equation_widen(gnomon_edge_equation f, float margin, f
 #endif
 
 // scattering/height_fog.h ---------------------------------------------------------------------------------------------
-// Height fog: a medium whose density falls exponentially with height, seen along a view ray. The paper of
-// scattering/single_scattering.h has homogeneous media alone. Along a ray that rises by rise for each unit of length, a
-// density e^(-falloff height) is e^(-decay t) at the distance t, decay = falloff rise, relative to the density at the
-// eye; a ray that descends has a negative decay. The medium up to a distance s is as much as that of the density at the
-// eye over
+// Height fog: a medium whose density falls exponentially with height, seen along a view ray. The paper covers
+// homogeneous media only (scattering/single_scattering.h). Along a ray that rises by rise for each unit of length, a
+// density e^(-falloff height) is e^(-decay t) at the distance t, relative to the density at the eye, with decay =
+// falloff rise. A ray that descends has a negative decay. Up to a distance s the ray crosses as much of the medium as
+// in a homogeneous medium of the density at the eye over the length
 //
 //     amount(s) = (1 - e^(-decay s)) / decay
 //
-// so scattering_radiance serves with amount(s) for the distance, and with extinction and scattering as at the eye.
+// so scattering_radiance serves with amount(s) for the distance, and with extinction and scattering at the eye.
 //
-// The map of prefix averages stays as it is, with other weights: a texel that the ray crosses from s to t scatters
+// The map of prefix averages has the same layout and other weights: a texel that the ray crosses from s to t scatters
 //     e^(-extinction amount(s)) (1 - e^(-extinction (amount(t) - amount(s)))) / extinction
 // and transmittance_share_add sums these weights.
 //
-// A row has one set of weights, those of the ray in the middle of its range, and holds rays of other polar angles, too.
-// In a homogeneous medium their error is one of the distance between texels alone. In fog these rays also cross a texel
-// at another height, unless the light is horizontal, since light rays then keep their height: the higher the light, the
-// greater the error. scattering_radiance has no such error, since the distance is that of the ray itself. Attenuation
-// on the way from the light to the view ray is not covered.
+// A row has one set of weights, those of the ray in the middle of its range, and serves rays of other polar angles,
+// too. In a homogeneous medium these rays cross the texels in other steps. In fog they also cross a texel at another
+// height, unless the light is horizontal and light rays keep their height: the higher the light, the greater the error.
+// scattering_radiance has no such error, since its distance is that of the ray itself. Attenuation on the way from the
+// light to the view ray is not covered.
 #ifndef GNOMON_SCATTERING_HEIGHT_FOG_H
 #define GNOMON_SCATTERING_HEIGHT_FOG_H
 
-/// The medium along a ray between two distances from the eye, as the length over which the density at the eye has as
-/// much. At least 0, never NaN.
-/// Domain: 0 <= first <= last, any decay; decay times either distance in [-88, 87] in float, [-709, 708] in double,
-/// limited.
+/// The amount of medium along a ray between two distances from the eye: the length of a homogeneous medium of the
+/// density at the eye that holds as much.
+/// At least 0, never NaN.
+/// Domain: 0 <= first <= last, any decay; decay times either distance is clamped to [-88, 87] in float, [-709, 708] in
+/// double.
 /// NaN: 0 for a distance of NaN; a decay of NaN counts as 0.
 /// Error: relative, (8 + 2 decay last) 2^-p, by the magnitude of decay.
 float height_fog_amount(float first, float last, float decay)
@@ -6870,9 +6871,9 @@ float height_fog_amount(float first, float last, float decay)
            attenuated_length(last - first, gnomon_abs(decay));
 }
 
-/// The light scattered between two distances from the eye and transmitted to it, as the length over which a medium of
-/// the density at the eye would scatter as much without extinction: the weight of a texel that the ray crosses there.
-/// In [0, amount] up to the error. extinction is that at the eye.
+/// The weight of a texel that a ray crosses between two distances from the eye: the light scattered there and
+/// transmitted to the eye, as the length over which a medium of the density at the eye would scatter as much without
+/// extinction. In [0, amount] up to the error. extinction is that at the eye.
 /// Domain: as for height_fog_amount; extinction at least 0.
 /// NaN: 0 for a distance of NaN; a decay or an extinction of NaN counts as 0.
 /// Error: relative, (1 + optical depth) (16 + 4 decay last) 2^-p, by the magnitude of decay.
@@ -6896,9 +6897,9 @@ float height_fog_weight(float first, float last, float decay, float extinction)
 //
 // Looking into the light is polar = pi. On a light ray z grows with depth, and polar falls with it. Hence a depth of
 // the rectified map is a falling function of polar, signed as all depths of this library: -1 looking into the light, +1
-// along it. Two measures of depth are there: the angle itself, as in the paper, and its cosine, which needs no inverse
-// trigonometry. Both are stretched to [-1, 1] over the range of the view rays and a guard band of 10%: an occluder
-// outside the range of the view rays then keeps a distance to all of them.
+// along it. There are two measures of depth: the angle itself, as in the paper, and its cosine, which needs no inverse
+// trigonometry. Both are stretched to [-1, 1] over the range of the view rays and a guard band of 10%, so that an
+// occluder outside of that range keeps a distance from all view rays.
 //
 //     omega_l    the direction to the light:  (0, 0, -1)
 //     omega_p    the direction from a point of the view ray to the camera
@@ -6957,8 +6958,7 @@ rectified_range gnomon_rectified_range_over(float least, float most, float narro
 }
 
 /// The range of depth for polar angles of view rays in [least, most].
-/// Domain: least <= most, in [0, pi]. A range narrower than 2^-10, or turned around, counts as one of 2^-10 around its
-/// middle.
+/// Domain: least <= most, in [0, pi]. A range narrower than 2^-10, or reversed, is widened to 2^-10 around its middle.
 /// NaN: a middle of NaN.
 /// Source: Peters 2017, Sec. 5.1.1
 rectified_range rectified_polar_range(float least, float most)
@@ -6968,8 +6968,7 @@ rectified_range rectified_polar_range(float least, float most)
 
 /// The range of depth for cosines of polar angles of view rays in [least, most], which are those of the greatest and of
 /// the least angle.
-/// Domain: least <= most, in [-1, 1]. A range narrower than 2^-16, or turned around, counts as one of 2^-16 around its
-/// middle.
+/// Domain: least <= most, in [-1, 1]. A range narrower than 2^-16, or reversed, is widened to 2^-16 around its middle.
 /// NaN: a middle of NaN.
 rectified_range rectified_cosine_range(float least, float most)
 {
@@ -7004,7 +7003,7 @@ float gnomon_rectified_wrapped(float angle)
 }
 
 /// The position across the rows of a map, in [0, rows], of an azimuth; the centre of the first row is at 0.5. The map
-/// begins at the azimuth start and spans an angle of span; an azimuth outside goes to the nearer end.
+/// begins at the azimuth start and spans the angle span; an azimuth outside is moved to the nearer end.
 /// Domain: azimuth and start in [-pi, pi], span in [2^-20, 2 pi]; elsewhere a number in [0, rows].
 /// NaN: NaN for an azimuth of NaN.
 float rectified_row_of(float azimuth, float start, float span, float rows)
@@ -7030,7 +7029,7 @@ float rectified_footprint(float radius, float radius_step, float azimuth_step, f
     return gnomon_max(radius_step, radius * azimuth_step) * texels_per_length;
 }
 
-/// The mip level, in [0, 16], whose texels are as wide as a footprint of so many texels of level 0.
+/// The mip level, in [0, 16], whose texels are as wide as a footprint in texels of level 0.
 /// Domain: any footprint.
 /// NaN: 0.
 /// Error: 2 2^-p of the largest level.
@@ -7176,11 +7175,11 @@ float gnomon_rectified_azimuth_between(rectified_corner a, rectified_corner b)
 
 /// The bounds of rectified coordinates over all view rays to a far plane with these corners: sharp, so that rays touch
 /// each. azimuth_start is in [-pi, pi], azimuth_length in [0, 2 pi]: at most pi, or 2 pi if the axis is within the far
-/// plane. A corner on the axis has no azimuth and counts for none.
+/// plane. A corner on the axis has no azimuth and bounds none.
 /// Domain: coordinates are 0 or have magnitudes in [2^-30, 2^30] in float, [2^-300, 2^300] in double; corners of a
-/// convex quadrilateral that the eye does not lie in. Corners that are all at the eye give zeros; others that are no
-/// such quadrilateral, some bounds.
-/// NaN: an edge that a NaN makes unknown counts for no angle.
+/// convex quadrilateral whose plane does not hold the eye. Corners that are all at the eye give zeros; corners of no
+/// such quadrilateral give unspecified bounds.
+/// NaN: an edge with a NaN bounds no angle.
 /// Error: for fields of view up to 160 degrees a point of the far plane exceeds the bounds by at most 4 2^-p radius in
 /// radius, by 16 2^-p radius sideways, and by 8 2^-p in polar.
 /// Source: Peters 2017, App. A
@@ -7226,7 +7225,7 @@ rectified_part gnomon_rectified_part_left(rectified_part part, rectified_corner 
     float crossing = at_a / (at_a - at_b);
     part.begin = gnomon_select(at_a < 0.0, gnomon_max(part.begin, crossing), part.begin);
     part.end = gnomon_select(at_b < 0.0, gnomon_min(part.end, crossing), part.end);
-    // Both ends on the right: nothing is left.
+    // Both ends are on the right: the part is empty.
     part.end = gnomon_select(at_a < 0.0 && at_b < 0.0, -1.0, part.end);
     return part;
 }
@@ -7247,8 +7246,8 @@ rectified_interval gnomon_rectified_row_edge(rectified_interval bounds, rectifie
 
 /// The polar angles of the view rays whose azimuths are between first and last, as those of one row; [0, pi] if no ray
 /// is there.
-/// Domain: as for rectified_frustum_from_corners; first <= last, both within 3 pi of 0. More than 3 radians get the
-/// angles of all rays.
+/// Domain: as for rectified_frustum_from_corners; first <= last, both within 3 pi of 0. An interval above 3 radians
+/// gives the angles of all rays.
 /// NaN: as for rectified_frustum_from_corners.
 /// Error: for fields of view up to 160 degrees a ray exceeds the bounds by at most 16 2^-p.
 rectified_interval rectified_row_polar(rectified_corners q, float first, float last)

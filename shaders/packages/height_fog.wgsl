@@ -269,30 +269,31 @@ fn scattering_radiance(surface: f32, intensity: f32, distance_: f32, extinction:
 }
 
 // scattering/height_fog.h ---------------------------------------------------------------------------------------------
-// Height fog: a medium whose density falls exponentially with height, seen along a view ray. The paper of
-// scattering/single_scattering.h has homogeneous media alone. Along a ray that rises by rise for each unit of length, a
-// density e^(-falloff height) is e^(-decay t) at the distance t, decay = falloff rise, relative to the density at the
-// eye; a ray that descends has a negative decay. The medium up to a distance s is as much as that of the density at the
-// eye over
+// Height fog: a medium whose density falls exponentially with height, seen along a view ray. The paper covers
+// homogeneous media only (scattering/single_scattering.h). Along a ray that rises by rise for each unit of length, a
+// density e^(-falloff height) is e^(-decay t) at the distance t, relative to the density at the eye, with decay =
+// falloff rise. A ray that descends has a negative decay. Up to a distance s the ray crosses as much of the medium as
+// in a homogeneous medium of the density at the eye over the length
 //
 //     amount(s) = (1 - e^(-decay s)) / decay
 //
-// so scattering_radiance serves with amount(s) for the distance, and with extinction and scattering as at the eye.
+// so scattering_radiance serves with amount(s) for the distance, and with extinction and scattering at the eye.
 //
-// The map of prefix averages stays as it is, with other weights: a texel that the ray crosses from s to t scatters
+// The map of prefix averages has the same layout and other weights: a texel that the ray crosses from s to t scatters
 //     e^(-extinction amount(s)) (1 - e^(-extinction (amount(t) - amount(s)))) / extinction
 // and transmittance_share_add sums these weights.
 //
-// A row has one set of weights, those of the ray in the middle of its range, and holds rays of other polar angles, too.
-// In a homogeneous medium their error is one of the distance between texels alone. In fog these rays also cross a texel
-// at another height, unless the light is horizontal, since light rays then keep their height: the higher the light, the
-// greater the error. scattering_radiance has no such error, since the distance is that of the ray itself. Attenuation
-// on the way from the light to the view ray is not covered.
+// A row has one set of weights, those of the ray in the middle of its range, and serves rays of other polar angles,
+// too. In a homogeneous medium these rays cross the texels in other steps. In fog they also cross a texel at another
+// height, unless the light is horizontal and light rays keep their height: the higher the light, the greater the error.
+// scattering_radiance has no such error, since its distance is that of the ray itself. Attenuation on the way from the
+// light to the view ray is not covered.
 
-/// The medium along a ray between two distances from the eye, as the length over which the density at the eye has as
-/// much. At least 0, never NaN.
-/// Domain: 0 <= first <= last, any decay; decay times either distance in [-88, 87] in float, [-709, 708] in double,
-/// limited.
+/// The amount of medium along a ray between two distances from the eye: the length of a homogeneous medium of the
+/// density at the eye that holds as much.
+/// At least 0, never NaN.
+/// Domain: 0 <= first <= last, any decay; decay times either distance is clamped to [-88, 87] in float, [-709, 708] in
+/// double.
 /// NaN: 0 for a distance of NaN; a decay of NaN counts as 0.
 /// Error: relative, (8 + 2 decay last) 2^-p, by the magnitude of decay.
 fn height_fog_amount(first: f32, last: f32, decay: f32) -> f32
@@ -304,9 +305,9 @@ fn height_fog_amount(first: f32, last: f32, decay: f32) -> f32
            attenuated_length(last - first, gnomon_abs(decay));
 }
 
-/// The light scattered between two distances from the eye and transmitted to it, as the length over which a medium of
-/// the density at the eye would scatter as much without extinction: the weight of a texel that the ray crosses there.
-/// In [0, amount] up to the error. extinction is that at the eye.
+/// The weight of a texel that a ray crosses between two distances from the eye: the light scattered there and
+/// transmitted to the eye, as the length over which a medium of the density at the eye would scatter as much without
+/// extinction. In [0, amount] up to the error. extinction is that at the eye.
 /// Domain: as for height_fog_amount; extinction at least 0.
 /// NaN: 0 for a distance of NaN; a decay or an extinction of NaN counts as 0.
 /// Error: relative, (1 + optical depth) (16 + 4 decay last) 2^-p, by the magnitude of decay.

@@ -328,9 +328,9 @@ static inline float polynomial_atan2(float y, float x)
 //
 // Looking into the light is polar = pi. On a light ray z grows with depth, and polar falls with it. Hence a depth of
 // the rectified map is a falling function of polar, signed as all depths of this library: -1 looking into the light, +1
-// along it. Two measures of depth are there: the angle itself, as in the paper, and its cosine, which needs no inverse
-// trigonometry. Both are stretched to [-1, 1] over the range of the view rays and a guard band of 10%: an occluder
-// outside the range of the view rays then keeps a distance to all of them.
+// along it. There are two measures of depth: the angle itself, as in the paper, and its cosine, which needs no inverse
+// trigonometry. Both are stretched to [-1, 1] over the range of the view rays and a guard band of 10%, so that an
+// occluder outside of that range keeps a distance from all view rays.
 //
 //     omega_l    the direction to the light:  (0, 0, -1)
 //     omega_p    the direction from a point of the view ray to the camera
@@ -391,8 +391,7 @@ static inline rectified_range gnomon_rectified_range_over(float least, float mos
 }
 
 /// The range of depth for polar angles of view rays in [least, most].
-/// Domain: least <= most, in [0, pi]. A range narrower than 2^-10, or turned around, counts as one of 2^-10 around its
-/// middle.
+/// Domain: least <= most, in [0, pi]. A range narrower than 2^-10, or reversed, is widened to 2^-10 around its middle.
 /// NaN: a middle of NaN.
 /// Source: Peters 2017, Sec. 5.1.1
 static inline rectified_range rectified_polar_range(float least, float most)
@@ -402,8 +401,7 @@ static inline rectified_range rectified_polar_range(float least, float most)
 
 /// The range of depth for cosines of polar angles of view rays in [least, most], which are those of the greatest and of
 /// the least angle.
-/// Domain: least <= most, in [-1, 1]. A range narrower than 2^-16, or turned around, counts as one of 2^-16 around its
-/// middle.
+/// Domain: least <= most, in [-1, 1]. A range narrower than 2^-16, or reversed, is widened to 2^-16 around its middle.
 /// NaN: a middle of NaN.
 static inline rectified_range rectified_cosine_range(float least, float most)
 {
@@ -438,7 +436,7 @@ static inline float gnomon_rectified_wrapped(float angle)
 }
 
 /// The position across the rows of a map, in [0, rows], of an azimuth; the centre of the first row is at 0.5. The map
-/// begins at the azimuth start and spans an angle of span; an azimuth outside goes to the nearer end.
+/// begins at the azimuth start and spans the angle span; an azimuth outside is moved to the nearer end.
 /// Domain: azimuth and start in [-pi, pi], span in [2^-20, 2 pi]; elsewhere a number in [0, rows].
 /// NaN: NaN for an azimuth of NaN.
 static inline float rectified_row_of(float azimuth, float start, float span, float rows)
@@ -467,7 +465,7 @@ static inline float rectified_footprint(float radius, float radius_step, float a
     return gnomon_max(radius_step, radius * azimuth_step) * texels_per_length;
 }
 
-/// The mip level, in [0, 16], whose texels are as wide as a footprint of so many texels of level 0.
+/// The mip level, in [0, 16], whose texels are as wide as a footprint in texels of level 0.
 /// Domain: any footprint.
 /// NaN: 0.
 /// Error: 2 2^-p of the largest level.

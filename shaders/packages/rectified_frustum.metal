@@ -346,9 +346,9 @@ inline float polynomial_atan2(float y, float x)
 //
 // Looking into the light is polar = pi. On a light ray z grows with depth, and polar falls with it. Hence a depth of
 // the rectified map is a falling function of polar, signed as all depths of this library: -1 looking into the light, +1
-// along it. Two measures of depth are there: the angle itself, as in the paper, and its cosine, which needs no inverse
-// trigonometry. Both are stretched to [-1, 1] over the range of the view rays and a guard band of 10%: an occluder
-// outside the range of the view rays then keeps a distance to all of them.
+// along it. There are two measures of depth: the angle itself, as in the paper, and its cosine, which needs no inverse
+// trigonometry. Both are stretched to [-1, 1] over the range of the view rays and a guard band of 10%, so that an
+// occluder outside of that range keeps a distance from all view rays.
 //
 //     omega_l    the direction to the light:  (0, 0, -1)
 //     omega_p    the direction from a point of the view ray to the camera
@@ -409,8 +409,7 @@ inline rectified_range rectified_range_over(float least, float most, float narro
 }
 
 /// The range of depth for polar angles of view rays in [least, most].
-/// Domain: least <= most, in [0, pi]. A range narrower than 2^-10, or turned around, counts as one of 2^-10 around its
-/// middle.
+/// Domain: least <= most, in [0, pi]. A range narrower than 2^-10, or reversed, is widened to 2^-10 around its middle.
 /// NaN: a middle of NaN.
 /// Source: Peters 2017, Sec. 5.1.1
 inline rectified_range rectified_polar_range(float least, float most)
@@ -420,8 +419,7 @@ inline rectified_range rectified_polar_range(float least, float most)
 
 /// The range of depth for cosines of polar angles of view rays in [least, most], which are those of the greatest and of
 /// the least angle.
-/// Domain: least <= most, in [-1, 1]. A range narrower than 2^-16, or turned around, counts as one of 2^-16 around its
-/// middle.
+/// Domain: least <= most, in [-1, 1]. A range narrower than 2^-16, or reversed, is widened to 2^-16 around its middle.
 /// NaN: a middle of NaN.
 inline rectified_range rectified_cosine_range(float least, float most)
 {
@@ -456,7 +454,7 @@ inline float rectified_wrapped(float angle)
 }
 
 /// The position across the rows of a map, in [0, rows], of an azimuth; the centre of the first row is at 0.5. The map
-/// begins at the azimuth start and spans an angle of span; an azimuth outside goes to the nearer end.
+/// begins at the azimuth start and spans the angle span; an azimuth outside is moved to the nearer end.
 /// Domain: azimuth and start in [-pi, pi], span in [2^-20, 2 pi]; elsewhere a number in [0, rows].
 /// NaN: NaN for an azimuth of NaN.
 inline float rectified_row_of(float azimuth, float start, float span, float rows)
@@ -485,7 +483,7 @@ inline float rectified_footprint(float radius, float radius_step, float azimuth_
     return gnomon_max(radius_step, radius * azimuth_step) * texels_per_length;
 }
 
-/// The mip level, in [0, 16], whose texels are as wide as a footprint of so many texels of level 0.
+/// The mip level, in [0, 16], whose texels are as wide as a footprint in texels of level 0.
 /// Domain: any footprint.
 /// NaN: 0.
 /// Error: 2 2^-p of the largest level.
@@ -635,11 +633,11 @@ inline float rectified_azimuth_between(rectified_corner a, rectified_corner b)
 
 /// The bounds of rectified coordinates over all view rays to a far plane with these corners: sharp, so that rays touch
 /// each. azimuth_start is in [-pi, pi], azimuth_length in [0, 2 pi]: at most pi, or 2 pi if the axis is within the far
-/// plane. A corner on the axis has no azimuth and counts for none.
+/// plane. A corner on the axis has no azimuth and bounds none.
 /// Domain: coordinates are 0 or have magnitudes in [2^-30, 2^30] in float, [2^-300, 2^300] in double; corners of a
-/// convex quadrilateral that the eye does not lie in. Corners that are all at the eye give zeros; others that are no
-/// such quadrilateral, some bounds.
-/// NaN: an edge that a NaN makes unknown counts for no angle.
+/// convex quadrilateral whose plane does not hold the eye. Corners that are all at the eye give zeros; corners of no
+/// such quadrilateral give unspecified bounds.
+/// NaN: an edge with a NaN bounds no angle.
 /// Error: for fields of view up to 160 degrees a point of the far plane exceeds the bounds by at most 4 2^-p radius in
 /// radius, by 16 2^-p radius sideways, and by 8 2^-p in polar.
 /// Source: Peters 2017, App. A
@@ -684,7 +682,7 @@ inline rectified_part rectified_part_left(rectified_part part, rectified_corner 
     float crossing = at_a / (at_a - at_b);
     part.begin = gnomon_select(at_a < 0.0f, gnomon_max(part.begin, crossing), part.begin);
     part.end = gnomon_select(at_b < 0.0f, gnomon_min(part.end, crossing), part.end);
-    // Both ends on the right: nothing is left.
+    // Both ends are on the right: the part is empty.
     part.end = gnomon_select(at_a < 0.0f && at_b < 0.0f, -1.0f, part.end);
     return part;
 }
@@ -705,8 +703,8 @@ inline rectified_interval rectified_row_edge(rectified_interval bounds, rectifie
 
 /// The polar angles of the view rays whose azimuths are between first and last, as those of one row; [0, pi] if no ray
 /// is there.
-/// Domain: as for rectified_frustum_from_corners; first <= last, both within 3 pi of 0. More than 3 radians get the
-/// angles of all rays.
+/// Domain: as for rectified_frustum_from_corners; first <= last, both within 3 pi of 0. An interval above 3 radians
+/// gives the angles of all rays.
 /// NaN: as for rectified_frustum_from_corners.
 /// Error: for fields of view up to 160 degrees a ray exceeds the bounds by at most 16 2^-p.
 inline rectified_interval rectified_row_polar(rectified_corners q, float first, float last)

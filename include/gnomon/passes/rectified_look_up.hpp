@@ -1,5 +1,5 @@
-// Look-up of the end of a view ray in a rectified map of prefix averages (transmittance_prefix.hpp), or in its mip chain: what
-// the ray's single scattering depends on, for the intensity of the format at the depth by rectified_depth_at.
+// Look-up of the end of a view ray in a rectified map of prefix averages (transmittance_prefix.hpp), or in its mip chain: the
+// channels that determine the ray's single scattering, for the intensity of the format at the depth of rectified_depth_at.
 //
 // Along a row the average up to the far side of a texel stands at its centre. Between two centres the average moves by the exact
 // weight of a ray that ends there (scattering/transmittance_weights.h), as if the occluders of the texel reached to its end.
@@ -53,7 +53,7 @@ channel_array<Format> rectified_channels_of(map_view<const format_texel<Format>>
 
 } // namespace detail
 
-/// The signed depth of a view ray at position, between the ranges of depth of the two rows that its look-up mixes.
+/// The signed depth of a view ray at position, interpolated between its depths in the two rows that its look-up mixes.
 /// NaN: NaN for a polar angle of NaN.
 inline float rectified_depth_at(const rectified_frame& frame, std::span<const rectified_row> rows,
                                 const rectified_position<float>& position)
@@ -67,7 +67,7 @@ inline float rectified_depth_at(const rectified_frame& frame, std::span<const re
 }
 
 /// Channels for the end of a view ray at position, in a mip chain of prefix averages, interpolated between two levels; the level
-/// is clamped to the chain. Radii beyond the frame go to its last column, azimuths to the nearer end.
+/// is clamped to the chain. Radii beyond the frame are moved to its last column, azimuths to the nearer end.
 /// Domain: any position and level. A map or rows without entries give the border, lit.
 /// NaN: the border, for a radius, azimuth or level of NaN.
 template <texel_format Format>

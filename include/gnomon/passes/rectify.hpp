@@ -34,13 +34,13 @@ inline constexpr std::size_t rectify_texels = 64;
 struct rectified_mapping {
     float eye, length; // the eye's depth in the map, and length for a unit of depth
     rectified_range<float> range;
-    float far_plane; // depths from here on are no occluders
+    float far_plane; // depths that are not less are no occluders
 
     rectified_mapping(const light_map& light, const rectified_row& row, float from = 1)
         : eye(light.z), length(1 / light.depths), range(row.range), far_plane(from)
     {}
 
-    /// The depth of an occluder; 1 of what is no occluder, and for a NaN.
+    /// The depth of an occluder in the row's range; 1 for a depth that is no occluder or NaN.
     template <rectified_depth measure> float operator()(float radius, float depth) const
     {
         const float z = (gnomon_max(depth, -1.0f) - eye) * length;
@@ -167,8 +167,8 @@ void rectify(map_view<const float> depths, const light_map& light, const rectifi
 }
 
 /// Fill the given rows of a rectified map, each texel with the mean over 4 x 4 texels of the map, which a cubic B-spline weights. The
-/// spline is as wide as the texel's footprint along each axis, and at least 4 texels of the map; of a wider one each fourth
-/// gives one texel.
+/// spline is as wide as two footprints of the texel along each axis, and at least 4 texels of the map. One texel of the map
+/// stands for each quarter of its width.
 template <storage_format Format>
 void rectify_filtered(map_view<const float> depths, const light_map& light, const rectified_frame& frame,
                       std::span<const rectified_row> rows, map_view<format_texel<Format>> target, row_range band)

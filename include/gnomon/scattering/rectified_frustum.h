@@ -142,11 +142,11 @@ GNOMON_DETAIL_KERNEL Real rectified_azimuth_between(GNOMON_T(rectified_corner) a
 
 /// The bounds of rectified coordinates over all view rays to a far plane with these corners: sharp, so that rays touch each.
 /// azimuth_start is in [-pi, pi], azimuth_length in [0, 2 pi]: at most pi, or 2 pi if the axis is within the far plane.
-/// A corner on the axis has no azimuth and counts for none.
+/// A corner on the axis has no azimuth and bounds none.
 /// Domain: coordinates are 0 or have magnitudes in [2^-30, 2^30] in float, [2^-300, 2^300] in double; corners of a convex
-/// quadrilateral that the eye does not lie in. Corners that are all at the eye give zeros; others that are no such
-/// quadrilateral, some bounds.
-/// NaN: an edge that a NaN makes unknown counts for no angle.
+/// quadrilateral whose plane does not hold the eye. Corners that are all at the eye give zeros; corners of no such
+/// quadrilateral give unspecified bounds.
+/// NaN: an edge with a NaN bounds no angle.
 /// Error: for fields of view up to 160 degrees a point of the far plane exceeds the bounds by at most 4 2^-p radius in radius, by
 /// 16 2^-p radius sideways, and by 8 2^-p in polar.
 /// Source: Peters 2017, App. A
@@ -193,7 +193,7 @@ GNOMON_DETAIL_KERNEL GNOMON_T(rectified_part) rectified_part_left(GNOMON_T(recti
     Real crossing = at_a / (at_a - at_b);
     part.begin = gnomon_select(at_a < Real(0), gnomon_max(part.begin, crossing), part.begin);
     part.end = gnomon_select(at_b < Real(0), gnomon_min(part.end, crossing), part.end);
-    // Both ends on the right: nothing is left.
+    // Both ends are on the right: the part is empty.
     part.end = gnomon_select(at_a < Real(0) && at_b < Real(0), Real(-1), part.end);
     return part;
 }
@@ -217,8 +217,8 @@ GNOMON_DETAIL_KERNEL GNOMON_T(rectified_interval) rectified_row_edge(GNOMON_T(re
 
 /// The polar angles of the view rays whose azimuths are between first and last, as those of one row; [0, pi] if no ray is
 /// there.
-/// Domain: as for rectified_frustum_from_corners; first <= last, both within 3 pi of 0. More than 3 radians get the angles
-/// of all rays.
+/// Domain: as for rectified_frustum_from_corners; first <= last, both within 3 pi of 0. An interval above 3 radians
+/// gives the angles of all rays.
 /// NaN: as for rectified_frustum_from_corners.
 /// Error: for fields of view up to 160 degrees a ray exceeds the bounds by at most 16 2^-p.
 GNOMON_KERNEL GNOMON_T(rectified_interval) rectified_row_polar(GNOMON_T(rectified_corners) q, Real first, Real last)

@@ -11,11 +11,11 @@
 // holds for every extinction: q = 1 without any, q = 0 in an opaque medium. Weights that vary from texel to texel, as those of
 // scattering/height_fog.h, are summed by transmittance_share_add.
 //
-//     (for a row)   q = transmittance_step(extinction, radius_step, sine of the row's mean polar angle)
+//     (for a row)   q = transmittance_step(extinction, radius_step, mean sine of the row's polar angles)
 //     (for u > 0)   g = transmittance_weight_next(g, q);   mean = mean + g (texel - mean)
 //
 // A ray that ends within texel u, a share f of it, has an average between that of texel u - 1 and that of texel u, but not at f:
-// transmittance_weight_within is exact. transmittance_weight_between is so for averages at any two distances, as in mip levels.
+// transmittance_weight_within is exact. transmittance_weight_between is exact between averages over any two distances, as in mips.
 #ifndef GNOMON_SCATTERING_TRANSMITTANCE_WEIGHTS_H
 #define GNOMON_SCATTERING_TRANSMITTANCE_WEIGHTS_H
 #include "single_scattering.h"
@@ -59,8 +59,8 @@ GNOMON_KERNEL Real transmittance_weight_within(Real g, Real q, Real f)
 }
 
 /// The share of the way from the average over a distance before to the average over before + length, for a ray that ends at before +
-/// f length: exact where light and shadow do not change along the length. Distances are in texels, of that optical depth each;
-/// for one texel, the same as transmittance_weight_within without the shares of the texels before. In [0, 1].
+/// f length: exact where light and shadow do not change along the length. Distances are in texels of that optical depth. For
+/// one texel this is transmittance_weight_within without the shares of the texels before. In [0, 1].
 /// Domain: before, length and optical_depth at least 0, the last also infinite; f in [0, 1], clamped.
 /// NaN: 0, also where before and f are 0, or optical_depth is infinite.
 /// Error: 24 2^-p.
