@@ -271,17 +271,18 @@ float phase_henyey_greenstein(float cosine, float asymmetry)
 /// Source: Peters 2017, Sec. 5.3.1
 float adaptive_overestimation(float cosine) { return 1.0 - saturate_or_zero(0.5 - 0.5 * cosine); }
 
-/// The overestimation of visibility (1 + cosine^5) / 2: as adaptive_overestimation at both ends and at a right angle to
-/// the light, and close to 1/2, which halves the worst error, in a wide range about it. Shown visibility exceeds its
-/// lower bound by this share of the weight at the ray: within 5 degrees of the ray into the light at most 1% leaks,
-/// whatever the occluders. Within 5 degrees of the ray along the light at most 1% is lost.
+/// The overestimation of visibility that is adaptive_overestimation along the light, and (1 + cosine^5) / 2 towards it:
+/// close to 1/2, which halves the worst error, down to rays that nearly look into the light. These are at 0, too, and
+/// shown visibility exceeds its lower bound by this share of the weight at the ray: within 5 degrees of looking into
+/// the light at most 1% leaks, whatever the occluders. Along the light 1/2 would be worse: occluders are close behind
+/// the ray there, at surfaces where it ends, and seldom before it (tests/scattering/overestimation.cpp).
 /// Domain: cosine in [-1, 1], clamped.
 /// NaN: 1.
 float plateau_overestimation(float cosine)
 {
     float c = clamp_or_high(cosine, -1.0, 1.0);
     float square = c * c;
-    return adaptive_overestimation(square * square * c);
+    return adaptive_overestimation(gnomon_select(c < 0.0, square * square * c, c));
 }
 
 /// Radiance that reaches the camera: that of the surface, attenuated, and light scattered into the view ray. intensity
