@@ -135,6 +135,35 @@ TEST_CASE("no pass of soft shadows allocates")
     CHECK(moments4_summed::intensity(channels, 784.0f, 0.5f) > 0.9f);
 }
 
+TEST_CASE_TEMPLATE("no pass over rectified maps allocates", Format, gnomon::moments4_float, gnomon::moments6_unorm10)
+{
+    using namespace gnomon;
+    using source = moments4_unorm16;
+    std::array<float, 8 * 8> depths{};
+    std::array<source::texel, mip_texels(8, 8)> moments{};
+    std::array<typename Format::texel, mip_texels(12, 9)> texels{};
+    std::array<rectified_row, 9> rows{};
+    const mip_view<typename Format::texel> mips{texels, 12, 9};
+    const map_view<typename Format::texel> map = mips.level(0);
+    const light_map light{4, 4, 0, 1, 1, 1};
+    const long before = allocations;
+    const rectified_corners<float> far_plane{{4, -1, 1}, {4, 1, 1}, {4, 1, -1}, {4, -1, -1}};
+    const rectified_frustum<float> bounds = rectified_frustum_from_corners(far_plane);
+    const rectified_frame frame = rectified_frame_of(bounds);
+    rectified_rows(frame, bounds, 0.5f, 12, rows);
+    rectified_rows(frame, far_plane, 0.5f, 12, rows);
+    rectify<Format>({depths, 8, 8}, light, frame, rows, map, {0, 9});
+    rectify_filtered<Format>({depths, 8, 8}, light, frame, rows, map, {0, 9});
+    rectify_moments<Format, source>({moments, 8, 8}, light, frame, rows, map, {0, 9});
+    transmittance_prefix<Format>(map, rows, {0, 9});
+    build_mips<Format>(mips);
+    const rectified_position<float> end = rectified_from_position(3.0f, 0.5f, 0.25f);
+    const auto channels = rectified_channels<Format>(mips, frame, rows, end, 0.5f);
+    const float shadow = Format::filtered_intensity(channels, rectified_depth_at(frame, rows, end));
+    CHECK(allocations == before);
+    CHECK(shadow >= 0);
+}
+
 TEST_CASE("no pass over min-max rows or froxels allocates")
 {
     using namespace gnomon;

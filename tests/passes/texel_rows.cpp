@@ -1,4 +1,4 @@
-// Rows of texels have the bits of single texels: for every format, any numbers, every code, ties between codes, and rows of every
+// Rows of texels, side by side or apart, have the bits of single texels: for every format, any numbers, every code, ties between codes, and rows of every
 // length, beside which nothing is written.
 #include "support/effort.hpp"
 #include "support/formats.hpp"
@@ -29,6 +29,15 @@ template <class Format> void check_row(const std::vector<float>& numbers)
         REQUIRE(same_bytes(texels[i], store_channels<Format>(c)));
         std::copy_n(loaded.begin() + std::ptrdiff_t(i * channels), channels, c.begin());
         REQUIRE(same_bytes(c, load_channels<Format>(texels[i])));
+    }
+    for (const std::size_t stride : {2u, 5u}) {
+        std::vector<format_texel<Format>> apart(count * stride + 1, Format::clear());
+        store_row<Format>(numbers.data(), apart.data(), count, stride);
+        std::vector<float> again(count * channels + 1, 7.0f);
+        load_row<Format>(apart.data(), again.data(), count, stride);
+        REQUIRE(std::memcmp(again.data(), loaded.data(), again.size() * sizeof(float)) == 0);
+        for (std::size_t i = 0; i < apart.size(); ++i)
+            REQUIRE(same_bytes(apart[i], i % stride == 0 && i / stride < count ? texels[i / stride] : Format::clear()));
     }
 }
 

@@ -64,13 +64,12 @@ void blur_lines(lines<const format_texel<Format>> source, lines<format_texel<For
         // Position p of the line, which is padded by radius texels at both ends, has slot p % taps.
         const auto load = [&](std::size_t p) {
             const std::size_t i = (std::min)(p > radius ? p - radius : 0, length - 1);
-            const bool beyond = mode == border_mode::lit && i + radius != p;
-            for (std::size_t k = 0; k < lanes; ++k) {
-                const auto c = beyond
-                                   ? border
-                                   : load_channels<Format>(source.data[i * source.along + (begin + k) * source.across]);
-                std::copy(c.begin(), c.end(), ring[p % taps].begin() + std::ptrdiff_t(k * channels));
+            float* const slot = ring[p % taps].data();
+            if (mode == border_mode::lit && i + radius != p) {
+                for (std::size_t k = 0; k < lanes; ++k) std::copy(border.begin(), border.end(), slot + k * channels);
+                return;
             }
+            load_row<Format>(source.data + i * source.along + begin * source.across, slot, lanes, source.across);
         };
         for (std::size_t p = first; p < first + 2 * radius; ++p) load(p);
         for (std::size_t i = first; i < last; ++i) {
@@ -82,11 +81,7 @@ void blur_lines(lines<const format_texel<Format>> source, lines<format_texel<For
                 const decoded& tap = ring[slot];
                 for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight * tap[k];
             }
-            for (std::size_t k = 0; k < lanes; ++k) {
-                channel_array<Format> c;
-                std::copy_n(sum.begin() + std::ptrdiff_t(k * channels), channels, c.begin());
-                target.data[i * target.along + (begin + k) * target.across] = store_channels<Format>(c);
-            }
+            store_row<Format>(sum.data(), target.data + i * target.along + begin * target.across, lanes, target.across);
         }
     }
 }

@@ -54,27 +54,55 @@ template <texel_format Format> format_texel<Format> store_channels(const channel
     return Format::encode(gnomon_bit_cast<format_channels<Format>>(c));
 }
 
-/// Load a row of texels as numbers, one texel's channels after the other's, with the bits of load_channels.
-template <texel_format Format> void load_row(const format_texel<Format>* from, float* numbers, std::size_t count)
+/// True of formats whose texels are their channels.
+template <class Format>
+inline constexpr bool holds_numbers = std::is_same_v<format_texel<Format>, channel_array<Format>>;
+
+/// Load texels that stand stride apart as numbers, one texel's channels after the other's, with the bits of load_channels.
+template <texel_format Format>
+void load_row(const format_texel<Format>* from, float* numbers, std::size_t count, std::size_t stride = 1)
 {
-    if constexpr (requires { Format::decode_row(from, numbers, count); }) Format::decode_row(from, numbers, count);
-    else
-        for (std::size_t i = 0; i < count; ++i, numbers += channel_count<Format>) {
-            const auto c = load_channels<Format>(from[i]);
-            std::copy(c.begin(), c.end(), numbers);
+    if constexpr (requires { Format::decode_row(from, numbers, count); }) {
+        if (stride == 1) return Format::decode_row(from, numbers, count);
+        if constexpr (!holds_numbers<Format>) {
+            std::array<format_texel<Format>, 16> texels;
+            for (; count > 0; from += stride * texels.size(), numbers += texels.size() * channel_count<Format>) {
+                const std::size_t some = (std::min)(count, texels.size());
+                for (std::size_t i = 0; i < some; ++i) texels[i] = from[i * stride];
+                Format::decode_row(texels.data(), numbers, some);
+                count -= some;
+            }
+            return;
         }
+    }
+    for (std::size_t i = 0; i < count; ++i, numbers += channel_count<Format>) {
+        const auto c = load_channels<Format>(from[i * stride]);
+        std::copy(c.begin(), c.end(), numbers);
+    }
 }
 
-/// Store a row of texels from numbers, one texel's channels after the other's, with the bits of store_channels.
-template <texel_format Format> void store_row(const float* numbers, format_texel<Format>* to, std::size_t count)
+/// Store numbers, one texel's channels after the other's, as texels that stand stride apart, with the bits of store_channels.
+template <texel_format Format>
+void store_row(const float* numbers, format_texel<Format>* to, std::size_t count, std::size_t stride = 1)
 {
-    if constexpr (requires { Format::encode_row(numbers, to, count); }) Format::encode_row(numbers, to, count);
-    else
-        for (std::size_t i = 0; i < count; ++i, numbers += channel_count<Format>) {
-            channel_array<Format> c;
-            std::copy_n(numbers, c.size(), c.begin());
-            to[i] = store_channels<Format>(c);
+    if constexpr (requires { Format::encode_row(numbers, to, count); }) {
+        if (stride == 1) return Format::encode_row(numbers, to, count);
+        if constexpr (!holds_numbers<Format>) {
+            std::array<format_texel<Format>, 16> texels;
+            for (; count > 0; to += stride * texels.size(), numbers += texels.size() * channel_count<Format>) {
+                const std::size_t some = (std::min)(count, texels.size());
+                Format::encode_row(numbers, texels.data(), some);
+                for (std::size_t i = 0; i < some; ++i) to[i * stride] = texels[i];
+                count -= some;
+            }
+            return;
         }
+    }
+    for (std::size_t i = 0; i < count; ++i, numbers += channel_count<Format>) {
+        channel_array<Format> c;
+        std::copy_n(numbers, c.size(), c.begin());
+        to[i * stride] = store_channels<Format>(c);
+    }
 }
 
 /// The channels of the border, as a map stores them.

@@ -84,19 +84,37 @@ void downsample(map_view<const format_texel<Format>> source, map_view<format_tex
     GNOMON_EXPECTS(target.height == mip_extent(source.height, 1),
                    mismatch(pass, "target.height", target.height, "source.height", source.height));
     expect_rows(pass, target, rows);
+    constexpr std::size_t channels = channel_count<Format>, block = 32;
+    std::array<std::array<float, (2 * block + 1) * channels>, 3> under; // decoded texels of up to three rows
+    std::array<float, block * channels> numbers;
     for (std::size_t y = rows.first; y < rows.last; ++y) {
         const detail::footprint fy = detail::mip_footprint(source.height, y);
-        for (std::size_t x = 0; x < target.width; ++x) {
-            const detail::footprint fx = detail::mip_footprint(source.width, x);
-            channel_array<Format> sum{};
+        for (std::size_t first = 0; first < target.width; first += block) {
+            const std::size_t count = (std::min)(block, target.width - first);
+            const std::size_t begin = detail::mip_footprint(source.width, first).begin;
+            const detail::footprint last = detail::mip_footprint(source.width, first + count - 1);
+            std::array<const float*, 3> rows_under{};
             for (std::size_t j = 0; j < fy.count; ++j) {
-                for (std::size_t i = 0; i < fx.count; ++i) {
-                    const float weight = fx.weights[i] * fy.weights[j];
-                    const auto c = load_channels<Format>(source(fx.begin + i, fy.begin + j));
-                    for (std::size_t k = 0; k < c.size(); ++k) sum[k] += weight * c[k];
+                const format_texel<Format>* const from = &source(begin, fy.begin + j);
+                if constexpr (holds_numbers<Format>) {
+                    rows_under[j] = from->data();
+                } else {
+                    load_row<Format>(from, under[j].data(), last.begin + last.count - begin);
+                    rows_under[j] = under[j].data();
                 }
             }
-            target(x, y) = store_channels<Format>(sum);
+            for (std::size_t x = 0; x < count; ++x) {
+                const detail::footprint fx = detail::mip_footprint(source.width, first + x);
+                channel_array<Format> sum{};
+                for (std::size_t j = 0; j < fy.count; ++j)
+                    for (std::size_t i = 0; i < fx.count; ++i) {
+                        const float weight = fx.weights[i] * fy.weights[j];
+                        const float* const c = rows_under[j] + (fx.begin - begin + i) * channels;
+                        for (std::size_t k = 0; k < channels; ++k) sum[k] += weight * c[k];
+                    }
+                std::copy(sum.begin(), sum.end(), numbers.begin() + std::ptrdiff_t(x * channels));
+            }
+            store_row<Format>(numbers.data(), &target(first, y), count);
         }
     }
 }

@@ -17,31 +17,57 @@
 
 #include <algorithm>
 #include <cmath>
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 GNOMON_NAMESPACE_BEGIN
 
 namespace detail {
 
-/// Texels of a row that are summed at once, and rows that share the weights of these if they have the same factor.
-inline constexpr std::size_t prefix_texels = 64, prefix_rows = 8;
+/// Texels of a row that are averaged at once.
+inline constexpr std::size_t prefix_texels = 64;
 
-/// The weights of a block of texels, and the reciprocals of the sums of weights up to each.
-struct prefix_weights {
+/// The weights of a block of texels of a row, and the reciprocals of the sums of weights up to each.
+class prefix_weights {
+  public:
     std::array<double, prefix_texels> weight, scale;
 
-    /// Goes on in a row after the texels that it has the next weight and the sum of.
-    void fill(auto& row, std::size_t count)
+    explicit prefix_weights(double factor)
     {
-        for (std::size_t i = 0; i < count; ++i) {
-            weight[i] = row.next;
-            scale[i] = row.sum += row.next;
-            row.next *= row.factor;
+        for (std::size_t k = 1; k <= step; ++k) {
+            powers_[k] = powers_[k - 1] * factor;
+            sums_[k] = sums_[k - 1] + powers_[k];
         }
-        for (std::size_t i = 0; i < count; ++i) scale[i] = 1 / scale[i];
     }
+
+    /// Fills in the next block.
+    void advance()
+    {
+        const auto powers = powers_, sums = sums_;
+        double next = next_, sum = sum_;
+        for (std::size_t i = 0; i < prefix_texels; i += step) {
+            for (std::size_t k = 0; k < step; ++k) weight[i + k] = next * powers[k];
+            for (std::size_t k = 0; k < step; ++k) scale[i + k] = sum + next * sums[k];
+            sum += next * sums[step - 1];
+            next *= powers[step];
+        }
+        // The quotient in float, and a step of Newton's: 2^-47, in half the time of a quotient.
+        for (double& s : scale) {
+            const double near = double(1 / float(s));
+            s = near * (2 - s * near);
+        }
+        next_ = next;
+        sum_ = sum;
+    }
+
+  private:
+    static constexpr std::size_t step = 8;
+    std::array<double, step + 1> powers_{1}, sums_{1}; // of the factor, and up to each
+    double next_ = 1, sum_ = 0;                        // the weight of the next texel, and the sum of those before
 };
 
-/// The weighted sum of a channel, and of a pair of channels.
+/// The weighted sum of a channel.
 struct prefix_sum {
     static constexpr std::size_t channels = 1;
     double sum = 0;
@@ -51,19 +77,25 @@ struct prefix_sum {
         sum += double(*texel) * weight;
         *average = float(sum * scale);
     }
+    [[nodiscard]] bool is_finite() const { return (std::isfinite)(sum); }
 };
-#if defined(__GNUC__)
+#if defined(__SSE2__)
+/// The weighted sums of two channels.
 struct prefix_pair {
     static constexpr std::size_t channels = 2;
-    typedef double vector __attribute__((vector_size(16)));
-    vector sum{};
+    __m128d sum = _mm_setzero_pd();
 
     GNOMON_INLINE void add(const float* texel, float* average, double weight, double scale)
     {
-        sum += vector{double(texel[0]), double(texel[1])} * weight;
-        const vector mean = sum * scale;
-        average[0] = float(mean[0]);
-        average[1] = float(mean[1]);
+        const __m128 pair = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(texel)));
+        sum = _mm_add_pd(sum, _mm_mul_pd(_mm_cvtps_pd(pair), _mm_set1_pd(weight)));
+        const __m128 mean = _mm_cvtpd_ps(_mm_mul_pd(sum, _mm_set1_pd(scale)));
+        _mm_storel_epi64(reinterpret_cast<__m128i*>(average), _mm_castps_si128(mean));
+    }
+    [[nodiscard]] bool is_finite() const
+    {
+        const __m128d none = _mm_sub_pd(sum, sum); // 0, or NaN
+        return _mm_movemask_pd(_mm_cmpord_pd(none, none)) == 3;
     }
 };
 #else
@@ -75,7 +107,7 @@ template <std::size_t channels> struct prefix_sums {
     using part = std::conditional_t<channels % 2 == 0 && channels <= 8, prefix_pair, prefix_sum>;
     std::array<part, channels / part::channels> parts{};
 
-    /// Replaces a block of texels by their averages with all texels before.
+    /// Gives the averages of a block of texels with all texels before. May be in place.
     void add(const prefix_weights& w, const float* texel, float* average, std::size_t count)
     {
         auto p = parts;
@@ -90,46 +122,48 @@ template <std::size_t channels> struct prefix_sums {
     /// True if all texels so far had finite channels.
     [[nodiscard]] bool are_finite() const
     {
-        const auto sums = gnomon_bit_cast<std::array<double, channels>>(parts);
-        return std::all_of(sums.begin(), sums.end(), [](double s) { return (std::isfinite)(s); });
+        return std::all_of(parts.begin(), parts.end(), [](const part& p) { return p.is_finite(); });
     }
 };
 
-/// A row of which some texels are averaged.
-template <texel_format Format> struct prefix_row {
-    static constexpr std::size_t channels = channel_count<Format>;
+/// Replace texels that have a channel without a finite number by the border.
+template <texel_format Format> void lighten_unknown(std::span<float> numbers)
+{
+    constexpr std::size_t channels = channel_count<Format>;
+    const auto border = gnomon_bit_cast<channel_array<Format>>(stored_border<Format>());
+    for (std::size_t i = 0; i < numbers.size(); i += channels) {
+        const auto texel = numbers.subspan(i, channels);
+        if (!std::all_of(texel.begin(), texel.end(), [](float x) { return (std::isfinite)(x); }))
+            std::copy(border.begin(), border.end(), texel.begin());
+    }
+}
 
-    double factor = 1, next = 1, sum = 0; // the weight of the next texel, and the sum of weights
+/// Replace the texels of a row by their averages.
+template <texel_format Format> void average_row(std::span<format_texel<Format>> row, double factor)
+{
+    constexpr std::size_t channels = channel_count<Format>;
+    prefix_weights weights(factor);
     prefix_sums<channels> sums;
-
-    /// Replaces the next texels by their averages.
-    void add(const prefix_weights& weights, format_texel<Format>* texels, std::size_t count)
-    {
-        std::array<float, prefix_texels * channels> numbers;
-        load_row<Format>(texels, numbers.data(), count);
+    std::array<float, prefix_texels * channels> numbers;
+    for (std::size_t first = 0; first < row.size(); first += prefix_texels) {
+        const auto texels = row.subspan(first, (std::min)(prefix_texels, row.size() - first));
+        weights.advance();
         const auto before = sums;
-        sums.add(weights, numbers.data(), numbers.data(), count);
+        if constexpr (holds_numbers<Format>) {
+            sums.add(weights, texels.front().data(), numbers.data(), texels.size());
+        } else {
+            load_row<Format>(texels.data(), numbers.data(), texels.size());
+            sums.add(weights, numbers.data(), numbers.data(), texels.size());
+        }
         if (!sums.are_finite()) [[unlikely]] {
             sums = before;
-            load_row<Format>(texels, numbers.data(), count);
-            lighten_unknown(numbers, count);
-            sums.add(weights, numbers.data(), numbers.data(), count);
+            load_row<Format>(texels.data(), numbers.data(), texels.size());
+            lighten_unknown<Format>(std::span(numbers).first(texels.size() * channels));
+            sums.add(weights, numbers.data(), numbers.data(), texels.size());
         }
-        store_row<Format>(numbers.data(), texels, count);
+        store_row<Format>(numbers.data(), texels.data(), texels.size());
     }
-
-  private:
-    /// Replaces texels that have a channel without a finite number by the border.
-    static void lighten_unknown(std::span<float> numbers, std::size_t count)
-    {
-        const auto border = gnomon_bit_cast<channel_array<Format>>(stored_border<Format>());
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto texel = numbers.subspan(i * channels, channels);
-            if (!std::all_of(texel.begin(), texel.end(), [](float x) { return (std::isfinite)(x); }))
-                std::copy(border.begin(), border.end(), texel.begin());
-        }
-    }
-};
+}
 
 } // namespace detail
 
@@ -142,20 +176,8 @@ void transmittance_prefix(map_view<format_texel<Format>> map, std::span<const re
     constexpr std::string_view pass = "transmittance_prefix";
     expect_rectified(pass, "map", map, rows);
     expect_rows(pass, map, band);
-    for (std::size_t first = band.first; first < band.last; first += detail::prefix_rows) {
-        std::array<detail::prefix_row<Format>, detail::prefix_rows> group{};
-        const std::size_t count = (std::min)(group.size(), band.last - first);
-        for (std::size_t k = 0; k < count; ++k)
-            group[k].factor = clamp_or_high(double(rows[first + k].factor), 0.0, 1.0);
-        detail::prefix_weights weights;
-        for (std::size_t x = 0; x < map.width; x += detail::prefix_texels) {
-            const std::size_t texels = (std::min)(detail::prefix_texels, map.width - x);
-            for (std::size_t k = 0; k < count; ++k) {
-                if (k == 0 || !(group[k].factor == group[k - 1].factor)) weights.fill(group[k], texels);
-                group[k].add(weights, &map(x, first + k), texels);
-            }
-        }
-    }
+    for (std::size_t v = band.first; v < band.last; ++v)
+        detail::average_row<Format>(std::span(&map(0, v), map.width), clamp_or_high(double(rows[v].factor), 0.0, 1.0));
 }
 
 GNOMON_NAMESPACE_END
