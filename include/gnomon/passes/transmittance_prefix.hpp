@@ -54,8 +54,8 @@ class prefix_weights {
         }
         // The quotient in float, and a step of Newton's: 2^-47, in half the time of a quotient.
         for (double& s : scale) {
-            const double near = double(1 / float(s));
-            s = near * (2 - s * near);
+            const double rough = double(1 / float(s));
+            s = rough * (2 - s * rough);
         }
         next_ = next;
         sum_ = sum;
