@@ -242,10 +242,10 @@ fn phase_henyey_greenstein(cosine: f32, asymmetry: f32) -> f32
 fn adaptive_overestimation(cosine: f32) -> f32 { return 1.0 - saturate_or_zero(0.5 - 0.5 * cosine); }
 
 /// The overestimation of visibility that is adaptive_overestimation along the light, and (1 + cosine^5) / 2 towards it:
-/// close to 1/2, which halves the worst error, down to rays that nearly look into the light. These are at 0, too, and
+/// close to 1/2, which halves the worst error, down to rays that nearly look into the light. These have almost 0, and
 /// shown visibility exceeds its lower bound by this share of the weight at the ray: within 5 degrees of looking into
-/// the light at most 1% leaks, whatever the occluders. Along the light 1/2 would be worse: occluders are close behind
-/// the ray there, at surfaces where it ends, and seldom before it (tests/scattering/overestimation.cpp).
+/// the light at most 1% leaks, whatever the occluders. Along the light 1/2 errs more: most of what is close to the ray
+/// in depth is behind it there, on the surface at which the ray ends (tests/scattering/overestimation.cpp).
 /// Domain: cosine in [-1, 1], clamped.
 /// NaN: 1.
 fn plateau_overestimation(cosine: f32) -> f32
@@ -432,8 +432,7 @@ fn froxel_slice_of(distance_: f32, slices: gnomon_froxel_slices) -> f32
 /// Source: Hillaire 2015
 fn froxel_weight(extinction: f32, nearer: f32, farther: f32) -> f32
 {
-    let thickness = gnomon_max(farther - nearer, 0.0);
-    return transmittance_over(extinction * nearer) * (thickness * attenuated_mean(extinction * thickness));
+    return transmittance_over(extinction * nearer) * attenuated_length(farther - nearer, extinction);
 }
 
 // moments/depth.h -----------------------------------------------------------------------------------------------------

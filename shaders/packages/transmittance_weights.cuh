@@ -722,10 +722,10 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real a
 }
 
 /// The overestimation of visibility that is adaptive_overestimation along the light, and (1 + cosine^5) / 2 towards it:
-/// close to 1/2, which halves the worst error, down to rays that nearly look into the light. These are at 0, too, and
+/// close to 1/2, which halves the worst error, down to rays that nearly look into the light. These have almost 0, and
 /// shown visibility exceeds its lower bound by this share of the weight at the ray: within 5 degrees of looking into
-/// the light at most 1% leaks, whatever the occluders. Along the light 1/2 would be worse: occluders are close behind
-/// the ray there, at surfaces where it ends, and seldom before it (tests/scattering/overestimation.cpp).
+/// the light at most 1% leaks, whatever the occluders. Along the light 1/2 errs more: most of what is close to the ray
+/// in depth is behind it there, on the surface at which the ray ends (tests/scattering/overestimation.cpp).
 /// Domain: cosine in [-1, 1], clamped.
 /// NaN: 1.
 template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real plateau_overestimation(Real cosine)

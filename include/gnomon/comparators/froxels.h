@@ -63,8 +63,7 @@ GNOMON_KERNEL Real froxel_slice_of(Real distance_, GNOMON_T(froxel_slices) slice
 /// Source: Hillaire 2015
 GNOMON_KERNEL Real froxel_weight(GNOMON_SETTING extinction, Real nearer, Real farther)
 {
-    Real thickness = gnomon_max(farther - nearer, Real(0));
-    return transmittance_over(extinction * nearer) * (thickness * attenuated_mean(extinction * thickness));
+    return transmittance_over(extinction * nearer) * attenuated_length(farther - nearer, extinction);
 }
 
 GNOMON_NAMESPACE_END
