@@ -17,9 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
 
 GNOMON_NAMESPACE_BEGIN
 
@@ -67,7 +64,7 @@ class prefix_weights {
     double next_ = 1, sum_ = 0;                        // the weight of the next texel, and the sum of those before
 };
 
-/// The weighted sum of a channel.
+/// The weighted sum of a channel; and of two and four, as vectors of the compiler.
 struct prefix_sum {
     static constexpr std::size_t channels = 1;
     double sum = 0;
@@ -77,53 +74,88 @@ struct prefix_sum {
         sum += double(*texel) * weight;
         *average = float(sum * scale);
     }
-    [[nodiscard]] bool is_finite() const { return (std::isfinite)(sum); }
 };
-#if defined(__SSE2__)
-/// The weighted sums of two channels.
+#if defined(__GNUC__)
 struct prefix_pair {
     static constexpr std::size_t channels = 2;
-    __m128d sum = _mm_setzero_pd();
+    typedef double vector __attribute__((vector_size(16)));
+    vector sum{};
 
     GNOMON_INLINE void add(const float* texel, float* average, double weight, double scale)
     {
-        const __m128 pair = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(texel)));
-        sum = _mm_add_pd(sum, _mm_mul_pd(_mm_cvtps_pd(pair), _mm_set1_pd(weight)));
-        const __m128 mean = _mm_cvtpd_ps(_mm_mul_pd(sum, _mm_set1_pd(scale)));
-        _mm_storel_epi64(reinterpret_cast<__m128i*>(average), _mm_castps_si128(mean));
-    }
-    [[nodiscard]] bool is_finite() const
-    {
-        const __m128d none = _mm_sub_pd(sum, sum); // 0, or NaN
-        return _mm_movemask_pd(_mm_cmpord_pd(none, none)) == 3;
+        sum += vector{double(texel[0]), double(texel[1])} * weight;
+        const vector mean = sum * scale;
+        average[0] = float(mean[0]);
+        average[1] = float(mean[1]);
     }
 };
 #else
 using prefix_pair = prefix_sum;
 #endif
+#if defined(__AVX__) && defined(__GNUC__)
+struct prefix_quad {
+    static constexpr std::size_t channels = 4;
+    typedef float numbers __attribute__((vector_size(16)));
+    typedef double vector __attribute__((vector_size(32)));
+    vector sum{};
 
-/// The weighted sums of the texels of a row so far. Pairs of many channels would not fit in registers.
-template <std::size_t channels> struct prefix_sums {
-    using part = std::conditional_t<channels % 2 == 0 && channels <= 8, prefix_pair, prefix_sum>;
-    std::array<part, channels / part::channels> parts{};
+    GNOMON_INLINE void add(const float* texel, float* average, double weight, double scale)
+    {
+        numbers x;
+        std::memcpy(&x, texel, sizeof x);
+        sum += __builtin_convertvector(x, vector) * weight;
+        x = __builtin_convertvector(sum * scale, numbers);
+        std::memcpy(average, &x, sizeof x);
+    }
+};
+#else
+using prefix_quad = prefix_pair;
+#endif
 
+/// The weighted sums of the texels of a row so far. Vectors of many channels would not fit in registers.
+template <std::size_t channels> class prefix_sums {
+    static constexpr std::size_t in_vectors = channels <= 8 ? channels : 0;
+    static constexpr std::size_t quads = in_vectors / prefix_quad::channels * prefix_quad::channels;
+    static constexpr std::size_t pairs = (in_vectors - quads) / prefix_pair::channels * prefix_pair::channels;
+
+  public:
     /// Gives the averages of a block of texels with all texels before. May be in place.
     void add(const prefix_weights& w, const float* texel, float* average, std::size_t count)
     {
-        auto p = parts;
-        for (std::size_t i = 0; i < count; ++i, texel += channels, average += channels)
-            for (std::size_t k = 0; k < p.size(); ++k) {
-                const std::size_t first = k * part::channels;
-                p[k].add(texel + first, average + first, w.weight[i], w.scale[i]);
-            }
-        parts = p;
+        auto a = quads_;
+        auto b = pairs_;
+        auto c = rest_;
+        for (std::size_t i = 0; i < count; ++i, texel += channels, average += channels) {
+            const auto add_to = [&](auto& sums, std::size_t first) {
+                for (auto& s : sums) {
+                    s.add(texel + first, average + first, w.weight[i], w.scale[i]);
+                    first += s.channels;
+                }
+            };
+            add_to(a, 0);
+            add_to(b, quads);
+            add_to(c, quads + pairs);
+        }
+        quads_ = a;
+        pairs_ = b;
+        rest_ = c;
     }
 
     /// True if all texels so far had finite channels.
     [[nodiscard]] bool are_finite() const
     {
-        return std::all_of(parts.begin(), parts.end(), [](const part& p) { return p.is_finite(); });
+        const auto finite = [](const auto& sums) {
+            std::array<double, sizeof sums / sizeof(double) + 1> numbers{}; // an empty array has a size
+            if (!sums.empty()) std::memcpy(numbers.data(), sums.data(), sizeof sums);
+            return std::all_of(numbers.begin(), numbers.end(), [](double s) { return (std::isfinite)(s); });
+        };
+        return finite(quads_) && finite(pairs_) && finite(rest_);
     }
+
+  private:
+    std::array<prefix_quad, quads / prefix_quad::channels> quads_{};
+    std::array<prefix_pair, pairs / prefix_pair::channels> pairs_{};
+    std::array<prefix_sum, channels - quads - pairs> rest_{};
 };
 
 /// Replace texels that have a channel without a finite number by the border.
