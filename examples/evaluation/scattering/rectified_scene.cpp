@@ -43,20 +43,21 @@ template <class Texel> class counted_look_up {
     {
         const std::size_t height = map_.rows.size();
         const auto levels = std::size_t(std::bit_width(std::max(map_.columns, height)));
-        const detail::rectified_place at = detail::rectified_place_of(map_.frame, ray.position, map_.columns, height);
-        const detail::neighbours n = detail::neighbours_of<border_mode::clamp>(ray.level, levels);
+        const gnomon::detail::rectified_place at =
+            gnomon::detail::rectified_place_of(map_.frame, ray.position, map_.columns, height);
+        const gnomon::detail::neighbours n = gnomon::detail::neighbours_of<border_mode::clamp>(ray.level, levels);
         double result = at_level(ray, at, n.lower);
         if (n.fraction > 0) result += double(n.fraction) * (at_level(ray, at, n.upper) - result);
         return 1 - result;
     }
 
   private:
-    double at_level(const rectified_ray& ray, const detail::rectified_place& at, std::size_t level) const
+    double at_level(const rectified_ray& ray, const gnomon::detail::rectified_place& at, std::size_t level) const
     {
         const std::size_t size = std::size_t(1) << level, height = map_.rows.size();
         const float scale = 1 / float(size);
         const std::size_t rows = std::max<std::size_t>(height >> level, 1);
-        const detail::neighbours ny = detail::rectified_rows_of(at.y * scale, rows, map_.frame.wraps());
+        const gnomon::detail::neighbours ny = gnomon::detail::rectified_rows_of(at.y * scale, rows, map_.frame.wraps());
         const auto row = [&](std::size_t v) {
             double sum = 0;
             for (std::size_t j = 0; j < size; ++j) sum += of_row(ray, at.x, v * size + j, size);
@@ -71,7 +72,7 @@ template <class Texel> class counted_look_up {
     {
         const rectified_row& row = map_.rows[v];
         const double z_f = double(rectified_depth_of(map_.frame.depth, ray.position.polar, row.range));
-        const detail::neighbours n = detail::neighbours_of<border_mode::clamp>(
+        const gnomon::detail::neighbours n = gnomon::detail::neighbours_of<border_mode::clamp>(
             x / float(size) - 0.5f, std::max<std::size_t>(map_.columns / size, 1));
         double weight = 1, all = 0, shadowed = 0, lower = 0, upper = 0;
         for (std::size_t u = 0; u < (n.upper + 1) * size; ++u) {
@@ -97,7 +98,7 @@ std::vector<float> counted(const rectified_scene& map, const renderer::image<Tex
     const counted_look_up<Texel> look_up(map, texels);
     std::vector<float> result(where.size());
     tbb::parallel_for(std::size_t(0), where.size(),
-                      [&](std::size_t i) { result[i] = float(look_up.visibility(map.ray(where[i]))); });
+                      [&](std::size_t i) { result[i] = float(look_up.visibility(map.ray(rays_of<float>(where, i)))); });
     return result;
 }
 

@@ -2,12 +2,11 @@
 // its filters. Methods over rectified maps share it.
 #pragma once
 
-#include "scattering_method.hpp"
+#include "view_rays.hpp"
 
 #include <gnomon/passes/rectified_map.hpp>
 #include <gnomon/passes/rectify.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -30,11 +29,12 @@ struct rectified_options {
 // An id of the weights that exact() applies.
 std::string id_of(const rectified_options& options);
 
-// The end of a view ray in a rectified map.
-struct rectified_ray {
-    rectified_position<float> position;
-    float level;
+// The end of a view ray, or of a pack of them, in a rectified map.
+template <class Real> struct rectified_end {
+    rectified_position<Real> position;
+    Real level;
 };
+using rectified_ray = rectified_end<float>;
 
 class rectified_scene {
   public:
@@ -51,12 +51,12 @@ class rectified_scene {
         else rectify_moments<Format, moments4_unorm16>(scene_.depths.filtered(), scene_.map, frame, rows, map, all);
     }
 
-    rectified_ray ray(const view_segment& segment) const
+    template <class Real> rectified_end<Real> ray(const view_rays<Real>& to) const
     {
-        const auto position = rectified_from_position(segment.end.x, segment.end.y, segment.end.z);
+        const auto position = rectified_from_position(to.x, to.y, to.z);
         // Averages over rows alone are wanted, but a level averages over columns as well: never over more than the ray crosses.
-        const float rows_of_pixel = segment.footprint / (position.radius * row_angle_);
-        return {position, rectified_level(std::min(rows_of_pixel, position.radius / column_width_))};
+        const Real rows_of_pixel = to.footprint / (position.radius * Real(row_angle_));
+        return {position, rectified_level(gnomon_min(position.radius / Real(column_width_), rows_of_pixel))};
     }
 
     // Visibilities of view rays by the exact count of occluders in double, under the weights of the filters.

@@ -43,14 +43,14 @@ class froxel_map final : public scattering_map {
 
     void visibilities(std::span<const view_segment> where, std::span<float> result) const override
     {
-        for (std::size_t i = 0; i < where.size(); ++i) result[i] = visibility<float>(where, i);
+        visibilities_by_packs(where.size(), result,
+                              [&]<class Real>(std::size_t group) { return intensity<Real>(where, group); });
     }
 
     std::vector<timed_look_up> timed(std::span<const view_segment> where) const override
     {
-        return timed_whole(where.size(), [this, where]<class Real>(std::size_t group, const Real*) {
-            return visibility<Real>(where, group);
-        });
+        return timed_whole(where.size(),
+                           [this, where]<class Real>(std::size_t group) { return intensity<Real>(where, group); });
     }
 
   private:
@@ -73,7 +73,7 @@ class froxel_map final : public scattering_map {
         const map_vector<real> eye = depths_.eye<real>();
         for (std::size_t y = 0; y < rows; ++y)
             for (std::size_t x = 0; x < columns; x += lanes) {
-                const real column = in_lanes<real>([x](std::size_t i) { return float(x + i); });
+                const real column = gathered<std::type_identity_t, real>([x](std::size_t i) { return float(x + i); });
                 const real u = (column + real(0.5f)) * real(1.f / columns), v((float(y) + 0.5f) / rows);
                 const auto along = [&](int axis) {
                     return real(corner_[axis]) + u * real(right_[axis]) + v * real(down_[axis]);
@@ -96,21 +96,18 @@ class froxel_map final : public scattering_map {
             }
     }
 
-    template <class Real> [[gnu::flatten]] Real visibility(std::span<const view_segment> where, std::size_t group) const
+    template <class Real> [[gnu::flatten]] Real intensity(std::span<const view_segment> where, std::size_t group) const
     {
-        const view_segment* s = &where[group * lanes_in<Real>];
-        const Real a = in_lanes<Real>([s](std::size_t i) { return s[i].end.x; });
-        const Real b = in_lanes<Real>([s](std::size_t i) { return s[i].end.y; });
-        const Real c = in_lanes<Real>([s](std::size_t i) { return s[i].end.z; });
+        const view_rays<Real> to = rays_of<Real>(where, group);
         const auto screen = [&](int k) {
-            return a * Real(of_screen_[0][k]) + b * Real(of_screen_[1][k]) + c * Real(of_screen_[2][k]);
+            return to.x * Real(of_screen_[0][k]) + to.y * Real(of_screen_[1][k]) + to.z * Real(of_screen_[2][k]);
         };
         const Real scale = Real(1) / screen(2);
         const Real x = screen(0) * scale * Real(float(columns)), y = screen(1) * scale * Real(float(rows));
         const froxel_slices<Real> slices{Real(slices_.nearest), Real(slices_.growth), Real(slices_.last)};
-        const Real k = froxel_slice_of(gnomon_sqrt(a * a + b * b + c * c), slices);
-        if constexpr (std::is_same_v<Real, float>) return 1 - froxel_intensity(grid(), x, y, k);
-        else return Real(1) - between_froxels(x, y, k);
+        const Real k = froxel_slice_of(gnomon_sqrt(to.x * to.x + to.y * to.y + to.z * to.z), slices);
+        if constexpr (std::is_same_v<Real, float>) return froxel_intensity(grid(), x, y, k);
+        else return between_froxels(x, y, k);
     }
 
     // The look-up of passes/froxels.hpp by packs.
@@ -145,7 +142,7 @@ class froxel_map final : public scattering_map {
         } else {
             alignas(real) std::array<std::array<float, real::size>, 3> at;
             x.store_aligned(at[0].data()), y.store_aligned(at[1].data()), k.store_aligned(at[2].data());
-            return in_lanes<real>(
+            return gathered<std::type_identity_t, real>(
                 [&](std::size_t i) { return froxel_intensity(grid(), at[0][i], at[1][i], at[2][i]); });
         }
     }

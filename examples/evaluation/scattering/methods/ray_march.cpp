@@ -16,7 +16,7 @@ namespace {
 
 const registered<map_kind> depths_kind{map_kind{.id = "light_depths", .label = "depths of the light", .order = 62}};
 const registered<family> ray_marching{
-    family{.id = "ray_march", .label = "ray marching", .order = 16, .colour = "#7f7f7f"}};
+    family{.id = "ray_march", .label = "ray marching", .order = 16, .colour = "#ff7f0e"}};
 
 template <class Texel> class marched_map final : public scattering_map {
   public:
@@ -28,49 +28,44 @@ template <class Texel> class marched_map final : public scattering_map {
 
     void visibilities(std::span<const view_segment> where, std::span<float> result) const override
     {
-        for (std::size_t i = 0; i < where.size(); ++i) result[i] = visibility<float>(where, i);
+        visibilities_by_packs(where.size(), result,
+                              [&]<class Real>(std::size_t group) { return intensity<Real>(where, group); });
     }
 
     std::vector<timed_look_up> timed(std::span<const view_segment> where) const override
     {
-        return timed_whole(where.size(), [this, where]<class Real>(std::size_t group, const Real*) {
-            return visibility<Real>(where, group);
-        });
+        return timed_whole(where.size(),
+                           [this, where]<class Real>(std::size_t group) { return intensity<Real>(where, group); });
     }
 
   private:
-    // Of rays that are inside the map throughout, or not.
+    // Of rays that are inside the map and before its far plane throughout, or not.
     template <bool is_inside, class Real>
     Real shadowed(map_vector<Real> at, const map_vector<Real>& step, const Real& transmittance) const
     {
         ray_march<Real> state = ray_march_begin(transmittance);
         for (int k = 0; k < steps_; ++k) {
             const map_vector<Real> place = is_inside ? at : depths_.clamped(at);
-            state = ray_march_add(state, depths_.at(place.x, place.y), at.z);
+            state = ray_march_add(state, depths_.at(place.x, place.y), place.z);
             at = {at.x + step.x, at.y + step.y, at.z + step.z};
         }
         return ray_march_end(state);
     }
 
-    template <class Real> [[gnu::flatten]] Real visibility(std::span<const view_segment> where, std::size_t group) const
+    template <class Real> [[gnu::flatten]] Real intensity(std::span<const view_segment> where, std::size_t group) const
     {
-        const view_segment* s = &where[group * lanes_in<Real>];
-        const Real x = in_lanes<Real>([s](std::size_t i) { return s[i].end.x; });
-        const Real y = in_lanes<Real>([s](std::size_t i) { return s[i].end.y; });
-        const Real z = in_lanes<Real>([s](std::size_t i) { return s[i].end.z; });
-        const Real column = in_lanes<Real>([s](std::size_t i) { return s[i].pixel.x; });
-        const Real row = in_lanes<Real>([s](std::size_t i) { return s[i].pixel.y; });
-        const Real jitter = ray_march_jitter(column - Real(0.5f), row - Real(0.5f)), share(share_);
-        const Real transmittance = transmittance_over(Real(extinction_) * share * gnomon_sqrt(x * x + y * y + z * z));
+        const view_rays<Real> to = rays_of<Real>(where, group);
+        const Real jitter = ray_march_jitter(to.column - Real(0.5f), to.row - Real(0.5f)), share(share_);
+        const Real transmittance =
+            transmittance_over(Real(extinction_) * share * gnomon_sqrt(to.x * to.x + to.y * to.y + to.z * to.z));
         const map_vector<Real> eye = depths_.template eye<Real>(),
-                               step = depths_.vector(x * share, y * share, z * share);
+                               step = depths_.vector(to.x * share, to.y * share, to.z * share);
         const auto point = [&](const Real& k) {
             return map_vector<Real>{eye.x + k * step.x, eye.y + k * step.y, eye.z + k * step.z};
         };
         const bool is_inside = depths_.holds(eye) && depths_.holds(point(Real(float(steps_) + 0.5f)));
         const map_vector<Real> first = point(jitter);
-        return Real(1) -
-               (is_inside ? shadowed<true>(first, step, transmittance) : shadowed<false>(first, step, transmittance));
+        return is_inside ? shadowed<true>(first, step, transmittance) : shadowed<false>(first, step, transmittance);
     }
 
     framed_depths<Texel> depths_;

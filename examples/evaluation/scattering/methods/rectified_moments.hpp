@@ -4,7 +4,6 @@
 //     const registered<rectified_method<moments6_unorm16, rectified_options{...}>> entry{method_facts{...}};
 #pragma once
 
-#include "evaluation/core/timed_look_ups.hpp"
 #include "evaluation/scattering/rectified_scene.hpp"
 
 #include <gnomon/moments/bounds.h>
@@ -13,6 +12,7 @@
 #include <gnomon/passes/rectify.hpp>
 #include <gnomon/passes/transmittance_prefix.hpp>
 #include <gnomon/scattering/single_scattering.h>
+#include <gnomon/simd/rectified_look_up.hpp>
 #include <gnomon/storage/formats.hpp>
 
 #include <fmt/format.h>
@@ -60,13 +60,14 @@ class rectified_moments final : public scattering_map {
 
     void visibilities(std::span<const view_segment> where, std::span<float> result) const override
     {
-        for (std::size_t i = 0; i < where.size(); ++i) result[i] = 1 - intensity(fetch(where[i]));
+        visibilities_by_packs(where.size(), result,
+                              [&]<class Real>(std::size_t group) { return intensity(fetch<Real>(where, group)); });
     }
 
     std::vector<timed_look_up> timed(std::span<const view_segment> where) const override
     {
-        return timed_values<fetched>(
-            where, [this](const view_segment& s) { return fetch(s); },
+        return timed_fetches<fetched>(
+            where.size(), [this, where]<class Real>(std::size_t group) { return fetch<Real>(where, group); },
             []<class Real>(const fetched<Real>& f) { return intensity(f); });
     }
 
@@ -85,18 +86,23 @@ class rectified_moments final : public scattering_map {
 
     template <class Real> static Real intensity(const fetched<Real>& f)
     {
-        return bounds_intensity(bounds_of(Format::filtered_factor(f.channels), f.depth),
-                                overestimation_of(weight, f.cosine));
+        if constexpr (std::is_same_v<Format, convolution_unorm8>)
+            return convolution_unorm8_centred_intensity(f.channels, f.depth);
+        else
+            return bounds_intensity(bounds_of(Format::filtered_factor(f.channels), f.depth),
+                                    overestimation_of(weight, f.cosine));
     }
 
     // Flattened, so that the compiler inlines look-ups of every format alike and their times compare.
-    [[gnu::flatten]] fetched<float> fetch(const view_segment& s) const
+    template <class Real>
+    [[gnu::flatten]] fetched<Real> fetch(std::span<const view_segment> where, std::size_t group) const
     {
-        const rectified_ray ray = rectified_.ray(s);
+        const view_rays<Real> to = rays_of<Real>(where, group);
+        const rectified_end<Real> ray = rectified_.ray(to);
         return {rectified_channels<Format>(mip_view<const texel>(mips()), rectified_.frame, rectified_.rows,
                                            ray.position, ray.level),
                 rectified_depth_at(rectified_.frame, rectified_.rows, ray.position),
-                rectified_cosine(s.end.x, s.end.y, s.end.z)};
+                rectified_cosine(to.x, to.y, to.z)};
     }
 
     mip_view<texel> mips() { return {texels_, rectified_.columns, rectified_.rows.size()}; }

@@ -2,8 +2,7 @@
 // around it, and places and depths of points in it.
 #pragma once
 
-#include "evaluation/core/timed_look_ups.hpp"
-#include "evaluation/scattering/scattering_method.hpp"
+#include "evaluation/scattering/view_rays.hpp"
 
 #include <gnomon/numerics/unorm.hpp>
 
@@ -15,20 +14,6 @@
 #include <vector>
 
 namespace gnomon::evaluation {
-
-template <class Real> inline constexpr std::size_t lanes_in = 1;
-template <> inline constexpr std::size_t lanes_in<receiver_pack> = receiver_pack::size;
-
-// A pack of what of(i) is for lane i.
-template <class Real, class Of> Real in_lanes(Of of)
-{
-    if constexpr (std::is_same_v<Real, float>) return of(std::size_t(0));
-    else {
-        alignas(Real) std::array<float, Real::size> lanes;
-        for (std::size_t i = 0; i < Real::size; ++i) lanes[i] = of(i);
-        return Real::load_aligned(lanes.data());
-    }
-}
 
 // The vector from one place in light axes to another, and a place, in texels of the framed map and its unit of depth.
 template <class Real> struct map_vector {
@@ -60,18 +45,20 @@ template <class Texel> class framed_depths {
         return {x * Real(map_.texels_x), y * Real(map_.texels_y), z * Real(map_.depths * depth_scale)};
     }
 
-    // True if all lanes are inside the frame, so that they need no clamp.
+    // True if all lanes are inside the frame and before the far plane, so that they need no clamp.
     template <class Real> bool holds(const map_vector<Real>& p) const
     {
         const Real least(0), right(float(width_ + 2)), bottom(float(height_ + 2));
-        return !gnomon_any(!(least <= p.x && p.x < right && least <= p.y && p.y < bottom));
+        return !gnomon_any(
+            !(least <= p.x && p.x < right && least <= p.y && p.y < bottom && p.z <= Real(depth_scale + depth_offset)));
     }
+    // Inside the frame, and not beyond the far plane, where the map has nothing that shadows.
     template <class Real> map_vector<Real> clamped(const map_vector<Real>& p) const
     {
         const auto within = [](const Real& x, std::size_t extent) {
             return gnomon_min(gnomon_max(x, Real(0)), Real(float(extent + 1)));
         };
-        return {within(p.x, width_), within(p.y, height_), p.z};
+        return {within(p.x, width_), within(p.y, height_), gnomon_min(p.z, Real(depth_scale + depth_offset))};
     }
 
     // The depth in the texel that holds the place, which is inside the frame.
@@ -94,7 +81,8 @@ template <class Texel> class framed_depths {
         } else {
             alignas(receiver_pack) std::array<float, receiver_pack::size> columns, rows;
             x.store_aligned(columns.data()), y.store_aligned(rows.data());
-            return in_lanes<receiver_pack>([&](std::size_t i) { return at(columns[i], rows[i]); });
+            return gathered<std::type_identity_t, receiver_pack>(
+                [&](std::size_t i) { return at(columns[i], rows[i]); });
         }
     }
 
@@ -112,23 +100,5 @@ template <class Texel> class framed_depths {
     std::size_t width_, height_;
     std::vector<Texel> texels_;
 };
-
-// Both ways of a look-up whose kernel fetches: one ray after the other, and by packs. visibility(group, type) of the rays.
-template <class Visibility> std::vector<timed_look_up> timed_whole(std::size_t rays, Visibility visibility)
-{
-    const auto in = [&]<class Real>(const Real*) {
-        const std::size_t groups = rays / lanes_in<Real>;
-        const timed_run all{groups * lanes_in<Real>, [=](std::span<float> result) {
-                                for (std::size_t i = 0; i < groups; ++i) {
-                                    const Real found = visibility(i, static_cast<const Real*>(nullptr));
-                                    if constexpr (std::is_same_v<Real, float>) result[i] = found;
-                                    else found.store_unaligned(&result[i * lanes_in<Real>]);
-                                    asm volatile("" ::: "memory"); // one group at a time
-                                }
-                            }};
-        return timed_look_up{int(lanes_in<Real>), all, all};
-    };
-    return {in(static_cast<const float*>(nullptr)), in(static_cast<const receiver_pack*>(nullptr))};
-}
 
 } // namespace gnomon::evaluation
