@@ -1,6 +1,7 @@
 #include "evaluation/core/driver.hpp"
 #include "hazy_scene.hpp"
 #include "renderer/import/model.hpp"
+#include "scattering_costs.hpp"
 #include "scattering_page.hpp"
 
 #include <fmt/format.h>
@@ -64,7 +65,7 @@ void single_scattering(const settings& given)
     const std::vector<const hazy_scene*> scenes = registry_of<scene_entry>().all_of<hazy_scene>();
     std::size_t count = 0;
     for (const hazy_scene* s : scenes) count += steps_of_comparison(s->id);
-    steps all("single_scattering", count);
+    steps all("single_scattering", count + 1);
     page result = page_of("single_scattering", "Single scattering",
                           "Shafts of light in haze by one look-up of moments per pixel, and by ray marching.");
     result.blocks.push_back(introduction(how));
@@ -76,6 +77,10 @@ void single_scattering(const settings& given)
         write(found, result, rows);
         if (s == scenes.front()) set_front(result, found);
     }
+    all.begin("costs");
+    for (block& b : scattering_costs(scenes.front()->stage(double(how.width) / how.height), rows,
+                                     std::min(4 * how.map_resolution, 2048)))
+        result.blocks.push_back(std::move(b));
     write_page(folder, result);
     merge_report(how.out / "report.json", rows);
 }

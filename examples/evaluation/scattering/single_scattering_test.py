@@ -51,5 +51,32 @@ class SingleScattering(unittest.TestCase):
                                 self.row(scene, f"scatter4_{setting}")["rmse"], (scene, setting))
 
 
+    def test_more_steps_are_better_and_16_bits_enough(self):
+        for scene in SCENES:
+            errors = [self.row(scene, f"ray_march_{steps}")["rmse"] for steps in (16, 32, 128, 1024)]
+            self.assertEqual(errors, sorted(errors, reverse=True), scene)
+            for steps, error in ((32, errors[1]), (128, errors[2])):
+                coarse = self.row(scene, f"ray_march_{steps}_unorm16")["rmse"]
+                self.assertLess(abs(coarse - error), 0.1 * error, (scene, steps))
+
+    def test_exact_counts_are_better_than_moments(self):
+        for scene in SCENES.keys() - {"antipode"}:
+            exact = self.row(scene, "min_max")["rmse"]
+            for other in ("scatter6_float", "scatter4_float"):
+                self.assertLess(exact, self.row(scene, other)["rmse"], (scene, other))
+
+    def test_costs_are_of_all_sizes(self):
+        charts = {block["name"]: block for block in self.facts["blocks"] if "panels" in block and "name" in block}
+        for name, panels, points in (("cost-per-picture", 2, 5), ("cost-per-map", 4, 4), ("error-per-cost", 1, 1)):
+            self.assertEqual(len(charts[name]["panels"]), panels)
+            for panel in charts[name]["panels"]:
+                for series in panel["series"]:
+                    self.assertEqual(len(series["points"]), points, (name, series["label"]))
+                    self.assertTrue(all(number > 0 for point in series["points"] for number in point))
+        table, = (block for block in self.facts["blocks"] if block.get("title", "").startswith("How much cheaper"))
+        froxels, = (row for row in table["rows"] if row["method"] == "froxels")
+        self.assertGreater(froxels["look_up"], 1)
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])
