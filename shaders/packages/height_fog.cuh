@@ -711,8 +711,8 @@ GNOMON_INLINE constexpr Real phase_henyey_greenstein(Real cosine, std::type_iden
 }
 
 /// The overestimation of visibility for the ray of a polar angle with this cosine, (1 + cosine) / 2, for
-/// bounds_intensity. Looking into the light no occluder can be before the ray in depth, so it is 0, and no light leaks;
-/// looking along the light none can be behind the ray, so it is 1, and no light is lost.
+/// bounds_intensity. 0 for a ray that looks into the light, in front of which no occluder can be in depth: no light
+/// leaks. 1 for a ray along the light, behind which none can be: no light is lost.
 /// Domain: cosine in [-1, 1], clamped.
 /// NaN: 1.
 /// Source: Peters 2017, Sec. 5.3.1
@@ -721,11 +721,11 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real a
     return Real(1) - saturate_or_zero(Real(0.5) - Real(0.5) * cosine);
 }
 
-/// The overestimation of visibility that is adaptive_overestimation along the light, and (1 + cosine^5) / 2 towards it:
-/// close to 1/2, which halves the worst error, down to rays that nearly look into the light. These have almost 0, and
-/// shown visibility exceeds its lower bound by this share of the weight at the ray: within 5 degrees of looking into
-/// the light at most 1% leaks, whatever the occluders. Along the light 1/2 errs more: most of what is close to the ray
-/// in depth is behind it there, on the surface at which the ray ends (tests/scattering/overestimation.cpp).
+/// The overestimation of visibility that is adaptive_overestimation for rays along the light, and (1 + cosine^5) / 2
+/// for rays towards it. That is close to 1/2, which halves the worst error, but for rays that nearly look into the
+/// light. Shown visibility exceeds its lower bound by this share of the weight at the ray: within 5 degrees of looking
+/// into the light at most 1% leaks for any occluders. Along the light 1/2 errs more: most of the surfaces that are
+/// close to the ray in depth are behind it, where the ray ends (tests/scattering/overestimation.cpp).
 /// Domain: cosine in [-1, 1], clamped.
 /// NaN: 1.
 template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real plateau_overestimation(Real cosine)

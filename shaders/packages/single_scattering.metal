@@ -291,18 +291,18 @@ inline float phase_henyey_greenstein(float cosine, float asymmetry)
 }
 
 /// The overestimation of visibility for the ray of a polar angle with this cosine, (1 + cosine) / 2, for
-/// bounds_intensity. Looking into the light no occluder can be before the ray in depth, so it is 0, and no light leaks;
-/// looking along the light none can be behind the ray, so it is 1, and no light is lost.
+/// bounds_intensity. 0 for a ray that looks into the light, in front of which no occluder can be in depth: no light
+/// leaks. 1 for a ray along the light, behind which none can be: no light is lost.
 /// Domain: cosine in [-1, 1], clamped.
 /// NaN: 1.
 /// Source: Peters 2017, Sec. 5.3.1
 inline float adaptive_overestimation(float cosine) { return 1.0f - saturate_or_zero(0.5f - 0.5f * cosine); }
 
-/// The overestimation of visibility that is adaptive_overestimation along the light, and (1 + cosine^5) / 2 towards it:
-/// close to 1/2, which halves the worst error, down to rays that nearly look into the light. These have almost 0, and
-/// shown visibility exceeds its lower bound by this share of the weight at the ray: within 5 degrees of looking into
-/// the light at most 1% leaks, whatever the occluders. Along the light 1/2 errs more: most of what is close to the ray
-/// in depth is behind it there, on the surface at which the ray ends (tests/scattering/overestimation.cpp).
+/// The overestimation of visibility that is adaptive_overestimation for rays along the light, and (1 + cosine^5) / 2
+/// for rays towards it. That is close to 1/2, which halves the worst error, but for rays that nearly look into the
+/// light. Shown visibility exceeds its lower bound by this share of the weight at the ray: within 5 degrees of looking
+/// into the light at most 1% leaks for any occluders. Along the light 1/2 errs more: most of the surfaces that are
+/// close to the ray in depth are behind it, where the ray ends (tests/scattering/overestimation.cpp).
 /// Domain: cosine in [-1, 1], clamped.
 /// NaN: 1.
 inline float plateau_overestimation(float cosine)

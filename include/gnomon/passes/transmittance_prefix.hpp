@@ -1,12 +1,12 @@
 // Transmittance-weighted prefix averages along the rows of a rectified map, in place, in its storage format (Peters et al. 2017,
 // Sec. 5.1.1 and App. C): texel u becomes the average of texels 0 to u, weighted by the transmittance up to each
-// (scattering/transmittance_weights.h), which is all that single scattering up to there depends on.
+// (scattering/transmittance_weights.h). Single scattering up to there depends on nothing else.
 //
-// Sums are in double, so an average is off by one rounding to the format and nothing else; sums in float would add several. With
-// n texels, n <= 65536, of numbers of at most one in magnitude:
-//     Error: 2^-25 + 2^-36 of formats of floats before encode rounds UNORM codes, absolute.
-// The sums of weights are at least 1, the weight of the first texel, so that nothing cancels and no weight is too small to divide
-// by: an extinction of 0 gives equal weights, an infinite one the first texel throughout.
+// Sums are in double, so that an average has the error of one rounding to the format. For up to 65536 texels of numbers of at
+// most one in magnitude:
+//     Error: absolute, 2^-25 + 2^-36, before a UNORM format rounds to its codes.
+// Sums of weights are at least 1, the weight of the first texel, so nothing cancels and no divisor is too small. An extinction
+// of 0 gives equal weights, an infinite one the first texel throughout.
 //
 // No allocation; threads may take different bands of rows. A texel with a channel that is NaN or infinite is the border, which
 // shadows nothing.
@@ -38,7 +38,7 @@ class prefix_weights {
         }
     }
 
-    /// Fills in the next block.
+    /// Fill in the next block.
     void advance()
     {
         const auto powers = powers_, sums = sums_;
@@ -119,7 +119,7 @@ template <std::size_t channels> class prefix_sums {
     static constexpr std::size_t pairs = (in_vectors - quads) / prefix_pair::channels * prefix_pair::channels;
 
   public:
-    /// Gives the averages of a block of texels with all texels before. May be in place.
+    /// Write the averages of a block of texels with all texels before; average may be texel.
     void add(const prefix_weights& w, const float* texel, float* average, std::size_t count)
     {
         auto a = quads_;
