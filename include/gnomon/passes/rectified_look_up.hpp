@@ -43,12 +43,16 @@ channel_array<Format> rectified_channels_of(map_view<const format_texel<Format>>
     const neighbours nx = neighbours_of<border_mode::clamp>(x - 0.5f, map.width);
     const neighbours ny = rectified_rows_of(y, map.height, wraps);
     const float before = (float(nx.lower) + 0.5f) * wide + 0.5f;
-    const auto row = [&](std::size_t v) {
-        const std::size_t of_map = (std::min)(std::size_t((float(v) + 0.5f) * high), rows.size() - 1);
-        const float share = transmittance_weight_between(before, wide, nx.fraction, rows[of_map].optical_depth);
-        return mix(load_channels<Format>(map(nx.lower, v)), load_channels<Format>(map(nx.upper, v)), share);
+    const auto optical_depth = [&](std::size_t v) {
+        return rows[(std::min)(std::size_t((float(v) + 0.5f) * high), rows.size() - 1)].optical_depth;
     };
-    return mix(row(ny.lower), row(ny.upper), ny.fraction);
+    const auto share_in = [&](float depth) { return transmittance_weight_between(before, wide, nx.fraction, depth); };
+    const float lower = optical_depth(ny.lower), upper = optical_depth(ny.upper);
+    const float share = share_in(lower);
+    const auto row = [&](std::size_t v, float t) {
+        return mix(load_channels<Format>(map(nx.lower, v)), load_channels<Format>(map(nx.upper, v)), t);
+    };
+    return mix(row(ny.lower, share), row(ny.upper, lower == upper ? share : share_in(upper)), ny.fraction);
 }
 
 } // namespace detail

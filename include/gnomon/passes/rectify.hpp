@@ -27,8 +27,9 @@ GNOMON_NAMESPACE_BEGIN
 
 namespace detail {
 
-/// Texels of a row that are rectified at once.
+/// Texels of a row that are rectified at once, and a number of each: loops over these become vectors.
 inline constexpr std::size_t rectify_texels = 64;
+using rectify_lanes = std::array<float, rectify_texels>;
 
 /// Signed depths in a row's range of occluders at a radius, from their signed depths in the map.
 struct rectified_mapping {
@@ -40,14 +41,23 @@ struct rectified_mapping {
         : eye(light.z), length(1 / light.depths), range(row.range), far_plane(from)
     {}
 
-    /// The depth of an occluder in the row's range; 1 for a depth that is no occluder or NaN.
-    template <rectified_depth measure> float operator()(float radius, float depth) const
+    /// Replaces depths of the map by depths of occluders in the row's range: 1 for a depth that is no occluder or NaN. Each loop
+    /// becomes vectors, one loop for all of them would not.
+    template <rectified_depth measure> void apply(const rectify_lanes& radius, rectify_lanes& depth) const
     {
-        const float z = (gnomon_max(depth, -1.0f) - eye) * length;
-        const float mapped = measure == rectified_depth::polar
-                                 ? rectified_polar_depth(polynomial_atan2(radius, z), range)
-                                 : rectified_cosine_depth(rectified_cosine(radius, 0.0f, z), range);
-        return gnomon_select(depth < far_plane, gnomon_select(mapped <= 1, mapped, 1.0f), 1.0f);
+        constexpr std::size_t count = rectify_texels;
+        const rectified_mapping map = *this;
+        rectify_lanes z;
+        for (std::size_t i = 0; i < count; ++i) z[i] = (gnomon_max(depth[i], -1.0f) - map.eye) * map.length;
+        if constexpr (measure == rectified_depth::polar) {
+            for (std::size_t i = 0; i < count; ++i) z[i] = polynomial_atan2(radius[i], z[i]);
+            for (std::size_t i = 0; i < count; ++i) z[i] = rectified_polar_depth(z[i], map.range);
+        } else {
+            for (std::size_t i = 0; i < count; ++i) z[i] = rectified_cosine(radius[i], 0.0f, z[i]);
+            for (std::size_t i = 0; i < count; ++i) z[i] = rectified_cosine_depth(z[i], map.range);
+        }
+        for (std::size_t i = 0; i < count; ++i)
+            depth[i] = gnomon_select(depth[i] < map.far_plane, gnomon_select(z[i] <= 1, z[i], 1.0f), 1.0f);
     }
 };
 
@@ -69,37 +79,71 @@ struct rectified_places {
     [[nodiscard]] float radius(std::size_t u) const { return (float(u) + 0.5f) * step; }
 };
 
-/// Four texels along one axis of a map, and their weights under a cubic B-spline over texels as wide as spacing.
-struct spline_texels {
-    std::array<float, 4> at, weight;
+/// Radii of texels of a row from a first one on, and their places in the map.
+struct rectified_block {
+    rectify_lanes radius, x, y;
 
-    spline_texels(float position, float spacing)
+    rectified_block(const rectified_places& at, std::size_t first)
     {
-        const float x = position / spacing - 0.5f, whole = std::floor(x), u = x - whole, v = 1 - u;
-        weight = {v * v * v / 6, ((3 * u - 6) * (u * u) + 4) / 6, ((3 * v - 6) * (v * v) + 4) / 6, u * u * u / 6};
-        for (std::size_t k = 0; k < 4; ++k) at[k] = (whole + (float(k) - 0.5f)) * spacing;
+        const rectified_places a = at;
+        for (std::size_t i = 0; i < rectify_texels; ++i) {
+            radius[i] = a.radius(first) + float(i) * a.step;
+            x[i] = a.x + radius[i] * a.dx;
+            y[i] = a.y + radius[i] * a.dy;
+        }
     }
 };
 
-/// The depth of the map in its texel at (x, y), the far plane beside the map.
-inline float nearest_depth(map_view<const float> depths, float x, float y)
+/// Four texels along one axis of a map, for each place, and their weights under a cubic B-spline over texels as wide as spacing.
+struct spline_texels {
+    std::array<rectify_lanes, 4> at, weight;
+
+    spline_texels(const rectify_lanes& place, const rectify_lanes& spacing)
+    {
+        for (std::size_t i = 0; i < rectify_texels; ++i) {
+            const float x = place[i] / spacing[i] - 0.5f, whole = std::floor(x), u = x - whole, v = 1 - u;
+            weight[0][i] = v * v * v / 6;
+            weight[1][i] = ((3 * u - 6) * (u * u) + 4) / 6;
+            weight[2][i] = ((3 * v - 6) * (v * v) + 4) / 6;
+            weight[3][i] = u * u * u / 6;
+            for (std::size_t k = 0; k < 4; ++k) at[k][i] = (whole + (float(k) - 0.5f)) * spacing[i];
+        }
+    }
+};
+
+/// Fill in the depth of the map at each place, that of its texel, or the far plane beside the map.
+inline void fetch_depths(map_view<const float> depths, const rectify_lanes& x, const rectify_lanes& y,
+                         std::size_t count, rectify_lanes& depth)
 {
-    const bool inside = x >= 0 && y >= 0 && x < float(depths.width) && y < float(depths.height);
-    return inside ? depths(std::size_t(std::int32_t(x)), std::size_t(std::int32_t(y))) : 1.0f;
+    const float width = float(depths.width), height = float(depths.height);
+    for (std::size_t i = 0; i < count; ++i) {
+        const bool inside = x[i] >= 0 && y[i] >= 0 && x[i] < width && y[i] < height;
+        depth[i] = inside ? depths(std::size_t(std::int32_t(x[i])), std::size_t(std::int32_t(y[i]))) : 1.0f;
+    }
 }
 
-/// Fill count rectified depths from texel first of a row on.
+/// Depths of a block of texels in the row's range, each of one texel of the map.
 template <rectified_depth measure>
-void rectify_block(map_view<const float> depths, const rectified_places& at, const rectified_mapping& map,
-                   std::size_t first, std::size_t count, float* to)
+rectify_lanes rectified_depths(map_view<const float> depths, const light_map& light, const rectified_frame& frame,
+                               const rectified_row& row, std::size_t columns, std::size_t first, std::size_t count)
 {
-    std::array<float, rectify_texels> radius;
-    for (std::size_t i = 0; i < count; ++i) {
-        const float r = at.radius(first + i);
-        radius[i] = r;
-        to[i] = nearest_depth(depths, at.x + r * at.dx, at.y + r * at.dy);
+    const rectified_block block({light, frame, row, columns}, first);
+    rectify_lanes depth{};
+    fetch_depths(depths, block.x, block.y, count, depth);
+    rectified_mapping(light, row).template apply<measure>(block.radius, depth);
+    return depth;
+}
+
+/// Add the channels of depths, each times its weight, to sums for each channel.
+template <storage_format Format>
+void add_channels(const rectify_lanes& depth, const rectify_lanes& x_weight, const rectify_lanes& y_weight,
+                  std::array<std::array<double, rectify_texels>, channel_count<Format>>& sums)
+{
+    for (std::size_t i = 0; i < rectify_texels; ++i) {
+        const auto c = gnomon_bit_cast<channel_array<Format>>(Format::from_depth(depth[i]));
+        const double weight = double(x_weight[i] * y_weight[i]);
+        for (std::size_t k = 0; k < c.size(); ++k) sums[k][i] += weight * double(c[k]);
     }
-    for (std::size_t i = 0; i < count; ++i) to[i] = map.template operator()<measure>(radius[i], to[i]);
 }
 
 /// Fill rows of a rectified map: block(row, first, count, numbers) gives the channels of texels as numbers.
@@ -141,9 +185,11 @@ inline void rectify_depths(map_view<const float> depths, const light_map& light,
     detail::expect_rectify("rectify_depths", depths, rows, target, band);
     detail::with_measure(frame.depth, [&]<rectified_depth measure>() {
         for (std::size_t v = band.first; v < band.last; ++v)
-            for (std::size_t u = 0; u < target.width; u += detail::rectify_texels)
-                detail::rectify_block<measure>(depths, {light, frame, rows[v], target.width}, {light, rows[v]}, u,
-                                               (std::min)(detail::rectify_texels, target.width - u), &target(u, v));
+            for (std::size_t u = 0; u < target.width; u += detail::rectify_texels) {
+                const std::size_t count = (std::min)(detail::rectify_texels, target.width - u);
+                const auto z = detail::rectified_depths<measure>(depths, light, frame, rows[v], target.width, u, count);
+                std::copy_n(z.begin(), count, &target(u, v));
+            }
     });
 }
 
@@ -155,9 +201,7 @@ void rectify(map_view<const float> depths, const light_map& light, const rectifi
     detail::expect_rectify("rectify", depths, rows, target, band);
     detail::with_measure(frame.depth, [&]<rectified_depth measure>() {
         detail::rectify_rows<Format>(target, band, [&](std::size_t v, std::size_t u, std::size_t count, float* to) {
-            std::array<float, detail::rectify_texels> z;
-            detail::rectify_block<measure>(depths, {light, frame, rows[v], target.width}, {light, rows[v]}, u, count,
-                                           z.data());
+            const auto z = detail::rectified_depths<measure>(depths, light, frame, rows[v], target.width, u, count);
             for (std::size_t i = 0; i < count; ++i, to += channel_count<Format>) {
                 const auto c = gnomon_bit_cast<channel_array<Format>>(Format::from_depth(z[i]));
                 std::copy(c.begin(), c.end(), to);
@@ -167,8 +211,8 @@ void rectify(map_view<const float> depths, const light_map& light, const rectifi
 }
 
 /// Fill the given rows of a rectified map, each texel with the mean over 4 x 4 texels of the map, which a cubic B-spline weights. The
-/// spline is as wide as two footprints of the texel along each axis, and at least 4 texels of the map. One texel of the map
-/// stands for each quarter of its width.
+/// spline is as wide as the texel's footprint along each axis, and at least 4 texels of the map; of a wider one each fourth
+/// gives one texel.
 template <storage_format Format>
 void rectify_filtered(map_view<const float> depths, const light_map& light, const rectified_frame& frame,
                       std::span<const rectified_row> rows, map_view<format_texel<Format>> target, row_range band)
@@ -179,26 +223,23 @@ void rectify_filtered(map_view<const float> depths, const light_map& light, cons
         detail::rectify_rows<Format>(target, band, [&](std::size_t v, std::size_t u, std::size_t count, float* to) {
             const detail::rectified_places at(light, frame, rows[v], target.width);
             const detail::rectified_mapping map(light, rows[v]);
-            for (std::size_t i = 0; i < count; ++i, to += channel_count<Format>) {
-                const float r = at.radius(u + i);
-                const auto spacing = [&](float along, float side) {
-                    return gnomon_max(0.5f * ((std::abs)(along)*at.step + side * (r * turn)), 1.0f);
-                };
-                const detail::spline_texels x(at.x + r * at.dx, spacing(at.dx, at.side_x));
-                const detail::spline_texels y(at.y + r * at.dy, spacing(at.dy, at.side_y));
-                std::array<float, 16> z, weight;
-                for (std::size_t k = 0; k < 16; ++k) {
-                    z[k] = detail::nearest_depth(depths, x.at[k % 4], y.at[k / 4]);
-                    weight[k] = x.weight[k % 4] * y.weight[k / 4];
-                }
-                for (float& depth : z) depth = map.template operator()<measure>(r, depth);
-                std::array<double, channel_count<Format>> sum{};
-                for (std::size_t k = 0; k < 16; ++k) {
-                    const auto c = gnomon_bit_cast<channel_array<Format>>(Format::from_depth(z[k]));
-                    for (std::size_t j = 0; j < c.size(); ++j) sum[j] += double(weight[k]) * double(c[j]);
-                }
-                for (std::size_t j = 0; j < sum.size(); ++j) to[j] = float(sum[j]);
+            const detail::rectified_block block(at, u);
+            const auto spacing = [&](float along, float side) {
+                detail::rectify_lanes s;
+                for (std::size_t i = 0; i < s.size(); ++i)
+                    s[i] = gnomon_max(0.5f * ((std::abs)(along)*at.step + side * (block.radius[i] * turn)), 1.0f);
+                return s;
+            };
+            const detail::spline_texels x(block.x, spacing(at.dx, at.side_x)), y(block.y, spacing(at.dy, at.side_y));
+            std::array<std::array<double, detail::rectify_texels>, channel_count<Format>> sums{};
+            detail::rectify_lanes z{};
+            for (std::size_t k = 0; k < 16; ++k) {
+                detail::fetch_depths(depths, x.at[k % 4], y.at[k / 4], count, z);
+                map.template apply<measure>(block.radius, z);
+                detail::add_channels<Format>(z, x.weight[k % 4], y.weight[k / 4], sums);
             }
+            for (std::size_t i = 0; i < count; ++i)
+                for (const auto& sum : sums) *to++ = float(sum[i]);
         });
     });
 }
@@ -234,20 +275,25 @@ void rectify_moments(mip_view<const format_texel<Source>> moments, const light_m
         detail::rectify_rows<Format>(target, band, [&](std::size_t v, std::size_t u, std::size_t count, float* to) {
             const detail::rectified_places at(light, frame, rows[v], target.width);
             const detail::rectified_mapping map(light, rows[v], far_plane);
-            for (std::size_t i = 0; i < count; ++i, to += channel_count<Format>) {
-                const float r = at.radius(u + i);
-                const float level = rectified_level(rectified_footprint(r, at.step, turn, texels));
-                const moments4<float> b = Source::to_moments(
-                    trilinear<Source>(moments, at.x + r * at.dx, at.y + r * at.dy, level, border_mode::lit));
+            const detail::rectified_block block(at, u);
+            detail::rectify_lanes first{}, second{}, share{};
+            for (std::size_t i = 0; i < count; ++i) {
+                const float level = rectified_level(rectified_footprint(block.radius[i], at.step, turn, texels));
+                const moments4<float> b =
+                    Source::to_moments(trilinear<Source>(moments, block.x[i], block.y[i], level, border_mode::lit));
                 const distribution2<float> d = two_point_distribution(
                     b.b1, b.b2, two_point_third_moment(b.b1, b.b2, b.b3, noise.channel), noise.least_variance);
-                const auto channels = [&](float depth) {
-                    return gnomon_bit_cast<channel_array<Format>>(
-                        Format::from_depth(map.template operator()<measure>(r, depth)));
-                };
-                const auto c1 = channels(d.depth1), c2 = channels(d.depth2);
-                for (std::size_t j = 0; j < c1.size(); ++j)
-                    to[j] = float(double(d.weight1) * double(c1[j]) + double(d.weight2) * double(c2[j]));
+                first[i] = d.depth1;
+                second[i] = d.depth2;
+                share[i] = d.weight2;
+            }
+            map.template apply<measure>(block.radius, first);
+            map.template apply<measure>(block.radius, second);
+            for (std::size_t i = 0; i < count; ++i) {
+                const auto a = gnomon_bit_cast<channel_array<Format>>(Format::from_depth(first[i]));
+                const auto b = gnomon_bit_cast<channel_array<Format>>(Format::from_depth(second[i]));
+                for (std::size_t k = 0; k < a.size(); ++k)
+                    *to++ = float(double(a[k]) + double(share[i]) * (double(b[k]) - double(a[k])));
             }
         });
     });
