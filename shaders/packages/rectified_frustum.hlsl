@@ -495,7 +495,7 @@ struct rectified_frustum { float radius, azimuth_start, azimuth_length, polar_le
 struct rectified_interval { float least, most; };
 
 /// A part of an edge, from a fraction begin to a fraction end.
-struct rectified_part { float begin, end; };
+struct gnomon_rectified_part { float begin, end; };
 
 float gnomon_rectified_dot(rectified_corner a, rectified_corner b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
 
@@ -531,28 +531,47 @@ float gnomon_rectified_axis_side(rectified_corners q)
     return gnomon_select(left, sign, gnomon_select(right, -1.0 * sign, 0.0));
 }
 
-/// The angles so far and that of the point a + t c.
-rectified_interval gnomon_rectified_interval_add(rectified_interval bounds, rectified_corner a, rectified_corner c,
-                                                 float t)
+/// The angles so far and that of the point (x, y, z).
+rectified_interval gnomon_rectified_interval_add(rectified_interval bounds, float x, float y, float z)
 {
-    float x = a.x + t * c.x;
-    float y = a.y + t * c.y;
-    float polar = polynomial_atan2(gnomon_sqrt(x * x + y * y), a.z + t * c.z);
+    float polar = polynomial_atan2(gnomon_sqrt(x * x + y * y), z);
     bounds.least = gnomon_min(polar, bounds.least);
     bounds.most = gnomon_max(polar, bounds.most);
     return bounds;
 }
 
-/// The angles so far and those of a part of the edge from a to b; an empty part has none.
-rectified_interval gnomon_rectified_interval_edge(rectified_interval bounds, rectified_corner a, rectified_corner b,
-                                                  rectified_part part)
+/// The angles so far and that of the point a + t c.
+rectified_interval gnomon_rectified_interval_along(rectified_interval bounds, rectified_corner a, rectified_corner c,
+                                                   float t)
 {
-    rectified_corner c = gnomon_rectified_from_to(a, b);
+    return gnomon_rectified_interval_add(bounds, a.x + t * c.x, a.y + t * c.y, a.z + t * c.z);
+}
+
+/// The t of the extreme angle on a + t c, limited to a part; some t of it for an edge towards the eye or without
+/// length.
+float gnomon_rectified_extreme(rectified_corner a, rectified_corner c, float begin, float end)
+{
     float ac = gnomon_rectified_dot(a, c);
     float t = (a.z * ac - c.z * gnomon_rectified_dot(a, a)) / (c.z * ac - a.z * gnomon_rectified_dot(c, c));
-    rectified_interval r = gnomon_rectified_interval_add(bounds, a, c, part.begin);
-    r = gnomon_rectified_interval_add(r, a, c, part.end);
-    r = gnomon_rectified_interval_add(r, a, c, clamp_or_high(t, part.begin, part.end));
+    return clamp_or_nan(gnomon_select(t == t, t, begin), begin, end);
+}
+
+/// The angles so far and those of the edge from a to b, without b.
+rectified_interval gnomon_rectified_interval_edge(rectified_interval bounds, rectified_corner a, rectified_corner b)
+{
+    rectified_corner c = gnomon_rectified_from_to(a, b);
+    rectified_interval r = gnomon_rectified_interval_add(bounds, a.x, a.y, a.z);
+    return gnomon_rectified_interval_along(r, a, c, gnomon_rectified_extreme(a, c, 0.0, 1.0));
+}
+
+/// The angles so far and those of a part of the edge from a to b; an empty part has none.
+rectified_interval gnomon_rectified_interval_part(rectified_interval bounds, rectified_corner a, rectified_corner b,
+                                                  gnomon_rectified_part part)
+{
+    rectified_corner c = gnomon_rectified_from_to(a, b);
+    rectified_interval r = gnomon_rectified_interval_along(bounds, a, c, part.begin);
+    r = gnomon_rectified_interval_along(r, a, c, part.end);
+    r = gnomon_rectified_interval_along(r, a, c, gnomon_rectified_extreme(a, c, part.begin, part.end));
     bool empty = part.end < part.begin;
     r.least = gnomon_select(empty, bounds.least, r.least);
     r.most = gnomon_select(empty, bounds.most, r.most);
@@ -617,14 +636,11 @@ rectified_frustum rectified_frustum_from_corners(rectified_corners q)
     float most = gnomon_max(a, gnomon_max(b, gnomon_max(c, gnomon_max(d, 0.0))));
     bool around = axis < 0.0 || 0.0 < axis || rectified_pi < most - least;
 
-    rectified_part whole;
-    whole.begin = 0.0;
-    whole.end = 1.0;
     rectified_interval polar = gnomon_rectified_interval_begin(axis);
-    polar = gnomon_rectified_interval_edge(polar, q.a, q.b, whole);
-    polar = gnomon_rectified_interval_edge(polar, q.b, q.c, whole);
-    polar = gnomon_rectified_interval_edge(polar, q.c, q.d, whole);
-    polar = gnomon_rectified_interval_end(gnomon_rectified_interval_edge(polar, q.d, q.a, whole));
+    polar = gnomon_rectified_interval_edge(polar, q.a, q.b);
+    polar = gnomon_rectified_interval_edge(polar, q.b, q.c);
+    polar = gnomon_rectified_interval_edge(polar, q.c, q.d);
+    polar = gnomon_rectified_interval_end(gnomon_rectified_interval_edge(polar, q.d, q.a));
 
     rectified_frustum r;
     r.radius = gnomon_sqrt(farthest.x * farthest.x + farthest.y * farthest.y);
@@ -638,8 +654,8 @@ rectified_frustum rectified_frustum_from_corners(rectified_corners q)
 }
 
 /// The part of the edge from a to b, within a part, that is on the left of the direction (cosine, sine) from the axis.
-rectified_part gnomon_rectified_part_left(rectified_part part, rectified_corner a, rectified_corner b, float cosine,
-                                          float sine)
+gnomon_rectified_part gnomon_rectified_part_left(gnomon_rectified_part part, rectified_corner a, rectified_corner b,
+                                                 float cosine, float sine)
 {
     float at_a = cosine * a.y - sine * a.x;
     float at_b = cosine * b.y - sine * b.x;
@@ -655,14 +671,14 @@ rectified_part gnomon_rectified_part_left(rectified_part part, rectified_corner 
 rectified_interval gnomon_rectified_row_edge(rectified_interval bounds, rectified_corner a, rectified_corner b,
                                              gnomon_cosine_sine first, gnomon_cosine_sine last, float whole)
 {
-    rectified_part all;
+    gnomon_rectified_part all;
     all.begin = 0.0;
     all.end = 1.0;
-    rectified_part part = gnomon_rectified_part_left(all, a, b, first.cosine, first.sine);
+    gnomon_rectified_part part = gnomon_rectified_part_left(all, a, b, first.cosine, first.sine);
     part = gnomon_rectified_part_left(part, a, b, -1.0 * last.cosine, -1.0 * last.sine);
     part.begin = gnomon_select(whole == 1.0, 0.0, part.begin);
     part.end = gnomon_select(whole == 1.0, 1.0, part.end);
-    return gnomon_rectified_interval_edge(bounds, a, b, part);
+    return gnomon_rectified_interval_part(bounds, a, b, part);
 }
 
 /// The polar angles of the view rays whose azimuths are between first and last, as those of one row; [0, pi] if no ray

@@ -568,28 +568,47 @@ inline float rectified_axis_side(rectified_corners q)
     return gnomon_select(left, sign, gnomon_select(right, -1.0f * sign, 0.0f));
 }
 
-/// The angles so far and that of the point a + t c.
-inline rectified_interval rectified_interval_add(rectified_interval bounds, rectified_corner a, rectified_corner c,
-                                                 float t)
+/// The angles so far and that of the point (x, y, z).
+inline rectified_interval rectified_interval_add(rectified_interval bounds, float x, float y, float z)
 {
-    float x = a.x + t * c.x;
-    float y = a.y + t * c.y;
-    float polar = polynomial_atan2(gnomon_sqrt(x * x + y * y), a.z + t * c.z);
+    float polar = polynomial_atan2(gnomon_sqrt(x * x + y * y), z);
     bounds.least = gnomon_min(polar, bounds.least);
     bounds.most = gnomon_max(polar, bounds.most);
     return bounds;
 }
 
+/// The angles so far and that of the point a + t c.
+inline rectified_interval rectified_interval_along(rectified_interval bounds, rectified_corner a, rectified_corner c,
+                                                   float t)
+{
+    return rectified_interval_add(bounds, a.x + t * c.x, a.y + t * c.y, a.z + t * c.z);
+}
+
+/// The t of the extreme angle on a + t c, limited to a part; some t of it for an edge towards the eye or without
+/// length.
+inline float rectified_extreme(rectified_corner a, rectified_corner c, float begin, float end)
+{
+    float ac = rectified_dot(a, c);
+    float t = (a.z * ac - c.z * rectified_dot(a, a)) / (c.z * ac - a.z * rectified_dot(c, c));
+    return clamp_or_nan(gnomon_select(t == t, t, begin), begin, end);
+}
+
+/// The angles so far and those of the edge from a to b, without b.
+inline rectified_interval rectified_interval_edge(rectified_interval bounds, rectified_corner a, rectified_corner b)
+{
+    rectified_corner c = rectified_from_to(a, b);
+    rectified_interval r = rectified_interval_add(bounds, a.x, a.y, a.z);
+    return rectified_interval_along(r, a, c, rectified_extreme(a, c, 0.0f, 1.0f));
+}
+
 /// The angles so far and those of a part of the edge from a to b; an empty part has none.
-inline rectified_interval rectified_interval_edge(rectified_interval bounds, rectified_corner a, rectified_corner b,
+inline rectified_interval rectified_interval_part(rectified_interval bounds, rectified_corner a, rectified_corner b,
                                                   rectified_part part)
 {
     rectified_corner c = rectified_from_to(a, b);
-    float ac = rectified_dot(a, c);
-    float t = (a.z * ac - c.z * rectified_dot(a, a)) / (c.z * ac - a.z * rectified_dot(c, c));
-    rectified_interval r = rectified_interval_add(bounds, a, c, part.begin);
-    r = rectified_interval_add(r, a, c, part.end);
-    r = rectified_interval_add(r, a, c, clamp_or_high(t, part.begin, part.end));
+    rectified_interval r = rectified_interval_along(bounds, a, c, part.begin);
+    r = rectified_interval_along(r, a, c, part.end);
+    r = rectified_interval_along(r, a, c, rectified_extreme(a, c, part.begin, part.end));
     bool empty = part.end < part.begin;
     r.least = gnomon_select(empty, bounds.least, r.least);
     r.most = gnomon_select(empty, bounds.most, r.most);
@@ -653,14 +672,11 @@ inline rectified_frustum rectified_frustum_from_corners(rectified_corners q)
     float most = gnomon_max(a, gnomon_max(b, gnomon_max(c, gnomon_max(d, 0.0f))));
     bool around = axis < 0.0f || 0.0f < axis || rectified_pi < most - least;
 
-    rectified_part whole;
-    whole.begin = 0.0f;
-    whole.end = 1.0f;
     rectified_interval polar = rectified_interval_begin(axis);
-    polar = rectified_interval_edge(polar, q.a, q.b, whole);
-    polar = rectified_interval_edge(polar, q.b, q.c, whole);
-    polar = rectified_interval_edge(polar, q.c, q.d, whole);
-    polar = rectified_interval_end(rectified_interval_edge(polar, q.d, q.a, whole));
+    polar = rectified_interval_edge(polar, q.a, q.b);
+    polar = rectified_interval_edge(polar, q.b, q.c);
+    polar = rectified_interval_edge(polar, q.c, q.d);
+    polar = rectified_interval_end(rectified_interval_edge(polar, q.d, q.a));
 
     rectified_frustum r;
     r.radius = gnomon_sqrt(farthest.x * farthest.x + farthest.y * farthest.y);
@@ -698,7 +714,7 @@ inline rectified_interval rectified_row_edge(rectified_interval bounds, rectifie
     part = rectified_part_left(part, a, b, -1.0f * last.cosine, -1.0f * last.sine);
     part.begin = gnomon_select(whole == 1.0f, 0.0f, part.begin);
     part.end = gnomon_select(whole == 1.0f, 1.0f, part.end);
-    return rectified_interval_edge(bounds, a, b, part);
+    return rectified_interval_part(bounds, a, b, part);
 }
 
 /// The polar angles of the view rays whose azimuths are between first and last, as those of one row; [0, pi] if no ray

@@ -458,7 +458,7 @@ struct rectified_frustum { radius: f32, azimuth_start: f32, azimuth_length: f32,
 struct rectified_interval { least: f32, most: f32 }
 
 /// A part of an edge, from a fraction begin to a fraction end.
-struct rectified_part { begin: f32, end: f32 }
+struct gnomon_rectified_part { begin: f32, end: f32 }
 
 fn gnomon_rectified_dot(a: rectified_corner, b: rectified_corner) -> f32 { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
 
@@ -494,29 +494,49 @@ fn gnomon_rectified_axis_side(q: rectified_corners) -> f32
     return gnomon_select(left, sign, gnomon_select(right, -1.0 * sign, 0.0));
 }
 
-/// The angles so far and that of the point a + t c.
-fn gnomon_rectified_interval_add(given_bounds: rectified_interval, a: rectified_corner, c: rectified_corner,
-                                 t: f32) -> rectified_interval
+/// The angles so far and that of the point (x, y, z).
+fn gnomon_rectified_interval_add(given_bounds: rectified_interval, x: f32, y: f32, z: f32) -> rectified_interval
 {
     var bounds = given_bounds;
-    let x = a.x + t * c.x;
-    let y = a.y + t * c.y;
-    let polar = polynomial_atan2_(gnomon_sqrt(x * x + y * y), a.z + t * c.z);
+    let polar = polynomial_atan2_(gnomon_sqrt(x * x + y * y), z);
     bounds.least = gnomon_min(polar, bounds.least);
     bounds.most = gnomon_max(polar, bounds.most);
     return bounds;
 }
 
-/// The angles so far and those of a part of the edge from a to b; an empty part has none.
-fn gnomon_rectified_interval_edge(bounds: rectified_interval, a: rectified_corner, b: rectified_corner,
-                                  part: rectified_part) -> rectified_interval
+/// The angles so far and that of the point a + t c.
+fn gnomon_rectified_interval_along(bounds: rectified_interval, a: rectified_corner, c: rectified_corner,
+                                   t: f32) -> rectified_interval
 {
-    let c = gnomon_rectified_from_to(a, b);
+    return gnomon_rectified_interval_add(bounds, a.x + t * c.x, a.y + t * c.y, a.z + t * c.z);
+}
+
+/// The t of the extreme angle on a + t c, limited to a part; some t of it for an edge towards the eye or without
+/// length.
+fn gnomon_rectified_extreme(a: rectified_corner, c: rectified_corner, begin: f32, end: f32) -> f32
+{
     let ac = gnomon_rectified_dot(a, c);
     let t = (a.z * ac - c.z * gnomon_rectified_dot(a, a)) / (c.z * ac - a.z * gnomon_rectified_dot(c, c));
-    var r = gnomon_rectified_interval_add(bounds, a, c, part.begin);
-    r = gnomon_rectified_interval_add(r, a, c, part.end);
-    r = gnomon_rectified_interval_add(r, a, c, clamp_or_high(t, part.begin, part.end));
+    return clamp_or_nan(gnomon_select(t == t, t, begin), begin, end);
+}
+
+/// The angles so far and those of the edge from a to b, without b.
+fn gnomon_rectified_interval_edge(bounds: rectified_interval, a: rectified_corner,
+                                  b: rectified_corner) -> rectified_interval
+{
+    let c = gnomon_rectified_from_to(a, b);
+    let r = gnomon_rectified_interval_add(bounds, a.x, a.y, a.z);
+    return gnomon_rectified_interval_along(r, a, c, gnomon_rectified_extreme(a, c, 0.0, 1.0));
+}
+
+/// The angles so far and those of a part of the edge from a to b; an empty part has none.
+fn gnomon_rectified_interval_part(bounds: rectified_interval, a: rectified_corner, b: rectified_corner,
+                                  part: gnomon_rectified_part) -> rectified_interval
+{
+    let c = gnomon_rectified_from_to(a, b);
+    var r = gnomon_rectified_interval_along(bounds, a, c, part.begin);
+    r = gnomon_rectified_interval_along(r, a, c, part.end);
+    r = gnomon_rectified_interval_along(r, a, c, gnomon_rectified_extreme(a, c, part.begin, part.end));
     let empty = part.end < part.begin;
     r.least = gnomon_select(empty, bounds.least, r.least);
     r.most = gnomon_select(empty, bounds.most, r.most);
@@ -581,14 +601,11 @@ fn rectified_frustum_from_corners(q: rectified_corners) -> rectified_frustum
     let most = gnomon_max(a, gnomon_max(b, gnomon_max(c, gnomon_max(d, 0.0))));
     let around = axis < 0.0 || 0.0 < axis || rectified_pi < most - least;
 
-    var whole: rectified_part;
-    whole.begin = 0.0;
-    whole.end = 1.0;
     var polar = gnomon_rectified_interval_begin(axis);
-    polar = gnomon_rectified_interval_edge(polar, q.a, q.b, whole);
-    polar = gnomon_rectified_interval_edge(polar, q.b, q.c, whole);
-    polar = gnomon_rectified_interval_edge(polar, q.c, q.d, whole);
-    polar = gnomon_rectified_interval_end(gnomon_rectified_interval_edge(polar, q.d, q.a, whole));
+    polar = gnomon_rectified_interval_edge(polar, q.a, q.b);
+    polar = gnomon_rectified_interval_edge(polar, q.b, q.c);
+    polar = gnomon_rectified_interval_edge(polar, q.c, q.d);
+    polar = gnomon_rectified_interval_end(gnomon_rectified_interval_edge(polar, q.d, q.a));
 
     var r: rectified_frustum;
     r.radius = gnomon_sqrt(farthest.x * farthest.x + farthest.y * farthest.y);
@@ -602,8 +619,8 @@ fn rectified_frustum_from_corners(q: rectified_corners) -> rectified_frustum
 }
 
 /// The part of the edge from a to b, within a part, that is on the left of the direction (cosine, sine) from the axis.
-fn gnomon_rectified_part_left(given_part: rectified_part, a: rectified_corner, b: rectified_corner, cosine: f32,
-                              sine: f32) -> rectified_part
+fn gnomon_rectified_part_left(given_part: gnomon_rectified_part, a: rectified_corner, b: rectified_corner, cosine: f32,
+                              sine: f32) -> gnomon_rectified_part
 {
     var part = given_part;
     let at_a = cosine * a.y - sine * a.x;
@@ -620,14 +637,14 @@ fn gnomon_rectified_part_left(given_part: rectified_part, a: rectified_corner, b
 fn gnomon_rectified_row_edge(bounds: rectified_interval, a: rectified_corner, b: rectified_corner,
                              first: gnomon_cosine_sine, last: gnomon_cosine_sine, whole: f32) -> rectified_interval
 {
-    var all: rectified_part;
+    var all: gnomon_rectified_part;
     all.begin = 0.0;
     all.end = 1.0;
     var part = gnomon_rectified_part_left(all, a, b, first.cosine, first.sine);
     part = gnomon_rectified_part_left(part, a, b, -1.0 * last.cosine, -1.0 * last.sine);
     part.begin = gnomon_select(whole == 1.0, 0.0, part.begin);
     part.end = gnomon_select(whole == 1.0, 1.0, part.end);
-    return gnomon_rectified_interval_edge(bounds, a, b, part);
+    return gnomon_rectified_interval_part(bounds, a, b, part);
 }
 
 /// The polar angles of the view rays whose azimuths are between first and last, as those of one row; [0, pi] if no ray

@@ -49,9 +49,9 @@ template <class T> rectified_corners<T> any_far_plane(bit_source& bits)
         return {{o * s, o * s, z}, {(o + 1) * s, o * s, z}, {(o + 1) * s, (o + 1) * s, z}, {o * s, (o + 1) * s, z}};
     }
     const double z = bits.chance(0.1) ? (bits.chance(0.5) ? 1 : -1) : bits.uniform(-1, 1);
-    const auto axes = camera_axes(z, bits.uniform(-pi, pi), bits.uniform(-pi, pi));
-    const double along = std::tan(bits.uniform(0.02, 1.2));
-    return far_plane<T>(axes, along * bits.uniform(0.5, 2.4), along, reach);
+    const double azimuth = bits.uniform(-pi, pi), roll = bits.uniform(-pi, pi);
+    const double along = std::tan(bits.uniform(0.02, 1.2)), across = along * bits.uniform(0.5, 2.4);
+    return far_plane<T>(camera_axes(z, azimuth, roll), across, along, reach);
 }
 
 } // namespace gnomon::test

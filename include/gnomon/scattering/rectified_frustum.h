@@ -73,31 +73,53 @@ GNOMON_DETAIL_KERNEL Real rectified_axis_side(GNOMON_T(rectified_corners) q)
     return gnomon_select(left, sign, gnomon_select(right, Real(-1) * sign, Real(0)));
 }
 
-/// The angles so far and that of the point a + t c.
-GNOMON_DETAIL_KERNEL GNOMON_T(rectified_interval) rectified_interval_add(GNOMON_T(rectified_interval) bounds,
-                                                                         GNOMON_T(rectified_corner) a,
-                                                                         GNOMON_T(rectified_corner) c, Real t)
+/// The angles so far and that of the point (x, y, z).
+GNOMON_DETAIL_KERNEL GNOMON_T(rectified_interval) rectified_interval_add(GNOMON_T(rectified_interval) bounds, Real x,
+                                                                         Real y, Real z)
 {
-    Real x = a.x + t * c.x;
-    Real y = a.y + t * c.y;
-    Real polar = polynomial_atan2(gnomon_sqrt(x * x + y * y), a.z + t * c.z);
+    Real polar = polynomial_atan2(gnomon_sqrt(x * x + y * y), z);
     bounds.least = gnomon_min(polar, bounds.least);
     bounds.most = gnomon_max(polar, bounds.most);
     return bounds;
 }
 
-/// The angles so far and those of a part of the edge from a to b; an empty part has none.
+/// The angles so far and that of the point a + t c.
+GNOMON_DETAIL_KERNEL GNOMON_T(rectified_interval) rectified_interval_along(GNOMON_T(rectified_interval) bounds,
+                                                                           GNOMON_T(rectified_corner) a,
+                                                                           GNOMON_T(rectified_corner) c, Real t)
+{
+    return rectified_interval_add(bounds, a.x + t * c.x, a.y + t * c.y, a.z + t * c.z);
+}
+
+/// The t of the extreme angle on a + t c, limited to a part; some t of it for an edge towards the eye or without length.
+GNOMON_DETAIL_KERNEL Real rectified_extreme(GNOMON_T(rectified_corner) a, GNOMON_T(rectified_corner) c, Real begin,
+                                            Real end)
+{
+    Real ac = rectified_dot(a, c);
+    Real t = (a.z * ac - c.z * rectified_dot(a, a)) / (c.z * ac - a.z * rectified_dot(c, c));
+    return clamp_or_nan(gnomon_select(t == t, t, begin), begin, end);
+}
+
+/// The angles so far and those of the edge from a to b, without b.
 GNOMON_DETAIL_KERNEL GNOMON_T(rectified_interval) rectified_interval_edge(GNOMON_T(rectified_interval) bounds,
+                                                                          GNOMON_T(rectified_corner) a,
+                                                                          GNOMON_T(rectified_corner) b)
+{
+    rectified_corner c = rectified_from_to(a, b);
+    rectified_interval r = rectified_interval_add(bounds, a.x, a.y, a.z);
+    return rectified_interval_along(r, a, c, rectified_extreme(a, c, Real(0), Real(1)));
+}
+
+/// The angles so far and those of a part of the edge from a to b; an empty part has none.
+GNOMON_DETAIL_KERNEL GNOMON_T(rectified_interval) rectified_interval_part(GNOMON_T(rectified_interval) bounds,
                                                                           GNOMON_T(rectified_corner) a,
                                                                           GNOMON_T(rectified_corner) b,
                                                                           GNOMON_T(rectified_part) part)
 {
     rectified_corner c = rectified_from_to(a, b);
-    Real ac = rectified_dot(a, c);
-    Real t = (a.z * ac - c.z * rectified_dot(a, a)) / (c.z * ac - a.z * rectified_dot(c, c));
-    rectified_interval r = rectified_interval_add(bounds, a, c, part.begin);
-    r = rectified_interval_add(r, a, c, part.end);
-    r = rectified_interval_add(r, a, c, clamp_or_high(t, part.begin, part.end));
+    rectified_interval r = rectified_interval_along(bounds, a, c, part.begin);
+    r = rectified_interval_along(r, a, c, part.end);
+    r = rectified_interval_along(r, a, c, rectified_extreme(a, c, part.begin, part.end));
     GNOMON_MASK empty = part.end < part.begin;
     r.least = gnomon_select(empty, bounds.least, r.least);
     r.most = gnomon_select(empty, bounds.most, r.most);
@@ -162,14 +184,11 @@ GNOMON_KERNEL GNOMON_T(rectified_frustum) rectified_frustum_from_corners(GNOMON_
     Real most = gnomon_max(a, gnomon_max(b, gnomon_max(c, gnomon_max(d, Real(0)))));
     GNOMON_MASK around = axis < Real(0) || Real(0) < axis || GNOMON_LITERAL(rectified_pi) < most - least;
 
-    GNOMON_T(rectified_part) whole;
-    whole.begin = Real(0);
-    whole.end = Real(1);
     rectified_interval polar = rectified_interval_begin(axis);
-    polar = rectified_interval_edge(polar, q.a, q.b, whole);
-    polar = rectified_interval_edge(polar, q.b, q.c, whole);
-    polar = rectified_interval_edge(polar, q.c, q.d, whole);
-    polar = rectified_interval_end(rectified_interval_edge(polar, q.d, q.a, whole));
+    polar = rectified_interval_edge(polar, q.a, q.b);
+    polar = rectified_interval_edge(polar, q.b, q.c);
+    polar = rectified_interval_edge(polar, q.c, q.d);
+    polar = rectified_interval_end(rectified_interval_edge(polar, q.d, q.a));
 
     GNOMON_T(rectified_frustum) r;
     r.radius = gnomon_sqrt(farthest.x * farthest.x + farthest.y * farthest.y);
@@ -212,7 +231,7 @@ GNOMON_DETAIL_KERNEL GNOMON_T(rectified_interval) rectified_row_edge(GNOMON_T(re
     part = rectified_part_left(part, a, b, Real(-1) * last.cosine, Real(-1) * last.sine);
     part.begin = gnomon_select(whole == Real(1), Real(0), part.begin);
     part.end = gnomon_select(whole == Real(1), Real(1), part.end);
-    return rectified_interval_edge(bounds, a, b, part);
+    return rectified_interval_part(bounds, a, b, part);
 }
 
 /// The polar angles of the view rays whose azimuths are between first and last, as those of one row; [0, pi] if no ray is
