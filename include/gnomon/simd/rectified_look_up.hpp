@@ -10,8 +10,10 @@
 
 #include "../passes/rectified_look_up.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <type_traits>
 
@@ -30,64 +32,124 @@ template <class Pack> struct float_lanes {
     float operator[](std::size_t i) const { return numbers[i]; }
     float& operator[](std::size_t i) { return numbers[i]; }
     Pack pack() const { return Pack::load_unaligned(numbers.data()); }
-};
 
-/// The places of rays in a map of prefix averages.
-template <class Pack> struct rectified_places_of_rays {
-    float_lanes<Pack> x, y;
-
-    rectified_places_of_rays(const rectified_frame& frame, const rectified_position<Pack>& position, std::size_t width,
-                             std::size_t height)
+    /// Whole numbers that are at least 0, as indices.
+    std::array<std::int32_t, count> indices() const
     {
-        const float step = rectified_radius_step(frame, width);
-        x = float_lanes<Pack>(step > 0 ? rectified_column_of(position.radius, Pack(step)) : position.radius);
-        y = float_lanes<Pack>(rectified_row_of(position.azimuth, Pack(frame.azimuth_start), Pack(frame.azimuth_length),
-                                               Pack(float(height))));
+        std::array<std::int32_t, count> r;
+        for (std::size_t i = 0; i < count; ++i) r[i] = static_cast<std::int32_t>(numbers[i]);
+        return r;
     }
 };
 
-/// The texels of a level that a ray's look-up mixes, and the shares of the upper ones.
-template <class Pack> struct rectified_texels {
-    std::array<neighbours, float_lanes<Pack>::count> nx, ny;
-    float_lanes<Pack> lower_share, upper_share; // along the lower row and along the upper one
+/// Neighbours of each lane, as numbers.
+template <class Pack> struct neighbours_of_rays {
+    Pack lower, upper, fraction;
 
-    /// level(i) is the map of lane i.
-    rectified_texels(const rectified_places_of_rays<Pack>& at, std::size_t width, std::size_t height, const auto& level,
-                     std::span<const rectified_row> rows, bool wraps)
+    neighbours_of_rays(const Pack& coordinate, const Pack& extent)
     {
-        float_lanes<Pack> before, wide, fraction, lower_depth, upper_depth;
-        bool are_alike = true;
-        for (std::size_t i = 0; i < nx.size(); ++i) {
-            const auto map = level(i);
-            const float w = float(width) / float(map.width), h = float(height) / float(map.height);
-            nx[i] = neighbours_of<border_mode::clamp>(at.x[i] * (float(map.width) / float(width)) - 0.5f, map.width);
-            ny[i] = rectified_rows_of(at.y[i] * (float(map.height) / float(height)), map.height, wraps);
-            const auto optical_depth = [&](std::size_t v) {
-                return rows[(std::min)(std::size_t((float(v) + 0.5f) * h), rows.size() - 1)].optical_depth;
-            };
-            before[i] = (float(nx[i].lower) + 0.5f) * w + 0.5f;
-            wide[i] = w;
-            fraction[i] = nx[i].fraction;
-            lower_depth[i] = optical_depth(ny[i].lower);
-            upper_depth[i] = optical_depth(ny[i].upper);
-            are_alike &= lower_depth[i] == upper_depth[i];
+        const Pack one(1.0f), none(0.0f);
+        const Pack x = gnomon_min(gnomon_max(coordinate, Pack(-0.0f)), extent - one), n = nearest_integer(x);
+        lower = gnomon_select(x < n, n - one, n);
+        fraction = x - lower;
+        upper = lower + gnomon_select(none < fraction, one, none);
+    }
+
+    /// Those of rectified_rows_of.
+    static neighbours_of_rays rows(const Pack& position, const Pack& rows, bool wraps)
+    {
+        const Pack half(0.5f), one(1.0f);
+        if (!wraps) return {position - half, rows};
+        neighbours_of_rays n(position + half, rows + Pack(2.0f));
+        const auto wrapped = [&](Pack row) {
+            row = row + (rows - one); // at most twice rows
+            for (int k = 0; k < 2; ++k) row = gnomon_select(row < rows, row, row - rows);
+            return row;
+        };
+        n.lower = wrapped(n.lower);
+        n.upper = wrapped(n.upper);
+        return n;
+    }
+};
+
+/// The maps of rays in a mip chain, each of a level of its own, as far as they have different levels.
+template <class Texel, class Pack> struct levels_of_rays {
+    std::array<const Texel*, float_lanes<Pack>::count> texels;
+    std::array<std::int32_t, float_lanes<Pack>::count> stride;
+    float_lanes<Pack> width, height;
+
+    levels_of_rays(mip_view<const Texel> mips, const std::array<std::int32_t, float_lanes<Pack>::count>& level)
+    {
+        map_view<const Texel> map = mips.level(std::size_t(level[0]));
+        for (std::size_t i = 0; i < level.size(); ++i) {
+            if (i > 0 && level[i] != level[i - 1]) map = mips.level(std::size_t(level[i]));
+            texels[i] = map.texels.data();
+            stride[i] = static_cast<std::int32_t>(map.width);
+            width[i] = float(map.width);
+            height[i] = float(map.height);
         }
-        const auto share = [&](const float_lanes<Pack>& depth) {
-            return float_lanes<Pack>(
-                transmittance_weight_between(before.pack(), wide.pack(), fraction.pack(), depth.pack()));
+    }
+};
+
+/// The look-up of rays at (x, y) of a map of width x height texels in levels of its mip chain: that of rectified_channels_of.
+template <texel_format Format, class Pack> class channels_of_rays {
+    static constexpr std::size_t lanes = float_lanes<Pack>::count;
+    using texel = format_texel<Format>;
+
+  public:
+    channels_of_rays(mip_view<const texel> mips, const std::array<std::int32_t, lanes>& level, const Pack& x,
+                     const Pack& y, std::span<const rectified_row> rows, bool wraps)
+        : map_(mips, level)
+    {
+        const Pack width = map_.width.pack(), height = map_.height.pack(), half(0.5f);
+        const Pack all_columns(float(mips.width)), all_rows(float(mips.height));
+        const neighbours_of_rays<Pack> nx(x * (width / all_columns) - half, width);
+        const auto ny = neighbours_of_rays<Pack>::rows(y * (height / all_rows), height, wraps);
+        const Pack wide = all_columns / width, high = all_rows / height;
+        const Pack before = (nx.lower + half) * wide + half;
+        const auto optical_depth = [&](const Pack& v) {
+            const auto of_map = float_lanes<Pack>((v + half) * high).indices();
+            float_lanes<Pack> r;
+            for (std::size_t i = 0; i < lanes; ++i)
+                r[i] = rows[(std::min)(std::size_t(of_map[i]), rows.size() - 1)].optical_depth;
+            return r.pack();
         };
-        lower_share = share(lower_depth);
-        upper_share = are_alike ? lower_share : share(upper_depth);
+        const Pack lower_depth = optical_depth(ny.lower), upper_depth = optical_depth(ny.upper);
+        const Pack share = transmittance_weight_between(before, wide, nx.fraction, lower_depth);
+        lower_share_ = float_lanes<Pack>(share);
+        upper_share_ = gnomon_any(!(lower_depth == upper_depth))
+                           ? float_lanes<Pack>(transmittance_weight_between(before, wide, nx.fraction, upper_depth))
+                           : lower_share_;
+        row_share_ = float_lanes<Pack>(ny.fraction);
+        left_ = float_lanes<Pack>(nx.lower).indices();
+        right_ = float_lanes<Pack>(nx.upper).indices();
+        lower_ = float_lanes<Pack>(ny.lower).indices();
+        upper_ = float_lanes<Pack>(ny.upper).indices();
+        for (std::size_t i = 0; i < lanes; ++i) lower_[i] *= map_.stride[i], upper_[i] *= map_.stride[i];
     }
 
-    template <texel_format Format>
-    channel_array<Format> mixed(std::size_t i, map_view<const format_texel<Format>> map) const
+    /// The channels of all rays, ray by ray.
+    void mixed(std::array<channel_array<Format>, lanes>& result) const
     {
-        const auto row = [&](std::size_t v, float share) {
-            return mix(load_channels<Format>(map(nx[i].lower, v)), load_channels<Format>(map(nx[i].upper, v)), share);
-        };
-        return mix(row(ny[i].lower, lower_share[i]), row(ny[i].upper, upper_share[i]), ny[i].fraction);
+        std::array<texel, 4 * lanes> texels;
+        for (std::size_t i = 0; i < lanes; ++i) {
+            const texel* map = map_.texels[i];
+            texels[4 * i] = map[lower_[i] + left_[i]];
+            texels[4 * i + 1] = map[lower_[i] + right_[i]];
+            texels[4 * i + 2] = map[upper_[i] + left_[i]];
+            texels[4 * i + 3] = map[upper_[i] + right_[i]];
+        }
+        std::array<channel_array<Format>, 4 * lanes> c;
+        load_row<Format>(texels.data(), c[0].data(), texels.size());
+        for (std::size_t i = 0; i < lanes; ++i)
+            result[i] = mix(mix(c[4 * i], c[4 * i + 1], lower_share_[i]),
+                            mix(c[4 * i + 2], c[4 * i + 3], upper_share_[i]), row_share_[i]);
     }
+
+  private:
+    levels_of_rays<texel, Pack> map_;
+    float_lanes<Pack> lower_share_, upper_share_, row_share_; // of the right texel in each row, and of the upper row
+    std::array<std::int32_t, lanes> left_, right_, lower_, upper_;
 };
 
 } // namespace detail
@@ -101,23 +163,24 @@ requires(!std::is_same_v<Pack, float>) Pack
 {
     using lanes = detail::float_lanes<Pack>;
     if (rows.empty()) return Pack(-1.0f);
-    const lanes row(rectified_row_of(position.azimuth, Pack(frame.azimuth_start), Pack(frame.azimuth_length),
-                                     Pack(float(rows.size()))));
-    lanes fraction, lower_middle, lower_scale, upper_middle, upper_scale;
-    for (std::size_t i = 0; i < lanes::count; ++i) {
-        const detail::neighbours n = detail::rectified_rows_of(row[i], rows.size(), frame.wraps());
-        fraction[i] = n.fraction;
-        lower_middle[i] = rows[n.lower].range.middle, lower_scale[i] = rows[n.lower].range.scale;
-        upper_middle[i] = rows[n.upper].range.middle, upper_scale[i] = rows[n.upper].range.scale;
-    }
+    const Pack count(float(rows.size()));
+    const auto n = detail::neighbours_of_rays<Pack>::rows(
+        rectified_row_of(position.azimuth, Pack(frame.azimuth_start), Pack(frame.azimuth_length), count), count,
+        frame.wraps());
     const bool is_polar = frame.depth == rectified_depth::polar;
     const Pack measure = is_polar ? position.polar : polynomial_cos(position.polar);
-    const auto depth = [&](const lanes& middle, const lanes& scale) {
+    const auto depth = [&](const Pack& row) {
+        const auto of = lanes(row).indices();
+        lanes middle, scale;
+        for (std::size_t i = 0; i < lanes::count; ++i) {
+            const rectified_range<float>& range = rows[std::size_t(of[i])].range;
+            middle[i] = range.middle, scale[i] = range.scale;
+        }
         const rectified_range<Pack> range{middle.pack(), scale.pack()};
         return is_polar ? rectified_polar_depth(measure, range) : rectified_cosine_depth(measure, range);
     };
-    const Pack a = depth(lower_middle, lower_scale), b = depth(upper_middle, upper_scale);
-    return a + fraction.pack() * (b - a);
+    const Pack a = depth(n.lower), b = depth(n.upper);
+    return a + n.fraction * (b - a);
 }
 
 /// Channels for the ends of view rays at positions, in a mip chain of prefix averages.
@@ -133,33 +196,34 @@ requires(!std::is_same_v<Pack, float>) format_channels<Format, Pack> rectified_c
     const auto put = [&](std::size_t i, const channel_array<Format>& c) {
         for (std::size_t k = 0; k < c.size(); ++k) result[k][i] = c[k];
     };
-    const bool is_empty = rows.empty() || mips.width == 0 || mips.height == 0;
-    const detail::rectified_places_of_rays<Pack> at(frame, position, mips.width, mips.height);
-    const lanes given(level);
-    std::array<detail::neighbours, lanes::count> levels;
-    bool is_between = false;
-    for (std::size_t i = 0; i < lanes::count; ++i) {
-        levels[i] = detail::neighbours_of<border_mode::clamp>(given[i], is_empty ? 1 : mips.levels());
-        is_between |= levels[i].fraction > 0;
-    }
-    const auto lower = [&](std::size_t i) { return mips.level(levels[i].lower); };
-    const auto upper = [&](std::size_t i) { return mips.level(levels[i].upper); };
-    if (!is_empty) {
-        const detail::rectified_texels<Pack> low(at, mips.width, mips.height, lower, rows, frame.wraps());
-        for (std::size_t i = 0; i < lanes::count; ++i) put(i, low.template mixed<Format>(i, lower(i)));
-        if (is_between) {
-            const detail::rectified_texels<Pack> high(at, mips.width, mips.height, upper, rows, frame.wraps());
-            for (std::size_t i = 0; i < lanes::count; ++i) {
-                if (!(levels[i].fraction > 0)) continue;
-                channel_array<Format> c;
-                for (std::size_t k = 0; k < c.size(); ++k) c[k] = result[k][i];
-                put(i, detail::mix(c, high.template mixed<Format>(i, upper(i)), levels[i].fraction));
-            }
-        }
-    }
     const auto border = gnomon_bit_cast<channel_array<Format>>(stored_border<Format>());
-    for (std::size_t i = 0; i < lanes::count; ++i)
-        if (is_empty || (std::isunordered)(at.x[i], at.y[i]) || (std::isnan)(given[i])) put(i, border);
+    if (rows.empty() || mips.width == 0 || mips.height == 0) {
+        for (std::size_t i = 0; i < lanes::count; ++i) put(i, border);
+        return gnomon_bit_cast<format_channels<Format, Pack>>(result);
+    }
+    const float step = rectified_radius_step(frame, mips.width);
+    const Pack x = step > 0 ? rectified_column_of(position.radius, Pack(step)) : position.radius;
+    const Pack y = rectified_row_of(position.azimuth, Pack(frame.azimuth_start), Pack(frame.azimuth_length),
+                                    Pack(float(mips.height)));
+    const detail::neighbours_of_rays<Pack> levels(level, Pack(float(mips.levels())));
+    std::array<channel_array<Format>, lanes::count> low, high;
+    const auto look_up = [&](const Pack& of, auto& to) {
+        detail::channels_of_rays<Format, Pack>(mips, lanes(of).indices(), x, y, rows, frame.wraps()).mixed(to);
+    };
+    look_up(levels.lower, low);
+    if (gnomon_any(Pack(0.0f) < levels.fraction)) {
+        look_up(levels.upper, high);
+        const lanes share(levels.fraction);
+        for (std::size_t i = 0; i < lanes::count; ++i)
+            if (share[i] > 0) low[i] = detail::mix(low[i], high[i], share[i]);
+    }
+    for (std::size_t i = 0; i < lanes::count; ++i) put(i, low[i]);
+    const auto known = x == x && y == y && level == level;
+    if (gnomon_any(!known)) {
+        const lanes is_known(gnomon_select(known, Pack(1.0f), Pack(0.0f)));
+        for (std::size_t i = 0; i < lanes::count; ++i)
+            if (!(is_known[i] > 0)) put(i, border);
+    }
     return gnomon_bit_cast<format_channels<Format, Pack>>(result);
 }
 
