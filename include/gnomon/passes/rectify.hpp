@@ -27,7 +27,7 @@ GNOMON_NAMESPACE_BEGIN
 
 namespace detail {
 
-/// Texels of a row that are rectified at once, and a number of each: loops over these become vectors.
+/// The texels of a row that are rectified at once, and a number for each of them. Loops over these become vectors.
 inline constexpr std::size_t rectify_texels = 64;
 using rectify_lanes = std::array<float, rectify_texels>;
 
@@ -41,8 +41,8 @@ struct rectified_mapping {
         : eye(light.z), length(1 / light.depths), range(row.range), far_plane(from)
     {}
 
-    /// Replaces depths of the map by depths of occluders in the row's range: 1 for a depth that is no occluder or NaN. Each loop
-    /// becomes vectors, one loop for all of them would not.
+    /// Replace depths of the map by depths of occluders in the row's range: 1 for a depth that is no occluder or NaN. Compilers
+    /// make vectors of each of these loops, and would not of a single one.
     template <rectified_depth measure> void apply(const rectify_lanes& radius, rectify_lanes& depth) const
     {
         constexpr std::size_t count = rectify_texels;
@@ -211,8 +211,8 @@ void rectify(map_view<const float> depths, const light_map& light, const rectifi
 }
 
 /// Fill the given rows of a rectified map, each texel with the mean over 4 x 4 texels of the map, which a cubic B-spline weights. The
-/// spline is as wide as the texel's footprint along each axis, and at least 4 texels of the map; of a wider one each fourth
-/// gives one texel.
+/// spline is as wide as two footprints of the texel along each axis, and at least 4 texels of the map. One texel of the map
+/// stands for each quarter of its width.
 template <storage_format Format>
 void rectify_filtered(map_view<const float> depths, const light_map& light, const rectified_frame& frame,
                       std::span<const rectified_row> rows, map_view<format_texel<Format>> target, row_range band)
