@@ -812,6 +812,27 @@ GNOMON_INLINE constexpr Real height_fog_weight(Real first, Real last, std::type_
     return before * attenuated_length(height_fog_amount(first, last, decay), extinction);
 }
 
+/// The share of the way from the average over a distance before to the average over before + length, for a ray that
+/// ends at before + f length, as transmittance_weight_between in a homogeneous medium. In [0, 1].
+/// Domain: before and length at least 0; f in [0, 1], clamped; decay and extinction as for height_fog_weight.
+/// NaN: 0, also where before and f are 0, or extinction is infinite.
+/// Error: (64 + 16 (1 + optical depth) decay (before + length)) 2^-p, by the magnitude of decay.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real height_fog_weight_between(Real before, Real length_, Real f,
+                                                       std::type_identity_t<Real> decay,
+                                                       std::type_identity_t<Real> extinction)
+{
+    Real none = Real(0);
+    Real part = saturate_or_zero(f) * length_;
+    Real falls = decay * before;
+    Real density = polynomial_exp(Real(-1) * gnomon_select(falls == falls, falls, none));
+    Real above = attenuated_length(density * height_fog_amount(none, part, decay), extinction) *
+                 attenuated_length(height_fog_amount(none, before + length_, decay), extinction);
+    Real below = attenuated_length(height_fog_amount(none, before + part, decay), extinction) *
+                 attenuated_length(density * height_fog_amount(none, length_, decay), extinction);
+    return saturate_or_zero(above / below);
+}
+
 GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif

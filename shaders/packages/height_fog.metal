@@ -383,6 +383,24 @@ inline float height_fog_weight(float first, float last, float decay, float extin
     return before * attenuated_length(height_fog_amount(first, last, decay), extinction);
 }
 
+/// The share of the way from the average over a distance before to the average over before + length, for a ray that
+/// ends at before + f length, as transmittance_weight_between in a homogeneous medium. In [0, 1].
+/// Domain: before and length at least 0; f in [0, 1], clamped; decay and extinction as for height_fog_weight.
+/// NaN: 0, also where before and f are 0, or extinction is infinite.
+/// Error: (64 + 16 (1 + optical depth) decay (before + length)) 2^-p, by the magnitude of decay.
+inline float height_fog_weight_between(float before, float length_, float f, float decay, float extinction)
+{
+    float none = 0.0f;
+    float part = saturate_or_zero(f) * length_;
+    float falls = decay * before;
+    float density = polynomial_exp(-1.0f * gnomon_select(falls == falls, falls, none));
+    float above = attenuated_length(density * height_fog_amount(none, part, decay), extinction) *
+                  attenuated_length(height_fog_amount(none, before + length_, decay), extinction);
+    float below = attenuated_length(height_fog_amount(none, before + part, decay), extinction) *
+                  attenuated_length(density * height_fog_amount(none, length_, decay), extinction);
+    return saturate_or_zero(above / below);
+}
+
 } // namespace gnomon
 
 #endif

@@ -317,3 +317,21 @@ fn height_fog_weight(first: f32, last: f32, decay: f32, extinction: f32) -> f32
     let before = transmittance_over(extinction * height_fog_amount(0.0, first, decay));
     return before * attenuated_length(height_fog_amount(first, last, decay), extinction);
 }
+
+/// The share of the way from the average over a distance before to the average over before + length, for a ray that
+/// ends at before + f length, as transmittance_weight_between in a homogeneous medium. In [0, 1].
+/// Domain: before and length at least 0; f in [0, 1], clamped; decay and extinction as for height_fog_weight.
+/// NaN: 0, also where before and f are 0, or extinction is infinite.
+/// Error: (64 + 16 (1 + optical depth) decay (before + length)) 2^-p, by the magnitude of decay.
+fn height_fog_weight_between(before: f32, length_: f32, f: f32, decay: f32, extinction: f32) -> f32
+{
+    let none = 0.0;
+    let part = saturate_or_zero(f) * length_;
+    let falls = decay * before;
+    let density = polynomial_exp(-1.0 * gnomon_select(falls == falls, falls, none));
+    let above = attenuated_length(density * height_fog_amount(none, part, decay), extinction) *
+                attenuated_length(height_fog_amount(none, before + length_, decay), extinction);
+    let below = attenuated_length(height_fog_amount(none, before + part, decay), extinction) *
+                attenuated_length(density * height_fog_amount(none, length_, decay), extinction);
+    return saturate_or_zero(above / below);
+}

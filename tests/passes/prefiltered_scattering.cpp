@@ -45,14 +45,14 @@ struct box_scene {
     double mean;
 
     box_scene(std::size_t from, std::size_t to, double height, rectified_depth depth, float extinction, float least,
-              float most)
+              float most, const rectified_fog& fog = {})
         : mean((double(least) + double(most)) / 2)
     {
         for (std::size_t k = 0; k < depths.size(); ++k)
             if (k % columns >= from && k % columns < to) depths[k] = float(0.25 + height * 0.01);
         frame.depth = depth;
-        rectified_rows(frame, rectified_frustum<float>{columns, -0.005f, 0.01f, least, most}, extinction, columns,
-                       rows);
+        rectified_rows(frame, rectified_frustum<float>{columns, -0.005f, 0.01f, least, most}, extinction, columns, rows,
+                       fog);
     }
     /// The shadow of a view ray that ends at radius, by exact distributions.
     [[nodiscard]] double shadow(double radius, double polar) const
@@ -115,6 +115,34 @@ TEST_CASE(
         else elsewhere = std::max(elsewhere, off);
     }
     CHECK(elsewhere > 1e-3); // transmittance is that of the mean angle
+}
+
+// The density along a ray that rises is e^(-decay distance), and its light is (1 - e^(-extinction amount)) / extinction.
+TEST_CASE("in height fog the shadow of a box is that in closed form along the mean ray, up and down")
+{
+    bit_source bits(5);
+    double homogeneous = 0;
+    for (std::int64_t i = 0; i < effort(2'000); ++i) {
+        const std::size_t from = 1 + bits.below(20), to = from + 1 + bits.below(15);
+        const double polar = bits.uniform(1, 2), radius = bits.uniform(0.5, columns), extinction = bits.uniform(0, 0.1);
+        const double around = bits.uniform(0, 6), across = bits.uniform(0, 1), sine = std::sin(polar);
+        const rectified_fog fog{float(bits.uniform(0, 0.08)), float(across * std::cos(around)),
+                                float(across * std::sin(around)), float(-std::sqrt(1 - across * across))};
+        const double decay = double(fog.falloff) * (sine * double(fog.up_x) + std::cos(polar) * double(fog.up_z));
+        const auto light = [&](double r) {
+            const double s = r / sine, amount = std::abs(decay) > 1e-9 ? -std::expm1(-decay * s) / decay : s;
+            return extinction > 0 ? -std::expm1(-extinction * amount) / extinction : amount;
+        };
+        const double first = std::min(double(from), radius), last = std::min(double(to), radius);
+        const double expected = (light(last) - light(first)) / light(radius);
+        const auto shadow = [&](const rectified_fog& f) {
+            const float a = float(polar - 0.3), b = float(polar + 0.3);
+            return box_scene(from, to, -300, rectified_depth::polar, float(extinction), a, b, f).shadow(radius, polar);
+        };
+        REQUIRE(std::abs(shadow(fog) - expected) < 5e-5);
+        homogeneous = std::max(homogeneous, std::abs(shadow({}) - expected));
+    }
+    CHECK(homogeneous > 0.02);
 }
 
 TEST_CASE_TEMPLATE("a ray without shadow gets all light but for (1 - beta) w_f, one in full shadow none by beta = 0",

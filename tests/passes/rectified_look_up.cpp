@@ -215,6 +215,7 @@ TEST_CASE("look-ups are total, and lit without a number or a map")
         const auto x = source.draw(), y = source.draw();
         const rectified_frame frame{x[0], x[1], x[2], i % 2 ? rectified_depth::polar : rectified_depth::cosine};
         m.rows[std::size_t(i) % 5].optical_depth = y[0];
+        m.rows[std::size_t(i) % 5].decay = i % 3 == 0 ? 0 : y[1];
         const rectified_position<float> p{x[3], x[4], x[5]};
         const auto c = rectified_channels<format>(m.mips(), frame, m.rows, p, x[6]);
         for (const float value : gnomon_bit_cast<channel_array<format>>(c)) REQUIRE((-1 <= value && value <= 1));

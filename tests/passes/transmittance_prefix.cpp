@@ -150,6 +150,23 @@ TEST_CASE_TEMPLATE("averages are convex, and equal texels stay what they are", F
     }
 }
 
+TEST_CASE("any medium gives averages of the texels")
+{
+    hostile_source<float> source(6);
+    for (std::int64_t i = 0; i < effort(20'000); ++i) {
+        const auto x = source.draw();
+        std::vector<moments4_float::texel> texels(70, {0.25f, 0.5f, 0, -1});
+        for (std::size_t k = 0; k < 70; k += 3) texels[k] = {0.75f, 0.125f, 1, 1};
+        const std::vector<rectified_row> rows{{1, 0, {0, 1}, x[0], x[1], x[2]}};
+        transmittance_prefix<moments4_float>({texels, 70, 1}, rows, {0, 1});
+        CHECK(texels[0] == moments4_float::texel{0.75f, 0.125f, 1, 1});
+        for (const auto& t : texels) {
+            REQUIRE((0.25f <= t[0] && t[0] <= 0.75f && 0.125f <= t[1] && t[1] <= 0.5f));
+            REQUIRE((0 <= t[2] && t[2] <= 1 && -1 <= t[3] && t[3] <= 1));
+        }
+    }
+}
+
 TEST_CASE_TEMPLATE("bands of rows give the map of one pass", Format, moments6_float, moments4_unorm16)
 {
     random_rows<Format> whole(130, 41, 3), banded(130, 41, 3);

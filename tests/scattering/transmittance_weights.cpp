@@ -168,3 +168,32 @@ TEST_CASE_TEMPLATE("shares of any weights are those of their sums: fog along ray
     CHECK(transmittance_share_add(transmittance_share_begin(T(0)), T(2)).share == 1);
     CHECK(transmittance_share_add(transmittance_share_begin(T(2)), std::numeric_limits<T>::infinity()).share == 0);
 }
+
+// Error: (64 + 16 (1 + optical depth) decay (before + length)) 2^-p.
+TEST_CASE_TEMPLATE("the weight between two averages in fog is exact, and without decay that of a homogeneous medium", T,
+                   float, double)
+{
+    bit_source bits(11);
+    for (std::int64_t i = 0; i < effort(50'000); ++i) {
+        const T before = T(bits.uniform(0, 100)), length = T(std::exp2(bits.uniform(0, 4))), f = T(bits.uniform(0, 1));
+        const T decay = T(bits.chance(0.2) ? 0 : bits.uniform(-0.05, 0.05)), extinction = T(bits.uniform(0, 0.05));
+        // The light from one distance to another, relative to the transmittance up to the first.
+        const auto amount = [&](wide from, wide to) {
+            const wide rate = wide(decay);
+            return decay == 0 ? to - from : std::exp(-rate * from) * -std::expm1(-rate * (to - from)) / rate;
+        };
+        const auto light = [&](wide from, wide to) {
+            const wide rate = wide(extinction);
+            return rate > 0 ? -std::expm1(-rate * amount(from, to)) / rate : amount(from, to);
+        };
+        const wide start = wide(before), end = start + wide(f) * wide(length), whole = start + wide(length);
+        const wide exact = light(start, end) * light(0, whole) / (light(0, end) * light(start, whole));
+        const T found = height_fog_weight_between(before, length, f, decay, extinction);
+        const double reach = std::abs(double(decay)) * double(whole);
+        const double allowed = 64 + 16 * (1 + double(wide(extinction) * amount(0, whole))) * reach;
+        REQUIRE(std::abs(double(wide(found) - exact)) <= allowed * u<T>);
+        if (decay == 0)
+            REQUIRE(std::abs(double(found) - double(transmittance_weight_between(before, length, f, extinction))) <=
+                    64 * u<T>);
+    }
+}

@@ -43,8 +43,12 @@ template <class Format> struct random_map {
         for (rectified_row& r : rows)
             r = are_alike && &r != rows.data()
                     ? rows[0]
-                    : rectified_row{1, 0, rectified_polar_range(0.2f, float(bits.uniform(0.3, 3))), 1,
-                                    float(bits.chance(0.2) ? 0 : std::exp2(bits.uniform(-12, 2)))};
+                    : rectified_row{1,
+                                    0,
+                                    rectified_polar_range(0.2f, float(bits.uniform(0.3, 3))),
+                                    1,
+                                    float(bits.chance(0.2) ? 0 : std::exp2(bits.uniform(-12, 2))),
+                                    float(bits.chance(0.6) ? 0 : bits.uniform(-0.1, 0.1))};
         for (auto& t : texels) t = Format::encode(Format::from_depth(float(bits.uniform(-1, 1))));
     }
     [[nodiscard]] mip_view<const format_texel<Format>> mips() const { return {texels, width, height}; }

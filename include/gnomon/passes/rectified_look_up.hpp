@@ -35,6 +35,15 @@ inline rectified_place rectified_place_of(const rectified_frame& frame, const re
             rectified_row_of(position.azimuth, frame.azimuth_start, frame.azimuth_length, float(height))};
 }
 
+/// The share of the way from one average to the next, of a ray that ends a fraction of the way from one to the other.
+template <class Real> Real rectified_share(Real before, Real wide, Real fraction, Real optical_depth, Real decay)
+{
+    const Real share = transmittance_weight_between(before, wide, fraction, optical_depth);
+    const auto is_even = decay == Real(0);
+    if (!gnomon_any(!is_even)) return share;
+    return gnomon_select(is_even, share, height_fog_weight_between(before, wide, fraction, decay, optical_depth));
+}
+
 /// Channels at (x, y) of a level of a map whose texels are wide columns of the map, and high rows.
 template <texel_format Format>
 channel_array<Format> rectified_channels_of(map_view<const format_texel<Format>> map, float x, float y, float wide,
@@ -43,16 +52,19 @@ channel_array<Format> rectified_channels_of(map_view<const format_texel<Format>>
     const neighbours nx = neighbours_of<border_mode::clamp>(x - 0.5f, map.width);
     const neighbours ny = rectified_rows_of(y, map.height, wraps);
     const float before = (float(nx.lower) + 0.5f) * wide + 0.5f;
-    const auto optical_depth = [&](std::size_t v) {
-        return rows[(std::min)(std::size_t((float(v) + 0.5f) * high), rows.size() - 1)].optical_depth;
+    const auto medium = [&](std::size_t v) -> const rectified_row& {
+        return rows[(std::min)(std::size_t((float(v) + 0.5f) * high), rows.size() - 1)];
     };
-    const auto share_in = [&](float depth) { return transmittance_weight_between(before, wide, nx.fraction, depth); };
-    const float lower = optical_depth(ny.lower), upper = optical_depth(ny.upper);
+    const auto share_in = [&](const rectified_row& r) {
+        return rectified_share(before, wide, nx.fraction, r.optical_depth, r.decay);
+    };
+    const rectified_row &lower = medium(ny.lower), &upper = medium(ny.upper);
+    const bool are_alike = lower.optical_depth == upper.optical_depth && lower.decay == upper.decay;
     const float share = share_in(lower);
     const auto row = [&](std::size_t v, float t) {
         return mix(load_channels<Format>(map(nx.lower, v)), load_channels<Format>(map(nx.upper, v)), t);
     };
-    return mix(row(ny.lower, share), row(ny.upper, lower == upper ? share : share_in(upper)), ny.fraction);
+    return mix(row(ny.lower, share), row(ny.upper, are_alike ? share : share_in(upper)), ny.fraction);
 }
 
 } // namespace detail

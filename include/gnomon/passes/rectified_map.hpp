@@ -13,6 +13,7 @@
 #ifndef GNOMON_PASSES_RECTIFIED_MAP_HPP
 #define GNOMON_PASSES_RECTIFIED_MAP_HPP
 
+#include "../scattering/height_fog.h"
 #include "../scattering/rectified_frustum.h"
 #include "../scattering/transmittance_weights.h"
 #include "map_view.hpp"
@@ -38,11 +39,18 @@ struct rectified_frame {
     [[nodiscard]] bool wraps() const { return azimuth_length > 6.28318f; }
 };
 
-/// A row of a rectified map: the direction of its middle, its range of depth, and the transmittance and optical depth of a texel.
+/// A row of a rectified map: the direction of its middle, its range of depth, and the transmittance and optical depth of a texel
+/// in the medium at the eye, whose density changes by e^-decay from texel to texel.
 struct rectified_row {
     float cosine = 1, sine = 0;
     rectified_range<float> range = {0, 1};
-    float factor = 1, optical_depth = 0;
+    float factor = 1, optical_depth = 0, decay = 0;
+};
+
+/// A medium whose density falls by e^-falloff for each unit of height (scattering/height_fog.h), up being a direction of unit length
+/// in the light's axes; a homogeneous one without falloff.
+struct rectified_fog {
+    float falloff = 0, up_x = 0, up_y = 0, up_z = -1;
 };
 
 /// The frame of the bounds of view rays.
@@ -85,11 +93,18 @@ inline float rectified_mean_sine(rectified_interval<float> polar)
 }
 
 inline rectified_row rectified_row_over(const rectified_frame& frame, rectified_interval<float> polar, float sine,
-                                        float extinction, float radius_step, float azimuth)
+                                        float extinction, float radius_step, float azimuth, const rectified_fog& fog)
 {
     const cosine_sine<float> direction = polynomial_cosine_sine(azimuth);
-    return {direction.cosine, direction.sine, rectified_range_of(frame.depth, polar),
-            transmittance_step(extinction, radius_step, sine), extinction * radius_step / sine};
+    const float texel = radius_step / sine;
+    const float rise = sine * (direction.cosine * fog.up_x + direction.sine * fog.up_y) +
+                       polynomial_cos(0.5f * (polar.least + polar.most)) * fog.up_z;
+    return {direction.cosine,
+            direction.sine,
+            rectified_range_of(frame.depth, polar),
+            transmittance_step(extinction, radius_step, sine),
+            extinction * radius_step / sine,
+            fog.falloff > 0 ? fog.falloff * rise * texel : 0};
 }
 
 inline void expect_rectified_rows(std::size_t columns, std::span<const rectified_row> rows)
@@ -100,9 +115,9 @@ inline void expect_rectified_rows(std::size_t columns, std::span<const rectified
 } // namespace detail
 
 /// Fill the rows of a map of that many columns, all with the same range of depth and the same transmittance of a texel: those of
-/// the view rays' interval of polar angles and of its middle (Peters et al. 2017, Sec. 5.1.1).
+/// the view rays' interval of polar angles and of its middle (Peters et al. 2017, Sec. 5.1.1). extinction is that at the eye.
 inline void rectified_rows(const rectified_frame& frame, const rectified_frustum<float>& bounds, float extinction,
-                           std::size_t columns, std::span<rectified_row> rows)
+                           std::size_t columns, std::span<rectified_row> rows, const rectified_fog& fog = {})
 {
     detail::expect_rectified_rows(columns, rows);
     const rectified_interval<float> polar{bounds.polar_least, bounds.polar_most};
@@ -110,14 +125,14 @@ inline void rectified_rows(const rectified_frame& frame, const rectified_frustum
     const float step = frame.azimuth_length / float(rows.size());
     for (std::size_t v = 0; v < rows.size(); ++v)
         rows[v] = detail::rectified_row_over(frame, polar, sine, extinction, rectified_radius_step(frame, columns),
-                                             frame.azimuth_start + (float(v) + 0.5f) * step);
+                                             frame.azimuth_start + (float(v) + 0.5f) * step, fog);
 }
 
 /// Fill the rows of a map of that many columns, each with the range of depth of the view rays that read it, and the
 /// transmittance of a texel for their mean sine: rays of its azimuths and of half a row on either side, between which look-ups
 /// interpolate.
 inline void rectified_rows(const rectified_frame& frame, const rectified_corners<float>& far_plane, float extinction,
-                           std::size_t columns, std::span<rectified_row> rows)
+                           std::size_t columns, std::span<rectified_row> rows, const rectified_fog& fog = {})
 {
     detail::expect_rectified_rows(columns, rows);
     const float step = frame.azimuth_length / float(rows.size());
@@ -125,7 +140,7 @@ inline void rectified_rows(const rectified_frame& frame, const rectified_corners
         const float middle = frame.azimuth_start + (float(v) + 0.5f) * step;
         const rectified_interval<float> polar = rectified_row_polar(far_plane, middle - step, middle + step);
         rows[v] = detail::rectified_row_over(frame, polar, detail::rectified_mean_sine(polar), extinction,
-                                             rectified_radius_step(frame, columns), middle);
+                                             rectified_radius_step(frame, columns), middle, fog);
     }
 }
 

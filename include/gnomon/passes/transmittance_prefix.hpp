@@ -30,13 +30,33 @@ class prefix_weights {
   public:
     std::array<double, prefix_texels> weight, scale;
 
-    explicit prefix_weights(double factor)
+    explicit prefix_weights(const rectified_row& row) : depth_(row.optical_depth), decay_(row.decay)
     {
+        const double factor = clamp_or_high(double(row.factor), 0.0, 1.0);
         for (std::size_t k = 1; k <= step; ++k) {
             powers_[k] = powers_[k - 1] * factor;
             sums_[k] = sums_[k - 1] + powers_[k];
         }
+        const float first = fog_weight(0);
+        is_fog_ = !(decay_ == 0) && first > 0;
+        if (is_fog_) next_ = 1 / double(first);
     }
+
+    /// Fill in the weights of the texels from first on, those of the block after the last.
+    void advance(std::size_t first)
+    {
+        if (is_fog_) advance_in_fog(first);
+        else advance();
+    }
+
+  private:
+    /// Fill in the weights of a row in a medium whose density changes, relative to the first.
+    void advance_in_fog(std::size_t first)
+    {
+        for (std::size_t i = 0; i < prefix_texels; ++i) weight[i] = next_ * double(fog_weight(float(first + i)));
+        for (std::size_t i = 0; i < prefix_texels; ++i) scale[i] = 1 / (sum_ += weight[i]);
+    }
+    [[nodiscard]] float fog_weight(float texel) const { return height_fog_weight(texel, texel + 1, decay_, depth_); }
 
     /// Fill in the next block.
     void advance()
@@ -58,10 +78,11 @@ class prefix_weights {
         sum_ = sum;
     }
 
-  private:
     static constexpr std::size_t step = 8;
     std::array<double, step + 1> powers_{1}, sums_{1}; // of the factor, and up to each
     double next_ = 1, sum_ = 0;                        // the weight of the next texel, and the sum of those before
+    float depth_, decay_;
+    bool is_fog_;
 };
 
 /// The weighted sum of a channel; and of two and four, as vectors of the compiler.
@@ -171,15 +192,15 @@ template <texel_format Format> void lighten_unknown(std::span<float> numbers)
 }
 
 /// Replace the texels of a row by their averages.
-template <texel_format Format> void average_row(std::span<format_texel<Format>> row, double factor)
+template <texel_format Format> void average_row(std::span<format_texel<Format>> row, const rectified_row& medium)
 {
     constexpr std::size_t channels = channel_count<Format>;
-    prefix_weights weights(factor);
+    prefix_weights weights(medium);
     prefix_sums<channels> sums;
     std::array<float, prefix_texels * channels> numbers;
     for (std::size_t first = 0; first < row.size(); first += prefix_texels) {
         const auto texels = row.subspan(first, (std::min)(prefix_texels, row.size() - first));
-        weights.advance();
+        weights.advance(first);
         const auto before = sums;
         if constexpr (holds_numbers<Format>) {
             sums.add(weights, texels.front().data(), numbers.data(), texels.size());
@@ -209,7 +230,7 @@ void transmittance_prefix(map_view<format_texel<Format>> map, std::span<const re
     expect_rectified(pass, "map", map, rows);
     expect_rows(pass, map, band);
     for (std::size_t v = band.first; v < band.last; ++v)
-        detail::average_row<Format>(std::span(&map(0, v), map.width), clamp_or_high(double(rows[v].factor), 0.0, 1.0));
+        detail::average_row<Format>(std::span(&map(0, v), map.width), rows[v]);
 }
 
 GNOMON_NAMESPACE_END

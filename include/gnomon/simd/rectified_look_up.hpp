@@ -107,19 +107,22 @@ template <texel_format Format, class Pack> class channels_of_rays {
         const auto ny = neighbours_of_rays<Pack>::rows(y * (height / all_rows), height, wraps);
         const Pack wide = all_columns / width, high = all_rows / height;
         const Pack before = (nx.lower + half) * wide + half;
-        const auto optical_depth = [&](const Pack& v) {
+        const auto medium = [&](const Pack& v) {
             const auto of_map = float_lanes<Pack>((v + half) * high).indices();
-            float_lanes<Pack> r;
-            for (std::size_t i = 0; i < lanes; ++i)
-                r[i] = rows[(std::min)(std::size_t(of_map[i]), rows.size() - 1)].optical_depth;
-            return r.pack();
+            float_lanes<Pack> depth, decay;
+            for (std::size_t i = 0; i < lanes; ++i) {
+                const rectified_row& row = rows[(std::min)(std::size_t(of_map[i]), rows.size() - 1)];
+                depth[i] = row.optical_depth, decay[i] = row.decay;
+            }
+            return std::array{depth.pack(), decay.pack()};
         };
-        const Pack lower_depth = optical_depth(ny.lower), upper_depth = optical_depth(ny.upper);
-        const Pack share = transmittance_weight_between(before, wide, nx.fraction, lower_depth);
-        lower_share_ = float_lanes<Pack>(share);
-        upper_share_ = gnomon_any(!(lower_depth == upper_depth))
-                           ? float_lanes<Pack>(transmittance_weight_between(before, wide, nx.fraction, upper_depth))
-                           : lower_share_;
+        const auto share_in = [&](const std::array<Pack, 2>& m) {
+            return float_lanes<Pack>(rectified_share(before, wide, nx.fraction, m[0], m[1]));
+        };
+        const auto lower = medium(ny.lower), upper = medium(ny.upper);
+        lower_share_ = share_in(lower);
+        const bool are_alike = !gnomon_any(!(lower[0] == upper[0] && lower[1] == upper[1]));
+        upper_share_ = are_alike ? lower_share_ : share_in(upper);
         row_share_ = float_lanes<Pack>(ny.fraction);
         left_ = float_lanes<Pack>(nx.lower).indices();
         right_ = float_lanes<Pack>(nx.upper).indices();
