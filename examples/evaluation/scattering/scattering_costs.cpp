@@ -246,7 +246,8 @@ table_block ratios(const std::vector<measured_method>& methods, std::span<const 
         .title = "How much cheaper than ray marching with 128 steps",
         .text = fmt::format(
             "Of a picture of {} x {} with maps of {} x {} texels: the time of 128 steps through a map of 16 "
-            "bits over that of the method. From scene to scene: the slowest look-up over the fastest.",
+            "bits over that of the method. From scene to scene: the slowest look-up over the fastest. "
+            "Prefiltered maps read two mip levels where a pixel covers more than one row, else one.",
             usual_width, usual_width * 9 / 16, maps.usual(), maps.usual()),
         .columns = {{.key = "method", .label = "method"},
                     {.key = "look_up", .label = "look-up", .digits = 2, .best = best::high},
