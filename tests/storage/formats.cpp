@@ -84,6 +84,17 @@ TEST_CASE_TEMPLATE("an occluder over half of the filter region casts half a shad
 }
 
 // A minimum variance of 99 e^2 darkens by 1% where the mean is off by e, three roundings of a depth.
+TEST_CASE_TEMPLATE("channels of moments give these back", Format, moments4_unorm16, moments4_half, moments4_float)
+{
+    for (double z = -1; z < 1; z += 0.01) {
+        const moments4<double> b = moments4_from_depth(z), back = Format::to_moments(Format::from_moments(b));
+        CHECK(std::abs(back.b1 - b.b1) < 1e-15);
+        CHECK(std::abs(back.b2 - b.b2) < 1e-15);
+        CHECK(std::abs(back.b3 - b.b3) < 1e-15);
+        CHECK(std::abs(back.b4 - b.b4) < 1e-15);
+    }
+}
+
 TEST_CASE("the settings of formats are those that their comments derive")
 {
     const auto against = [](double rounding) { return 99 * (3 * rounding) * (3 * rounding); };

@@ -66,11 +66,10 @@ void load_row(const format_texel<Format>* from, float* numbers, std::size_t coun
         if (stride == 1) return Format::decode_row(from, numbers, count);
         if constexpr (!holds_numbers<Format>) {
             std::array<format_texel<Format>, 16> texels;
-            for (; count > 0; from += stride * texels.size(), numbers += texels.size() * channel_count<Format>) {
-                const std::size_t some = (std::min)(count, texels.size());
-                for (std::size_t i = 0; i < some; ++i) texels[i] = from[i * stride];
-                Format::decode_row(texels.data(), numbers, some);
-                count -= some;
+            for (std::size_t done = 0; done < count; done += texels.size()) {
+                const std::size_t some = (std::min)(count - done, texels.size());
+                for (std::size_t i = 0; i < some; ++i) texels[i] = from[(done + i) * stride];
+                Format::decode_row(texels.data(), numbers + done * channel_count<Format>, some);
             }
             return;
         }
@@ -89,11 +88,10 @@ void store_row(const float* numbers, format_texel<Format>* to, std::size_t count
         if (stride == 1) return Format::encode_row(numbers, to, count);
         if constexpr (!holds_numbers<Format>) {
             std::array<format_texel<Format>, 16> texels;
-            for (; count > 0; to += stride * texels.size(), numbers += texels.size() * channel_count<Format>) {
-                const std::size_t some = (std::min)(count, texels.size());
-                Format::encode_row(numbers, texels.data(), some);
-                for (std::size_t i = 0; i < some; ++i) to[i * stride] = texels[i];
-                count -= some;
+            for (std::size_t done = 0; done < count; done += texels.size()) {
+                const std::size_t some = (std::min)(count - done, texels.size());
+                Format::encode_row(numbers + done * channel_count<Format>, texels.data(), some);
+                for (std::size_t i = 0; i < some; ++i) to[(done + i) * stride] = texels[i];
             }
             return;
         }

@@ -29,9 +29,9 @@ struct unorm10_words {
     {
         constexpr std::size_t block = 16;
         std::array<std::uint16_t, 6 * block> codes{};
-        for (std::size_t done = 0; done < count; done += block, numbers += 6 * block) {
+        for (std::size_t done = 0; done < count; done += block) {
             const std::size_t texels = (std::min)(block, count - done);
-            unorm_encode_row<10>(numbers, codes.data(), 6 * texels);
+            unorm_encode_row<10>(numbers + 6 * done, codes.data(), 6 * texels);
             for (std::size_t i = 0; i < texels; ++i)
                 to[done + i] = {packed(codes.data() + 6 * i), packed(codes.data() + 6 * i + 3)};
         }
