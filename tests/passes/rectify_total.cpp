@@ -58,7 +58,7 @@ TEST_CASE_TEMPLATE("any numbers give texels that shadow between nothing and all"
         const map_view<format_texel<Format>> map(texels, 12, 3);
         const auto check = [&] {
             for (const auto& t : texels) {
-                const float shadow = Format::filtered_intensity(Format::decode(t), b[i % 7]);
+                const float shadow = Format::filtered_intensity(Format::decode(t), b[std::size_t(i) % 7]);
                 REQUIRE((0 <= shadow && shadow <= 1));
                 REQUIRE(are_known(Format::decode(t)));
             }

@@ -21,7 +21,7 @@ template <class Format> using numbers = std::array<long double, channel_count<Fo
 
 /// The averages of the texels of a row up to each, with weights that fall by factor.
 template <class Format>
-std::vector<numbers<Format>> averages_of(std::span<const format_texel<Format>> row, long double factor)
+std::vector<numbers<Format>> averages_of(std::span<const format_texel<Format>> row, float factor)
 {
     std::vector<numbers<Format>> r;
     numbers<Format> sum{};
@@ -34,7 +34,7 @@ std::vector<numbers<Format>> averages_of(std::span<const format_texel<Format>> r
             sum[k] += weight * static_cast<long double>(c[k]);
             r.back()[k] = sum[k] / whole;
         }
-        weight *= factor;
+        weight *= static_cast<long double>(factor);
     }
     return r;
 }
