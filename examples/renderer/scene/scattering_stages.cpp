@@ -237,7 +237,8 @@ scattering_stage gate_stage(double aspect, float time)
     const double aside = 0.3 * static_cast<double>(time);
     scattering_stage result =
         staged(world, {0.22, -0.42, 0.88}, {{0.9 + aside, 1.6, 7.0}, {0.1 + aside, 2.4, 0}, 46}, air, aspect);
-    result.interests = {{"bars", "shadows of the bars", {0.6f, 1.2f, 2}, orange}};
+    result.interests = {{"bars", "shadows of the bars", {0.6f, 1.2f, 2}, orange},
+                        {"rays", "rays beside the gate", {-3.5f, 2.2f, 0}, green}};
     return result;
 }
 
