@@ -32,17 +32,18 @@ std::string magnified_places::colour(std::size_t place) const
 
 picture magnified_places::figure(const picture& whole) const
 {
-    return figure(whole, 1, std::vector<glm::vec3>(crops_.size(), glm::vec3(0)));
+    return figure(whole, whole, 1, std::vector<glm::vec3>(crops_.size(), glm::vec3(0)));
 }
 
-picture magnified_places::figure(const picture& whole, float contrast, std::span<const glm::vec3> middles) const
+picture magnified_places::figure(const picture& whole, const picture& details, float contrast,
+                                  std::span<const glm::vec3> middles) const
 {
     if (crops_.empty()) return whole;
     picture framed = whole;
     std::vector<picture> magnified;
     for (std::size_t i = 0; i < crops_.size(); ++i) {
         outline(framed, crops_[i], places_[i].colour);
-        picture inset = magnify(whole, crops_[i], magnification);
+        picture inset = magnify(details, crops_[i], magnification);
         if (contrast > 1)
             for (glm::vec3& c : inset.pixels) c = middles[i] + contrast * (c - middles[i]);
         outline(inset, {4, 4, inset.width - 8, inset.height - 8}, places_[i].colour, 4);

@@ -26,8 +26,10 @@ class magnified_places {
     // The picture with the places framed, above the places magnified.
     renderer::picture figure(const renderer::picture& whole) const;
 
-    // The same with the contrast of each magnified place stretched by a factor about a colour.
-    renderer::picture figure(const renderer::picture& whole, float contrast, std::span<const glm::vec3> middles) const;
+    // The picture with the places framed, above the places of another picture of its size, magnified and with their contrast
+    // stretched by a factor about a colour for each.
+    renderer::picture figure(const renderer::picture& whole, const renderer::picture& details, float contrast,
+                             std::span<const glm::vec3> middles) const;
 
   private:
     std::vector<renderer::point_of_interest> places_;

@@ -1,5 +1,7 @@
 #include "rectified_scene.hpp"
 
+#include "rectified_occluders.hpp"
+
 #include <gnomon/passes/rectified_look_up.hpp>
 
 #include <fmt/format.h>
@@ -20,19 +22,6 @@ rectified_corners<float> corners_of(const scattering_scene& scene)
     };
     return {corner(0), corner(1), corner(2), corner(3)};
 }
-
-// Occluders of a texel: depths and their weights.
-template <std::size_t count> struct occluders {
-    std::array<float, count> depths, weights;
-
-    double share_before(double z_f) const
-    {
-        double result = 0;
-        for (std::size_t i = 0; i < count; ++i)
-            if (double(depths[i]) < z_f) result += double(weights[i]);
-        return result;
-    }
-};
 
 // The look-up of rectified_look_up.hpp, in double, on counts of occluders in place of channels.
 template <class Texel> class counted_look_up {
@@ -71,13 +60,13 @@ template <class Texel> class counted_look_up {
     double of_row(const rectified_ray& ray, float x, std::size_t v, std::size_t size) const
     {
         const rectified_row& row = map_.rows[v];
-        const double z_f = double(rectified_depth_of(map_.frame.depth, ray.position.polar, row.range));
+        const float z_f = rectified_depth_of(map_.frame.depth, ray.position.polar, row.range);
         const gnomon::detail::neighbours n = gnomon::detail::neighbours_of<border_mode::clamp>(
             x / float(size) - 0.5f, std::max<std::size_t>(map_.columns / size, 1));
         double weight = 1, all = 0, shadowed = 0, lower = 0, upper = 0;
         for (std::size_t u = 0; u < (n.upper + 1) * size; ++u) {
             all += weight;
-            shadowed += weight * texels_(int(u), int(v)).share_before(z_f);
+            shadowed += weight * double(texels_(int(u), int(v)).share_before(z_f));
             weight *= double(row.factor);
             if (u / size == n.lower) lower += shadowed / all;
             if (u / size == n.upper) upper += shadowed / all;
@@ -91,11 +80,14 @@ template <class Texel> class counted_look_up {
     const renderer::image<Texel>& texels_;
 };
 
-template <class Texel>
-std::vector<float> counted(const rectified_scene& map, const renderer::image<Texel>& texels,
-                           std::span<const view_segment> where)
+// occluders(u, v) returns those of a texel.
+std::vector<float> counted(const rectified_scene& map, std::span<const view_segment> where, const auto& occluders)
 {
-    const counted_look_up<Texel> look_up(map, texels);
+    renderer::image<decltype(occluders(0, 0))> texels(int(map.columns), int(map.rows.size()));
+    tbb::parallel_for(0, texels.height, [&](int v) {
+        for (int u = 0; u < texels.width; ++u) texels(u, v) = occluders(std::size_t(u), std::size_t(v));
+    });
+    const counted_look_up look_up(map, texels);
     std::vector<float> result(where.size());
     tbb::parallel_for(std::size_t(0), where.size(),
                       [&](std::size_t i) { result[i] = float(look_up.visibility(map.ray(rays_of<float>(where, i)))); });
@@ -126,12 +118,18 @@ rectified_scene::rectified_scene(const scattering_scene& scene, const rectified_
 
 std::vector<float> rectified_scene::exact(std::span<const view_segment> where) const
 {
-    renderer::image<float> depths(int(columns), int(rows.size()));
-    rectify_depths(scene_.depths.plain(), scene_.map, frame, rows, {depths.pixels, columns, rows.size()},
-                   {0, rows.size()});
-    renderer::image<occluders<1>> texels(depths.width, depths.height);
-    for (std::size_t i = 0; i < depths.pixels.size(); ++i) texels.pixels[i] = {{depths.pixels[i]}, {1}};
-    return counted(*this, texels, where);
+    const rectified_plan plan{scene_.map, frame, rows, columns};
+    const auto by = [&](const auto& occluders, const auto& source) {
+        return counted(*this, where, [&](std::size_t u, std::size_t v) { return occluders(plan, source, u, v); });
+    };
+    switch (options_.source) {
+        case rectified_source::texel:
+            return by(occluders_of_texel, scene_.depths.plain());
+        case rectified_source::texels:
+            return by(occluders_of_texels, scene_.depths.plain());
+        default:
+            return by(occluders_of_moments, scene_.depths.filtered());
+    }
 }
 
 } // namespace gnomon::evaluation

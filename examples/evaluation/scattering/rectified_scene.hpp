@@ -22,9 +22,12 @@ enum class rectified_source { texel, texels, moments };
 
 struct rectified_options {
     rectified_source source = rectified_source::texels;
-    rectified_depth depth = rectified_depth::polar;
-    bool range_per_row = false; // of polar angles; else the range of the whole view frustum, as in the paper
+    rectified_depth depth = rectified_depth::cosine;
+    bool range_per_row = true; // of polar angles; else the range of the whole view frustum, as in the paper
 };
+
+// The setting of the paper.
+constexpr rectified_options paper_options(rectified_source source) { return {source, rectified_depth::polar, false}; }
 
 // An id of the weights that exact() applies.
 std::string id_of(const rectified_options& options);

@@ -38,11 +38,11 @@ class comparison {
             found_.parts.push_back({place.id, place.name, places_.colour(i)});
         }
         begin(scattering_references[1].label);
-        traced_ = view.traced();
-        const picture truth = shown(traced_);
-        for (std::size_t i = 0; i < places_.size(); ++i) middles_.push_back(mean(truth, places_.crop(i)));
+        traced_ = view.traced(view.where);
+        const picture scattered = reduced(view_.scattered(traced_), how.supersampling);
+        for (std::size_t i = 0; i < places_.size(); ++i) middles_.push_back(mean(scattered, places_.crop(i)));
         found_.picture = file("traced");
-        write_png(folder_ / found_.picture, figure(truth));
+        write_png(folder_ / found_.picture, figure(traced_));
     }
 
     void add(const scattering_method& m)
@@ -53,7 +53,7 @@ class comparison {
         std::vector<float> scratch(timed_.size());
         std::vector<measured_time> times;
         for (const timed_look_up& t : map->timed(timed_))
-            times.push_back({t.lanes, nanoseconds(t.kernel, scratch, 0.01), nanoseconds(t.look_up, scratch, 0.01)});
+            times.push_back({t.lanes, nanoseconds(t.kernel, scratch, 0.005), nanoseconds(t.look_up, scratch, 0.005)});
         scattering_row_set result{&m, file(m.id), file(m.id + "-error"), {}, map->passes()};
         report_row row = row_of(m);
         row.scene = found_.scene.id;
@@ -91,7 +91,7 @@ class comparison {
     {
         if (drawing_.valid()) drawing_.get();
         drawing_ = std::async(std::launch::async, [this, visibility, shaded = of.picture, error = of.error] {
-            write_png(folder_ / shaded, figure(shown(visibility)));
+            write_png(folder_ / shaded, figure(visibility));
             const picture colours = error_picture(pixels(visibility), pixels(traced_), scattering_error_scale);
             write_png(folder_ / error, places_.figure(colours));
         });
@@ -113,12 +113,13 @@ class comparison {
         return reduced(result, found_.how.supersampling);
     }
 
-    picture shown(std::span<const float> visibility) const
+    // Magnified places show the light from the air alone.
+    picture figure(std::span<const float> visibility) const
     {
-        return reduced(view_.shown(visibility), found_.how.supersampling);
+        const auto small = [&](const picture& whole) { return reduced(whole, found_.how.supersampling); };
+        return places_.figure(small(view_.shown(visibility)), small(view_.scattered(visibility)), inset_contrast,
+                              middles_);
     }
-
-    picture figure(const picture& whole) const { return places_.figure(whole, inset_contrast, middles_); }
 
     static glm::vec3 mean(const picture& whole, const rectangle& where)
     {

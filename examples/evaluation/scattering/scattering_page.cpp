@@ -44,8 +44,8 @@ class blocks_of_scene {
     {
         pictures_block result{
             .title = scene_.scene.label,
-            .text = fmt::format("{}\n\n{} view rays. Contrast in the magnified places is stretched by {:g} about the "
-                                "mean colour of the reference.",
+            .text = fmt::format("{}\n\n{} view rays. Magnified places show the light from the air alone, its contrast "
+                                "stretched by {:g} about the mean colour of the reference.",
                                 scene_.scene.text, scene_.receivers, double(inset_contrast)),
             .columns = 2,
             .compare = true,
@@ -190,6 +190,18 @@ std::string alt_of(const compared_scattering_scene& scene, const scattering_row_
 std::vector<block> blocks_of(const compared_scattering_scene& scene, const std::array<std::string, 2>& first)
 {
     return blocks_of_scene(scene)(first);
+}
+
+block block_of(const compared_scattering_scene& scene, const paper_figure& figure)
+{
+    pictures_block result{.title = fmt::format("Figure {} of the paper", figure.number),
+                          .text = figure.text,
+                          .columns = 2,
+                          .pictures = {}};
+    for (const std::string& id : figure.methods)
+        for (const scattering_row_set& m : scene.methods)
+            if (m.of->id == id) result.pictures.push_back({m.picture, alt_of(scene, m), escaped(m.of->label)});
+    return result;
 }
 
 std::vector<std::pair<std::string, std::string>> key_of_errors()

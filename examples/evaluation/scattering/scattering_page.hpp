@@ -1,16 +1,21 @@
 // Blocks of a scene with scattering air that is rendered by every method.
 #pragma once
 
+#include "hazy_scene.hpp"
 #include "scattering_comparison.hpp"
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon::evaluation {
 
 // Two methods side by side, of which these two are first seen; numbers; speed against accuracy; pictures of errors.
 std::vector<block> blocks_of(const compared_scattering_scene& scene, const std::array<std::string, 2>& first);
+
+// The pictures of a figure of the paper side by side, by those of its methods that the scene compares.
+block block_of(const compared_scattering_scene& scene, const paper_figure& figure);
 
 // Words for a picture, for those who cannot see the picture.
 std::string alt_of(const compared_scattering_scene& scene, const scattering_row_set& method);

@@ -106,16 +106,34 @@ scattering_scene scattering_view::scene() const
             .rows = std::size_t(resolution)};
 }
 
-std::vector<float> scattering_view::traced() const
+std::vector<float> scattering_view::traced(std::span<const view_segment> segments) const
 {
-    return traced_scattering(shadow_volumes(stage.world, stage.light), stage.air, stage.eye, distances).pixels;
+    const camera& light = stage.light;
+    std::vector<view_ray> rays;
+    std::vector<double> lengths;
+    for (const view_segment& s : segments) {
+        const glm::dvec3 end(s.end);
+        lengths.push_back(glm::length(end));
+        rays.push_back(
+            {stage.eye.position, (end.x * light.right + end.y * light.up + end.z * light.forward) / lengths.back()});
+    }
+    std::vector<float> result(segments.size());
+    traced_scattering(shadow_volumes(stage.world, light), stage.air, rays, lengths, result);
+    return result;
 }
 
-picture scattering_view::shown(std::span<const float> visibility) const
+picture scattering_view::shown(std::span<const float> visibility) const { return with(surfaces_, visibility); }
+
+picture scattering_view::scattered(std::span<const float> visibility) const
+{
+    return with(picture(seen.width, seen.height, glm::vec3(0)), visibility);
+}
+
+picture scattering_view::with(const picture& surfaces, std::span<const float> visibility) const
 {
     image<float> shares(seen.width, seen.height);
     std::ranges::copy(visibility, shares.pixels.begin());
-    return with_scattering(surfaces_, distances, shares, stage);
+    return with_scattering(surfaces, distances, shares, stage);
 }
 
 } // namespace gnomon::evaluation

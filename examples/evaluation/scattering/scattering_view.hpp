@@ -21,11 +21,14 @@ class scattering_view {
     // All that methods build from. The view outlives it.
     scattering_scene scene() const;
 
-    // Visibilities of all view rays by ray tracing, integrated in closed form.
-    std::vector<float> traced() const;
+    // Visibilities of view rays by ray tracing, integrated in closed form.
+    std::vector<float> traced(std::span<const view_segment> segments) const;
 
     // The picture from a visibility for each view ray.
     renderer::picture shown(std::span<const float> visibility) const;
+
+    // The same with black surfaces.
+    renderer::picture scattered(std::span<const float> visibility) const;
 
     const renderer::scattering_stage& stage;
     const scattering_depths depths;
@@ -34,6 +37,8 @@ class scattering_view {
     const std::vector<view_segment> where; // of all pixels, row by row
 
   private:
+    renderer::picture with(const renderer::picture& surfaces, std::span<const float> visibility) const;
+
     renderer::picture surfaces_;
 };
 

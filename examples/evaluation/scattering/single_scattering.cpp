@@ -1,12 +1,16 @@
 #include "evaluation/core/driver.hpp"
 #include "hazy_scene.hpp"
+#include "map_pictures.hpp"
 #include "renderer/import/model.hpp"
 #include "scattering_costs.hpp"
+#include "scattering_frames.hpp"
 #include "scattering_page.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <memory>
 
 namespace gnomon::evaluation {
 
@@ -58,28 +62,47 @@ void set_front(page& of, const compared_scattering_scene& shown)
     of.front = shown_picture{best.picture, alt_of(shown, best), escaped(best.of->label)};
 }
 
+struct shown_stage {
+    shown_stage(const hazy_scene& scene, const settings& how)
+        : stage(scene.stage(double(how.width) / how.height)), view(stage, how)
+    {}
+    const renderer::scattering_stage stage;
+    const scattering_view view;
+};
+
 void single_scattering(const settings& given)
 {
     const settings how = sizes_of(given);
     const std::filesystem::path folder = how.folder("single_scattering");
     const std::vector<const hazy_scene*> scenes = registry_of<scene_entry>().all_of<hazy_scene>();
-    std::size_t count = 0;
+    std::size_t count = steps_of_gate_frames() + steps_of_entering_frames();
     for (const hazy_scene* s : scenes) count += steps_of_comparison(s->id);
     steps all("single_scattering", count + 1);
     page result = page_of("single_scattering", "Single scattering",
                           "Shafts of light in haze by one look-up of moments per pixel, and by ray marching.");
     result.blocks.push_back(introduction(how));
     std::vector<report_row> rows;
+    const auto add = [&](compared_frames&& frames) {
+        std::ranges::move(frames.blocks, std::back_inserter(result.blocks));
+        rows.insert(rows.end(), frames.rows.begin(), frames.rows.end());
+    };
+    std::unique_ptr<shown_stage> first;
     for (const hazy_scene* s : scenes) {
-        const renderer::scattering_stage stage = s->stage(double(how.width) / how.height);
-        const scattering_view view(stage, how);
-        const compared_scattering_scene found = compare_scattering_methods(*s, view, how, folder, all);
+        auto shown = std::make_unique<shown_stage>(*s, how);
+        const compared_scattering_scene found = compare_scattering_methods(*s, shown->view, how, folder, all);
+        if (!first) {
+            set_front(result, found);
+            result.blocks.push_back(rectification_block(shown->view, folder));
+        }
+        if (s->id == "tower") result.blocks.push_back(bounds_block(first->view, shown->view, folder));
         write(found, result, rows);
-        if (s == scenes.front()) set_front(result, found);
+        for (const paper_figure& figure : s->figures) result.blocks.push_back(block_of(found, figure));
+        if (s->id == "gate") add(compare_gate_frames(found, folder, all));
+        if (s->id == "entering") add(compare_entering_frames(found, folder, all));
+        if (!first) first = std::move(shown);
     }
     all.begin("costs");
-    for (block& b : scattering_costs(scenes.front()->stage(double(how.width) / how.height), rows,
-                                     std::min(4 * how.map_resolution, 2048)))
+    for (block& b : scattering_costs(first->stage, rows, std::min(4 * how.map_resolution, 2048)))
         result.blocks.push_back(std::move(b));
     write_page(folder, result);
     merge_report(how.out / "report.json", rows);

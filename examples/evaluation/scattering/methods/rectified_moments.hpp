@@ -21,13 +21,15 @@
 
 namespace gnomon::evaluation {
 
-// The weight of visibility between both bounds: beta of Peters et al. 2017, Sec. 5.3.1.
-enum class overestimation { adaptive, none, half, full };
+// The weight of visibility between both bounds, beta of Peters et al. 2017, Sec. 5.3.1: by the angle between view ray and light,
+// or one for all rays.
+enum class overestimation { adaptive, plateau, none, half, full };
 
-template <class Real> Real overestimation_of(overestimation how, const Real& cosine)
+template <overestimation how, class Real> Real overestimation_of(const Real& cosine)
 {
-    if (how == overestimation::adaptive) return adaptive_overestimation(cosine);
-    return Real(how == overestimation::none ? 0.0f : how == overestimation::half ? 0.5f : 1.0f);
+    if constexpr (how == overestimation::adaptive) return adaptive_overestimation(cosine);
+    else if constexpr (how == overestimation::plateau) return plateau_overestimation(cosine);
+    else return Real(how == overestimation::none ? 0.0f : how == overestimation::half ? 0.5f : 1.0f);
 }
 
 template <class Real> hamburger_bounds<Real> bounds_of(const hankel4<Real>& h, const Real& z_f)
@@ -90,7 +92,7 @@ class rectified_moments final : public scattering_map {
             return convolution_unorm8_centred_intensity(f.channels, f.depth);
         else
             return bounds_intensity(bounds_of(Format::filtered_factor(f.channels), f.depth),
-                                    overestimation_of(weight, f.cosine));
+                                    overestimation_of<weight>(f.cosine));
     }
 
     // Flattened, so that the compiler inlines look-ups of every format alike and their times compare.
@@ -115,7 +117,7 @@ class rectified_moments final : public scattering_map {
     std::vector<build_pass> passes_;
 };
 
-template <class Format, rectified_options options, overestimation weight = overestimation::adaptive>
+template <class Format, rectified_options options, overestimation weight = overestimation::plateau>
 class rectified_method final : public scattering_method {
   public:
     explicit rectified_method(method_facts facts, std::vector<std::string> its_scenes = {})

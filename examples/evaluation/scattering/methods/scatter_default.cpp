@@ -1,5 +1,6 @@
 // Prefiltered single scattering as the library does it by default, in every format: 16 texels of the shadow map for each texel,
-// and a range of depth for each row.
+// the cosine of the polar angle for depth, a range of depth for each row, and overestimation of visibility by 1/2 but near the
+// ray into the light.
 #include "rectified_moments.hpp"
 
 namespace gnomon::evaluation {
