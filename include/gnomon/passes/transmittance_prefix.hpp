@@ -166,9 +166,11 @@ template <std::size_t channels> class prefix_sums {
     [[nodiscard]] bool are_finite() const
     {
         const auto finite = [](const auto& sums) {
-            std::array<double, sizeof sums / sizeof(double) + 1> numbers{}; // an empty array has a size
-            if (!sums.empty()) std::memcpy(numbers.data(), sums.data(), sizeof sums);
-            return std::all_of(numbers.begin(), numbers.end(), [](double s) { return (std::isfinite)(s); });
+            return std::all_of(sums.begin(), sums.end(), [](const auto& sum) {
+                std::array<double, std::remove_cvref_t<decltype(sum)>::channels> numbers;
+                std::memcpy(numbers.data(), &sum, sizeof numbers);
+                return std::all_of(numbers.begin(), numbers.end(), [](double s) { return (std::isfinite)(s); });
+            });
         };
         return finite(quads_) && finite(pairs_) && finite(rest_);
     }
