@@ -10,7 +10,7 @@ endfunction()
 # The examples of a section of docs/shaders.md, by a checker.
 set(examples python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/../hygiene/examples.py ${PROJECT_SOURCE_DIR} ${GNOMON_SHADERS})
 
-heavy_test(swiftshader glsl-swiftshader hlsl-swiftshader)
+heavy_test(swiftshader glsl-swiftshader hlsl-swiftshader ROWS 262144)
 
 find_path(GNOMON_EGL_INCLUDE EGL/egl.h)
 find_path(GNOMON_GLES_INCLUDE GLES3/gl32.h)
@@ -62,7 +62,7 @@ if(GNOMON_NODE AND GNOMON_NPM)
     add_test(NAME wgsl/bevy COMMAND ${examples} Bevy ${GNOMON_NODE} ${dawn}/bevy.mjs)
     set_tests_properties(wgsl/packages wgsl/example wgsl/bevy PROPERTIES LABELS "shader;heavy" SKIP_RETURN_CODE 77)
 endif()
-heavy_test(wgsl wgsl-dawn naga-dawn)
+heavy_test(wgsl wgsl-dawn naga-dawn ROWS 65536)
 heavy_test(wgsl_plain wgsl-plain wgsl-plain-gles KERNELS ${plain_kernels})
 
 # What translators make of the modules of parity/plain, as engines hand it to other compilers: translated_shaders(NAME ROUTE

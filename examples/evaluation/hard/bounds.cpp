@@ -30,7 +30,7 @@ constexpr int samples_of_surface = 32;
 
 constexpr std::array<std::pair<double, const char*>, 4> receivers_drawn{
     {{-0.35, "#d62728"}, {0.0, "#ff7f0e"}, {0.3, "#2ca02c"}, {0.75, "#1f77b4"}}};
-constexpr int steps = 400; // of receivers from -1 to 1
+constexpr int receiver_steps = 400; // of receivers from -1 to 1
 
 struct region {
     std::vector<double> depths, weights;
@@ -113,8 +113,8 @@ panel panel_of(int count, const auto& moments, const region& r)
                  .y = {.label = "shadow intensity", .least = -0.02, .most = 1.02}};
     series band{.label = "between the bounds", .colour = "#5b7ea8", .style = style::band};
     band.labelled = false;
-    for (int i = 0; i <= steps; ++i) {
-        const double z_f = 2.0 * i / steps - 1;
+    for (int i = 0; i <= receiver_steps; ++i) {
+        const double z_f = 2.0 * i / receiver_steps - 1;
         const hamburger_bounds<double> found = moments.bounds(z_f);
         band.points.push_back({z_f, found.lower, found.upper});
     }

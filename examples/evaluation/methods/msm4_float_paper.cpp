@@ -8,7 +8,7 @@ namespace gnomon::evaluation {
 
 namespace {
 
-struct paper_bias : moments4_float {
+struct paper_bias_float : moments4_float {
     template <class Real> static Real filtered_intensity(const channels4<Real>& channels, Real z_f)
     {
         const moments4<Real> biased =
@@ -18,7 +18,7 @@ struct paper_bias : moments4_float {
     }
 };
 
-const registered<filterable<paper_bias>> entry{
+const registered<filterable<paper_bias_float>> entry{
     method_facts{.id = "msm4_float_paper", .family = "msm4", .label = "MSM 128 bit (paper)", .order = 60}};
 
 } // namespace

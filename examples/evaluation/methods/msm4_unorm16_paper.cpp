@@ -8,7 +8,7 @@ namespace gnomon::evaluation {
 
 namespace {
 
-struct paper_bias : moments4_unorm16 {
+struct paper_bias_unorm16 : moments4_unorm16 {
     template <class Real> static Real filtered_intensity(const channels4<Real>& channels, Real z_f)
     {
         const moments4<Real> biased = moments4_add_bias(theta4_inverse(channels), literal<Real>(bias4_theta_paper_b2),
@@ -17,7 +17,7 @@ struct paper_bias : moments4_unorm16 {
     }
 };
 
-const registered<filterable<paper_bias>> entry{
+const registered<filterable<paper_bias_unorm16>> entry{
     method_facts{.id = "msm4_unorm16_paper", .family = "msm4", .label = "MSM 64 bit (paper)", .order = 10}};
 
 } // namespace

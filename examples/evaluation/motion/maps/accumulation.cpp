@@ -10,7 +10,7 @@ namespace gnomon::evaluation {
 
 namespace {
 
-const registered<family> accumulations{
+const registered<family> accumulation_family{
     family{.id = "accumulation", .label = "accumulation", .order = 100, .colour = "#222222"}};
 const registered<map_kind> depths_kind{
     map_kind{.id = "depths_at_times", .label = "shadow maps of some times", .order = 100}};

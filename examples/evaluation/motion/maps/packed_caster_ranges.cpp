@@ -4,7 +4,7 @@ namespace gnomon::evaluation {
 
 namespace {
 
-const registered<family> packed{
+const registered<family> packed_casters{
     family{.id = "packed_caster_ranges", .label = "caster ranges, packed", .order = 165, .colour = "#8c6d31"}};
 
 const registered<packed_ranges> entry{

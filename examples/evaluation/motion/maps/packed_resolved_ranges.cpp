@@ -4,7 +4,7 @@ namespace gnomon::evaluation {
 
 namespace {
 
-const registered<family> packed{
+const registered<family> packed_resolved{
     family{.id = "packed_resolved_ranges", .label = "resolved ranges, packed", .order = 155, .colour = "#17becf"}};
 
 const registered<packed_ranges> entry{

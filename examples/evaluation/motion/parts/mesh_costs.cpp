@@ -62,7 +62,7 @@ void add_costs(const moving_stage& stage, const std::string& name, int resolutio
     }
 }
 
-std::vector<table_row> costs(const motion_sizes& size)
+std::vector<table_row> costs_of_meshes(const motion_sizes& size)
 {
     const double aspect = double(size.width) / size.height;
     const bool full = size.map_resolution >= 1024;
@@ -85,7 +85,7 @@ std::vector<table_row> costs(const motion_sizes& size)
     return result;
 }
 
-block table_of(std::vector<table_row> rows)
+block table_of_meshes(std::vector<table_row> rows)
 {
     return table_block{
         .title = "Meshes that people have",
@@ -110,8 +110,8 @@ block table_of(std::vector<table_row> rows)
 part_run mesh_costs(const motion_settings& how)
 {
     const auto found = std::make_shared<std::vector<table_row>>();
-    return {.tasks = {[=, size = how.size] { *found = costs(size); }},
-            .results = [=] { return part_results{.blocks = {table_of(*found)}}; }};
+    return {.tasks = {[=, size = how.size] { *found = costs_of_meshes(size); }},
+            .results = [=] { return part_results{.blocks = {table_of_meshes(*found)}}; }};
 }
 
 const registered<motion_part> entry{

@@ -41,8 +41,8 @@ const registered<receiver_kind> batch{receiver_facts{
     .id = "analytic_batch", .label = "analytic receivers, many at a time", .order = 160, .marker = "star"}};
 
 constexpr int cubes = 1600;
-constexpr float longest = 0.5f;            // path of a cube at speed 1
-constexpr std::uint32_t nobody = 1u << 20; // receivers cast no shadow
+constexpr float longest = 0.5f;               // path of a cube at speed 1
+constexpr std::uint32_t no_caster = 1u << 20; // receivers cast no shadow
 
 // The time by which an open shutter has let in this share of its light (shutter_tent, inverted).
 float tent_time(float share) { return share < 0.5f ? std::sqrt(0.5f * share) : 1 - std::sqrt(0.5f * (1 - share)); }
@@ -67,7 +67,7 @@ static_points points(std::string_view where, int side, const tracer& rays, const
         const glm::vec2 share = (glm::vec2(i % side, i / side) + 0.5f) / float(side);
         const float height = where == behind_all ? 0 : 0.5f + 4 * float(bits() >> 8) * 0x1p-24f;
         const glm::vec3 p(8 * share.x - 4, height, 8 * share.y - 4);
-        result.seen.segments.push_back({0, 1, 1, nobody, p, p, up, up});
+        result.seen.segments.push_back({0, 1, 1, no_caster, p, p, up, up});
         result.seen.first.push_back(std::uint32_t(result.seen.segments.size()));
         result.motions.push_back({{p, up}, {p, up}});
         if (i % side % 4 != 0 || i / side % 4 != 0) continue;

@@ -123,7 +123,7 @@ class wide_comparison {
     std::vector<report_row> rows_;
 };
 
-block table_of(const std::vector<report_row>& rows)
+block table_of_filters(const std::vector<report_row>& rows)
 {
     table_block table{
         .title = "A wider filter",
@@ -151,7 +151,7 @@ part_run wide_filter(const motion_settings& how)
 {
     const auto found = std::make_shared<std::vector<report_row>>();
     return {.tasks = {[=, size = how.size] { *found = wide_comparison(size).rows(); }},
-            .results = [=] { return part_results{.rows = *found, .blocks = {table_of(*found)}}; }};
+            .results = [=] { return part_results{.rows = *found, .blocks = {table_of_filters(*found)}}; }};
 }
 
 const registered<motion_part> entry{

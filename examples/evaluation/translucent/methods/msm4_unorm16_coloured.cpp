@@ -6,8 +6,8 @@ namespace gnomon::evaluation {
 
 namespace {
 
-using rule = moments_rule<moments4_unorm16>;
-using one_colour = blended_map<rule>;
+using coloured_rule = moments_rule<moments4_unorm16>;
+using one_colour = blended_map<coloured_rule>;
 
 template <class Real> struct channels_of_colours {
     channels4<Real> red, green, blue;
@@ -38,7 +38,7 @@ class coloured_map final : public translucent_map {
         };
         const auto mean = [this]<class Real>(const channels_of_colours<Real>& c, Real z_f) {
             const auto of = [&](const channels4<Real>& one, const one_colour& map) {
-                return rule::lower(one, Real(map.roundings()), z_f);
+                return coloured_rule::lower(one, Real(map.roundings()), z_f);
             };
             return literal<Real>(1. / 3) * (of(c.red, maps_[0]) + of(c.green, maps_[1]) + of(c.blue, maps_[2]));
         };

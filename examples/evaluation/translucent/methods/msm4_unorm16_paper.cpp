@@ -9,7 +9,7 @@ namespace gnomon::evaluation {
 
 namespace {
 
-struct rule {
+struct paper_rule {
     using format = moments4_unorm16;
     template <class Real> using channels = format::channels<Real>;
 
@@ -28,7 +28,7 @@ struct rule {
     }
 };
 
-const registered<blended<rule>> entry{
+const registered<blended<paper_rule>> entry{
     method_facts{.id = "msm4_unorm16_paper_blended", .family = "msm4", .label = "MSM 64 bit (paper)", .order = 110}};
 
 } // namespace

@@ -7,7 +7,7 @@ namespace gnomon::evaluation {
 
 namespace {
 
-struct rule {
+struct stochastic_rule {
     using format = moments4_unorm16;
     template <class Real> using channels = format::channels<Real>;
 
@@ -36,7 +36,7 @@ class stochastic_method final : public translucent_method {
     std::unique_ptr<translucent_map> build(const translucent_occluders& occluders, std::span<const float> taps,
                                            const build_settings& how) const override
     {
-        return std::make_unique<blended_map<rule>>(stochastic_depths(occluders, how), taps);
+        return std::make_unique<blended_map<stochastic_rule>>(stochastic_depths(occluders, how), taps);
     }
 };
 

@@ -39,9 +39,9 @@ class stochastic_depth_map final : public translucent_map {
     std::span<const float> taps_;
 };
 
-class stochastic_method final : public translucent_method {
+class stochastic_filter final : public translucent_method {
   public:
-    stochastic_method()
+    stochastic_filter()
         : translucent_method({.id = "pcf_stochastic",
                               .family = "pcf",
                               .label = "PCF, stochastic",
@@ -58,7 +58,7 @@ class stochastic_method final : public translucent_method {
     }
 };
 
-const registered<stochastic_method> entry;
+const registered<stochastic_filter> entry;
 
 } // namespace
 

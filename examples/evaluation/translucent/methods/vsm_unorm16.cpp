@@ -6,7 +6,7 @@ namespace gnomon::evaluation {
 
 namespace {
 
-struct rule {
+struct variance_rule {
     using format = variance_unorm16;
     template <class Real> using channels = format::channels<Real>;
 
@@ -21,7 +21,7 @@ struct rule {
     }
 };
 
-const registered<blended<rule>> entry{
+const registered<blended<variance_rule>> entry{
     method_facts{.id = "vsm_unorm16_blended", .family = "vsm", .label = "VSM 32 bit", .order = 110}};
 
 } // namespace
