@@ -682,7 +682,7 @@ GNOMON_INLINE constexpr Real attenuated_length(Real distance_, Real extinction)
 /// NaN: 1.
 /// Error: 3.5 ulp.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real attenuated_mean(Real x) { return attenuated_length(Real(1), x); }
+GNOMON_INLINE constexpr Real attenuated_mean(Real x) { return saturate_or_zero(attenuated_length(Real(1), x)); }
 
 /// e^-x, the transmittance of the optical depth x, in [0, 1].
 /// Domain: x at least 0, also infinite; negative x counts as 0. Not below e^-87 in float, e^-708 in double.
@@ -690,7 +690,7 @@ GNOMON_INLINE constexpr Real attenuated_mean(Real x) { return attenuated_length(
 /// Error: 1 ulp in float, 1.2 ulp in double.
 template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real transmittance_over(Real x)
 {
-    return gnomon_min(Real(1), polynomial_exp(Real(-1) * gnomon_max(x, Real(0))));
+    return saturate_or_zero(polynomial_exp(Real(-1) * gnomon_max(x, Real(0))));
 }
 
 /// The Henyey-Greenstein phase function, per steradian, of the cosine of the scattering angle. asymmetry is its mean

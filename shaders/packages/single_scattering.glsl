@@ -251,13 +251,13 @@ float attenuated_length(float distance_, float extinction)
 /// Domain: x at least 0, also infinite; negative x counts as 0.
 /// NaN: 1.
 /// Error: 3.5 ulp.
-float attenuated_mean(float x) { return attenuated_length(1.0, x); }
+float attenuated_mean(float x) { return saturate_or_zero(attenuated_length(1.0, x)); }
 
 /// e^-x, the transmittance of the optical depth x, in [0, 1].
 /// Domain: x at least 0, also infinite; negative x counts as 0. Not below e^-87 in float, e^-708 in double.
 /// NaN: 1.
 /// Error: 1 ulp in float, 1.2 ulp in double.
-float transmittance_over(float x) { return gnomon_min(1.0, polynomial_exp(-1.0 * gnomon_max(x, 0.0))); }
+float transmittance_over(float x) { return saturate_or_zero(polynomial_exp(-1.0 * gnomon_max(x, 0.0))); }
 
 /// The Henyey-Greenstein phase function, per steradian, of the cosine of the scattering angle. asymmetry is its mean
 /// cosine: positive for media that scatter forward, 0 for isotropic ones.

@@ -209,13 +209,13 @@ fn attenuated_length(distance_: f32, extinction: f32) -> f32
 /// Domain: x at least 0, also infinite; negative x counts as 0.
 /// NaN: 1.
 /// Error: 3.5 ulp.
-fn attenuated_mean(x: f32) -> f32 { return attenuated_length(1.0, x); }
+fn attenuated_mean(x: f32) -> f32 { return saturate_or_zero(attenuated_length(1.0, x)); }
 
 /// e^-x, the transmittance of the optical depth x, in [0, 1].
 /// Domain: x at least 0, also infinite; negative x counts as 0. Not below e^-87 in float, e^-708 in double.
 /// NaN: 1.
 /// Error: 1 ulp in float, 1.2 ulp in double.
-fn transmittance_over(x: f32) -> f32 { return gnomon_min(1.0, polynomial_exp(-1.0 * gnomon_max(x, 0.0))); }
+fn transmittance_over(x: f32) -> f32 { return saturate_or_zero(polynomial_exp(-1.0 * gnomon_max(x, 0.0))); }
 
 /// The Henyey-Greenstein phase function, per steradian, of the cosine of the scattering angle. asymmetry is its mean
 /// cosine: positive for media that scatter forward, 0 for isotropic ones.

@@ -38,7 +38,7 @@ GNOMON_KERNEL Real attenuated_length(Real distance_, Real extinction)
 /// Domain: x at least 0, also infinite; negative x counts as 0.
 /// NaN: 1.
 /// Error: 3.5 ulp.
-GNOMON_KERNEL Real attenuated_mean(Real x) { return attenuated_length(Real(1), x); }
+GNOMON_KERNEL Real attenuated_mean(Real x) { return saturate_or_zero(attenuated_length(Real(1), x)); }
 
 /// e^-x, the transmittance of the optical depth x, in [0, 1].
 /// Domain: x at least 0, also infinite; negative x counts as 0. Not below e^-87 in float, e^-708 in double.
@@ -46,7 +46,7 @@ GNOMON_KERNEL Real attenuated_mean(Real x) { return attenuated_length(Real(1), x
 /// Error: 1 ulp in float, 1.2 ulp in double.
 GNOMON_KERNEL Real transmittance_over(Real x)
 {
-    return gnomon_min(Real(1), polynomial_exp(Real(-1) * gnomon_max(x, Real(0))));
+    return saturate_or_zero(polynomial_exp(Real(-1) * gnomon_max(x, Real(0))));
 }
 
 /// The Henyey-Greenstein phase function, per steradian, of the cosine of the scattering angle. asymmetry is its mean
