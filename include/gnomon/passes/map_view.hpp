@@ -58,6 +58,13 @@ template <texel_format Format> format_texel<Format> store_channels(const channel
 template <class Format>
 inline constexpr bool holds_numbers = std::is_same_v<format_texel<Format>, channel_array<Format>>;
 
+/// True of formats whose texels hold codes of their channels, rows of which are faster to decode and encode than texels one by one.
+template <class Format>
+inline constexpr bool has_rows = !holds_numbers<Format> && requires(const float* numbers, format_texel<Format>* texels)
+{
+    Format::encode_row(numbers, texels, 1);
+};
+
 /// Load texels that stand stride apart as numbers, one texel's channels after the other's, with the bits of load_channels.
 template <texel_format Format>
 void load_row(const format_texel<Format>* from, float* numbers, std::size_t count, std::size_t stride = 1)

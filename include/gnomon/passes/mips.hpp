@@ -68,6 +68,46 @@ constexpr footprint mip_footprint(std::size_t extent, std::size_t i)
     return {2 * i, 3, {(n - float(i)) * scale, n * scale, (float(i) + 1) * scale}};
 }
 
+/// The mean of the texels under a texel, of which at(i, j) gives the channels.
+template <texel_format Format> channel_array<Format> mip_mean(const footprint& fx, const footprint& fy, const auto& at)
+{
+    channel_array<Format> sum{};
+    for (std::size_t j = 0; j < fy.count; ++j)
+        for (std::size_t i = 0; i < fx.count; ++i) {
+            const float weight = fx.weights[i] * fy.weights[j];
+            const channel_array<Format> c = at(i, j);
+            for (std::size_t k = 0; k < c.size(); ++k) sum[k] += weight * c[k];
+        }
+    return sum;
+}
+
+/// Fill a row of the next smaller level, decoding and encoding rows of texels.
+template <texel_format Format>
+void downsample_row(map_view<const format_texel<Format>> source, const footprint& fy,
+                    std::span<format_texel<Format>> target)
+{
+    constexpr std::size_t channels = channel_count<Format>, block = 32;
+    std::array<std::array<float, (2 * block + 1) * channels>, 3> under; // texels of up to three rows
+    std::array<float, block * channels> numbers;
+    for (std::size_t first = 0; first < target.size(); first += block) {
+        const std::size_t count = (std::min)(block, target.size() - first);
+        const std::size_t begin = mip_footprint(source.width, first).begin;
+        const footprint last = mip_footprint(source.width, first + count - 1);
+        for (std::size_t j = 0; j < fy.count; ++j)
+            load_row<Format>(&source(begin, fy.begin + j), under[j].data(), last.begin + last.count - begin);
+        for (std::size_t x = 0; x < count; ++x) {
+            const footprint fx = mip_footprint(source.width, first + x);
+            const auto mean = mip_mean<Format>(fx, fy, [&](std::size_t i, std::size_t j) {
+                channel_array<Format> c;
+                std::copy_n(under[j].data() + (fx.begin - begin + i) * channels, channels, c.begin());
+                return c;
+            });
+            std::copy(mean.begin(), mean.end(), numbers.begin() + std::ptrdiff_t(x * channels));
+        }
+        store_row<Format>(numbers.data(), &target[first], count);
+    }
+}
+
 } // namespace detail
 
 /// Fill the given rows of target, the next smaller level of source. Target has half of source's extents, rounded down,
@@ -84,37 +124,18 @@ void downsample(map_view<const format_texel<Format>> source, map_view<format_tex
     GNOMON_EXPECTS(target.height == mip_extent(source.height, 1),
                    mismatch(pass, "target.height", target.height, "source.height", source.height));
     expect_rows(pass, target, rows);
-    constexpr std::size_t channels = channel_count<Format>, block = 32;
-    std::array<std::array<float, (2 * block + 1) * channels>, 3> under; // decoded texels of up to three rows
-    std::array<float, block * channels> numbers;
     for (std::size_t y = rows.first; y < rows.last; ++y) {
         const detail::footprint fy = detail::mip_footprint(source.height, y);
-        for (std::size_t first = 0; first < target.width; first += block) {
-            const std::size_t count = (std::min)(block, target.width - first);
-            const std::size_t begin = detail::mip_footprint(source.width, first).begin;
-            const detail::footprint last = detail::mip_footprint(source.width, first + count - 1);
-            std::array<const float*, 3> rows_under{};
-            for (std::size_t j = 0; j < fy.count; ++j) {
-                const format_texel<Format>* const from = &source(begin, fy.begin + j);
-                if constexpr (holds_numbers<Format>) {
-                    rows_under[j] = from->data();
-                } else {
-                    load_row<Format>(from, under[j].data(), last.begin + last.count - begin);
-                    rows_under[j] = under[j].data();
-                }
+        if constexpr (has_rows<Format>) {
+            detail::downsample_row<Format>(source, fy, std::span(&target(0, y), target.width));
+        } else {
+            for (std::size_t x = 0; x < target.width; ++x) {
+                const detail::footprint fx = detail::mip_footprint(source.width, x);
+                target(x, y) =
+                    store_channels<Format>(detail::mip_mean<Format>(fx, fy, [&](std::size_t i, std::size_t j) {
+                        return load_channels<Format>(source(fx.begin + i, fy.begin + j));
+                    }));
             }
-            for (std::size_t x = 0; x < count; ++x) {
-                const detail::footprint fx = detail::mip_footprint(source.width, first + x);
-                channel_array<Format> sum{};
-                for (std::size_t j = 0; j < fy.count; ++j)
-                    for (std::size_t i = 0; i < fx.count; ++i) {
-                        const float weight = fx.weights[i] * fy.weights[j];
-                        const float* const c = rows_under[j] + (fx.begin - begin + i) * channels;
-                        for (std::size_t k = 0; k < channels; ++k) sum[k] += weight * c[k];
-                    }
-                std::copy(sum.begin(), sum.end(), numbers.begin() + std::ptrdiff_t(x * channels));
-            }
-            store_row<Format>(numbers.data(), &target(first, y), count);
         }
     }
 }

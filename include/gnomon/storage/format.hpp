@@ -128,6 +128,16 @@ template <template <class...> class Channels> struct half_texel : coded_texel<Ch
         for (std::size_t k = 0; k < t.size(); ++k) numbers[k] = half_decode(t[k]);
         return gnomon_bit_cast<Channels<float>>(numbers);
     }
+    static void encode_row(const float* numbers, texel* to, std::size_t count)
+    {
+        std::uint16_t* const codes = to->data();
+        for (std::size_t i = 0; i < count * texel{}.size(); ++i) codes[i] = half_encode(numbers[i]);
+    }
+    static void decode_row(const texel* from, float* numbers, std::size_t count)
+    {
+        const std::uint16_t* const codes = from->data();
+        for (std::size_t i = 0; i < count * texel{}.size(); ++i) numbers[i] = half_decode(codes[i]);
+    }
 };
 
 /// Floats.
