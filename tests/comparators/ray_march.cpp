@@ -119,7 +119,7 @@ TEST_CASE("jitters of neighbours lie evenly in [0, 1)")
             for (int k = 0; k < 9; ++k) around.push_back(ray_march_jitter(float(x + k % 3), float(y + k / 3)));
             std::sort(around.begin(), around.end());
             REQUIRE((around.front() >= 0 && around.back() < 1));
-            double gap = around.front() + 1 - around.back();
+            double gap = double(around.front() + 1 - around.back());
             for (std::size_t k = 1; k < 9; ++k) gap = std::max(gap, double(around[k] - around[k - 1]));
             unevenness = std::max(unevenness, gap);
         }

@@ -48,7 +48,7 @@ struct rectified_plan {
 // A texel's light ray in the shadow map, and widths of the texel there along both axes.
 struct rectified_texel {
     rectified_texel(const rectified_plan& plan, std::size_t u, std::size_t v)
-        : radius((double(u) + 0.5) * plan.step()), x(plan.light.x), y(plan.light.y)
+        : radius((double(u) + 0.5) * plan.step()), x(double(plan.light.x)), y(double(plan.light.y))
     {
         const double along_x = double(plan.rows[v].cosine), along_y = double(plan.rows[v].sine);
         const double across = radius * plan.turn(), texels_x = double(plan.light.texels_x),
