@@ -34,8 +34,9 @@ template <class Texel> class marched_map final : public scattering_map {
 
     std::vector<timed_look_up> timed(std::span<const view_segment> where) const override
     {
-        return timed_whole(where.size(),
-                           [this, where]<class Real>(std::size_t group) { return intensity<Real>(where, group); });
+        return timed_whole(where.size(), [this, where]<class Real>(std::size_t group) {
+            return this->template intensity<Real>(where, group);
+        });
     }
 
   private:

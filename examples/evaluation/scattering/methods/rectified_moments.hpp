@@ -69,7 +69,8 @@ class rectified_moments final : public scattering_map {
     std::vector<timed_look_up> timed(std::span<const view_segment> where) const override
     {
         return timed_fetches<fetched>(
-            where.size(), [this, where]<class Real>(std::size_t group) { return fetch<Real>(where, group); },
+            where.size(),
+            [this, where]<class Real>(std::size_t group) { return this->template fetch<Real>(where, group); },
             []<class Real>(const fetched<Real>& f) { return intensity(f); });
     }
 
