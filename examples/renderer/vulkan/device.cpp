@@ -68,6 +68,13 @@ vk::raii::PhysicalDevice choose(const vk::raii::Instance& instance)
     return std::move(*std::ranges::min_element(all, {}, rank));
 }
 
+bool has_full_subgroups(const vk::raii::PhysicalDevice& physical)
+{
+    return physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>()
+        .get<vk::PhysicalDeviceVulkan13Features>()
+        .computeFullSubgroups;
+}
+
 vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint32_t family)
 {
     const float priority = 1;
@@ -78,15 +85,21 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint
     chain.get<vk::PhysicalDeviceFeatures2>()
         .features.setShaderStorageImageWriteWithoutFormat(has.shaderStorageImageWriteWithoutFormat)
         .setDualSrcBlend(has.dualSrcBlend);
-    chain.get<vk::PhysicalDeviceVulkan13Features>().setDynamicRendering(true).setSynchronization2(true);
+    chain.get<vk::PhysicalDeviceVulkan13Features>()
+        .setDynamicRendering(true)
+        .setSynchronization2(true)
+        .setComputeFullSubgroups(has_full_subgroups(physical));
     return {physical, chain.get<vk::DeviceCreateInfo>()};
+}
+
+vk::ImageAspectFlagBits aspect_of(vk::Format format)
+{
+    return format == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor;
 }
 
 vk::raii::ImageView make_view(const device& owner, vk::Image of, vk::Format format, std::uint32_t levels)
 {
-    const auto aspect =
-        format == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor;
-    return {owner.handle(), {{}, of, vk::ImageViewType::e2D, format, {}, {aspect, 0, levels, 0, 1}}};
+    return {owner.handle(), {{}, of, vk::ImageViewType::e2D, format, {}, {aspect_of(format), 0, levels, 0, 1}}};
 }
 
 vk::DescriptorType type_of(const resource& r)
@@ -117,6 +130,15 @@ try : complaints_(std::make_unique<std::vector<std::string>>()), context_(load_l
     pool_ = {device_, {vk::CommandPoolCreateFlagBits::eTransient, family}};
 } catch (const vk::SystemError& error) {
     throw unavailable(error.what());
+}
+
+std::uint32_t device::shuffling_lanes() const
+{
+    const auto found = physical_.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties>()
+                           .get<vk::PhysicalDeviceSubgroupProperties>();
+    const bool shuffles = (found.supportedStages & vk::ShaderStageFlagBits::eCompute) &&
+                          (found.supportedOperations & vk::SubgroupFeatureFlagBits::eShuffle);
+    return shuffles && has_full_subgroups(physical_) ? found.subgroupSize : 0;
 }
 
 void device::run(const std::function<void(const vk::raii::CommandBuffer&)>& record) const
@@ -182,14 +204,12 @@ image::image(const device& owner, vk::Format format, vk::Extent2D extent, vk::Im
     image_.bindMemory(*memory_, 0);
     whole_ = make_view(owner, *image_, format, levels);
     level0_ = make_view(owner, *image_, format, 1);
-    const auto aspect =
-        format == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor;
     owner.run([&](const vk::raii::CommandBuffer& commands) {
         const vk::ImageMemoryBarrier2 into_use(
             vk::PipelineStageFlagBits2::eNone, {}, vk::PipelineStageFlagBits2::eAllCommands,
             vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite, vk::ImageLayout::eUndefined,
             vk::ImageLayout::eGeneral, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, *image_,
-            {aspect, 0, levels, 0, 1});
+            {aspect_of(format), 0, levels, 0, 1});
         commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, into_use));
     });
 }
@@ -199,7 +219,7 @@ void copy(const vk::raii::CommandBuffer& commands, const image& source, const bu
     const auto [width, height] = source.extent();
     commands.copyImageToBuffer(
         source.handle(), vk::ImageLayout::eGeneral, target.handle(),
-        vk::BufferImageCopy(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {width, height, 1}));
+        vk::BufferImageCopy(0, 0, 0, {aspect_of(source.format()), 0, 0, 1}, {}, {width, height, 1}));
 }
 
 void copy(const vk::raii::CommandBuffer& commands, const image& source, const image& target)
@@ -229,11 +249,11 @@ void build_mips(const vk::raii::CommandBuffer& commands, const image& target)
     }
 }
 
-vk::raii::Sampler trilinear_sampler(const device& owner)
+vk::raii::Sampler trilinear_sampler(const device& owner, vk::SamplerAddressMode beyond_rows)
 {
     constexpr auto edge = vk::SamplerAddressMode::eClampToEdge;
     return {owner.handle(), vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear,
-                                                  vk::SamplerMipmapMode::eLinear, edge, edge, edge)
+                                                  vk::SamplerMipmapMode::eLinear, edge, beyond_rows, edge)
                                 .setMaxLod(VK_LOD_CLAMP_NONE)};
 }
 
@@ -277,7 +297,9 @@ stage_info::stage_info(const device& owner, const shader& code, vk::ShaderStageF
 {
     for (std::uint32_t i = 0; i < constants_.size(); ++i) entries_.emplace_back(i, 4 * i, 4);
     specialization_.setMapEntries(entries_).setData<std::uint32_t>(constants_);
-    info_ = {{}, stage, *module_, "main", &specialization_};
+    using flag = vk::PipelineShaderStageCreateFlagBits;
+    info_ = {code.fills_subgroups ? flag::eRequireFullSubgroups : vk::PipelineShaderStageCreateFlags(), stage, *module_,
+             "main", &specialization_};
 }
 
 compute_pass::compute_pass(const device& owner, const shader& code, const std::vector<resource>& resources,

@@ -41,6 +41,8 @@ class device {
     const vk::raii::PhysicalDevice& physical() const { return physical_; }
     std::string name() const { return physical_.getProperties().deviceName; }
     bool blends_two_sources() const { return physical_.getFeatures().dualSrcBlend; }
+    // Invocations of a subgroup that compute shaders fill and shuffle values in, or 0 if they cannot.
+    std::uint32_t shuffling_lanes() const;
 
     // Warnings and errors of the validation layer so far.
     const std::vector<std::string>& complaints() const { return *complaints_; }
@@ -124,8 +126,9 @@ struct uniform {
 };
 using resource = std::variant<std::reference_wrapper<const buffer>, uniform, sampled, stored, vk::Sampler>;
 
-// Linear between texels and between mip levels; beyond the edge the outermost texel repeats.
-vk::raii::Sampler trilinear_sampler(const device& owner);
+// Linear between texels and between mip levels; beyond the edge the outermost texel repeats, or the rows do.
+vk::raii::Sampler trilinear_sampler(const device& owner,
+                                    vk::SamplerAddressMode beyond_rows = vk::SamplerAddressMode::eClampToEdge);
 
 using push_constants = std::span<const std::byte>;
 
@@ -144,10 +147,12 @@ class inputs {
     vk::raii::DescriptorSet set_ = nullptr;
 };
 
-// A shader's code, with main as its entry point, and its specialization constants: words with the ids 0, 1, ...
+// A shader's code, with main as its entry point, and its specialization constants: words with the ids 0, 1, ... One that
+// fills subgroups has workgroups of whole subgroups.
 struct shader {
     std::span<const std::uint32_t> spirv;
     std::vector<std::uint32_t> constants = {};
+    bool fills_subgroups = false;
 };
 
 class compute_pass {
