@@ -5,12 +5,14 @@
 #include "passes.hpp"
 #include "renderer/output/image.hpp"
 #include "renderer/scene/stage.hpp"
+#include "renderer/shade/receivers.hpp"
 #include "renderer/vulkan/device.hpp"
 #include "spirv.hpp"
 
 #include <glm/vec4.hpp>
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace gnomon::evaluation {
@@ -33,24 +35,33 @@ inline constexpr float roundings = 26;
 
 class device_stage {
   public:
-    // The stage has a directional light, and its meshes are shaded by the normals of their triangles.
+    // The stage has a directional light, and its meshes are shaded by the normals of their triangles. The radius is that of
+    // the map's filter, for the depth bias of surfaces.
     device_stage(const renderer::vulkan::device& gpu, const renderer::stage& scenery, vk::Extent2D extent,
-                 int map_resolution, shading_language language, const soft_settings& soft = {});
+                 int map_resolution, shading_language language, const soft_settings& soft = {},
+                 double radius = renderer::bias_radius);
 
     const renderer::vulkan::device& gpu() const { return gpu_; }
     const shader_texts& texts() const { return texts_; }
     const renderer::vulkan::image& depths() const { return depths_; } // of the shadow map
+    const renderer::vulkan::image& camera_depth() const { return camera_depth_; }
+    const renderer::vulkan::image& camera_picture() const { return camera_picture_; }
     const renderer::vulkan::buffer& vertices() const { return vertices_; }
     const std::array<glm::vec4, 4>& light_rows() const { return light_rows_; }
 
-    named_pass shadow_map() const;
+    named_pass shadow_map() const { return depth_map("shadow_map", depths_, vk::SampleCountFlagBits::e4); }
+
+    // Draws the depth that the light sees into an image of so many samples.
+    named_pass depth_map(std::string name, const renderer::vulkan::image& target,
+                         vk::SampleCountFlagBits samples) const;
 
     // Draws the camera's picture by a fragment shader. Its resources follow the struct view, which is at binding 0.
     named_pass lighting(const renderer::vulkan::shader& fragment,
                         const std::vector<renderer::vulkan::resource>& resources) const;
 
-    // The picture that these passes leave, and their times.
-    device_frame run(const std::vector<named_pass>& passes) const;
+    // The picture that these passes leave, the camera's or another, and their times.
+    device_frame run(const std::vector<named_pass>& passes) const { return run(passes, camera_picture_); }
+    device_frame run(const std::vector<named_pass>& passes, const renderer::vulkan::image& picture) const;
 
   private:
     const renderer::vulkan::device& gpu_;

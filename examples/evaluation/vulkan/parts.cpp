@@ -21,15 +21,19 @@ constexpr float error_scale = 0.05f; // visibility at which error colours satura
 
 } // namespace
 
-void write_pictures(const std::string& id, const settings& how, const device_frame& device, const stage& scenery,
-                    const device_comparison& comparison, const image<float>& host)
+void write_pictures(const std::string& id, const settings& how, const device_frame& device, const host_picture& host)
 {
     const auto write = [&](const char* kind, const picture& whole) {
         write_png(how.folder(vulkan_driver) / (id + kind + ".png"), reduced(whole, how.supersampling));
     };
-    tbb::parallel_invoke([&] { write("-device", device.colour); },
-                         [&] { write("-cpu", shade(scenery.world, scenery.light, comparison.seen(), host)); },
-                         [&] { write("-difference", error_picture(device.visibility, host, error_scale)); });
+    tbb::parallel_invoke([&] { write("-device", device.colour); }, [&] { write("-cpu", host.colour); },
+                         [&] { write("-difference", error_picture(device.visibility, host.visibility, error_scale)); });
+}
+
+void write_pictures(const std::string& id, const settings& how, const device_frame& device, const stage& scenery,
+                    const device_comparison& comparison, const image<float>& host)
+{
+    write_pictures(id, how, device, {shade(scenery.world, scenery.light, comparison.seen(), host), host});
 }
 
 pictures_block pictures_of(const compared_pictures& shown)

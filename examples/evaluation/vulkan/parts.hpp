@@ -18,9 +18,10 @@ struct page_part {
     std::vector<report_row> rows;
 };
 
-// Translucent surfaces that blend into a map, and soft shadows from a summed-area table.
+// Translucent surfaces that blend into a map, soft shadows from a summed-area table, and single scattering.
 page_part translucent_part(const renderer::vulkan::device& gpu, const settings& how);
 page_part soft_part(const renderer::vulkan::device& gpu, const settings& how);
+page_part scattering_part(const renderer::vulkan::device& gpu, const settings& how);
 
 // Files ID-device.png, ID-cpu.png and ID-difference.png in the folder of the driver, and the block that shows them. The
 // subject says in words what they show.
@@ -28,6 +29,11 @@ struct compared_pictures {
     std::string id, title, subject;
     error_statistics errors;
 };
+struct host_picture {
+    renderer::picture colour;
+    renderer::image<float> visibility;
+};
+void write_pictures(const std::string& id, const settings& how, const device_frame& device, const host_picture& host);
 void write_pictures(const std::string& id, const settings& how, const device_frame& device,
                     const renderer::stage& scenery, const device_comparison& comparison,
                     const renderer::image<float>& host);

@@ -27,6 +27,30 @@ bool at_edge(const image<float>& visibility, int x, int y)
 
 } // namespace
 
+difference_statistics difference_of(const image<float>& device, const image<float>& host,
+                                    std::span<const std::size_t> pixels, float tolerance)
+{
+    std::vector<float> estimates, references, values;
+    double beyond = 0, beyond_inside = 0;
+    for (const std::size_t pixel : pixels) {
+        estimates.push_back(device.pixels[pixel]);
+        references.push_back(host.pixels[pixel]);
+        values.push_back(std::abs(estimates.back() - references.back()));
+        if (values.back() <= tolerance) continue;
+        beyond += 1;
+        if (!at_edge(host, int(pixel) % host.width, int(pixel) / host.width)) beyond_inside += 1;
+    }
+    std::ranges::sort(values);
+    const auto count = double(values.size());
+    const auto percentile = [&](double share) { return double(values[std::size_t(share * (count - 1))]); };
+    return {.errors = compare(estimates, references),
+            .median = percentile(0.5),
+            .p99 = percentile(0.99),
+            .p999 = percentile(0.999),
+            .beyond = beyond / count,
+            .beyond_inside = beyond_inside / count};
+}
+
 float tolerance_of(const vulkan::device& gpu, float largest_weight)
 {
     constexpr float storage = 0.01f;
@@ -53,30 +77,6 @@ side_by_side device_comparison::render(const filterable_method& m) const
     for (std::size_t i = 0; i < where_.size(); ++i) result.host.pixels[where_.pixels[i]] = 1 - intensities[i];
     result.difference = difference(result.device.visibility, result.host, tolerance_);
     return result;
-}
-
-difference_statistics device_comparison::difference(const image<float>& device, const image<float>& host,
-                                                    float tolerance) const
-{
-    std::vector<float> estimates, references, values;
-    double beyond = 0, beyond_inside = 0;
-    for (const std::size_t pixel : where_.pixels) {
-        estimates.push_back(device.pixels[pixel]);
-        references.push_back(host.pixels[pixel]);
-        values.push_back(std::abs(estimates.back() - references.back()));
-        if (values.back() <= tolerance) continue;
-        beyond += 1;
-        if (!at_edge(host, int(pixel) % host.width, int(pixel) / host.width)) beyond_inside += 1;
-    }
-    std::ranges::sort(values);
-    const auto count = double(values.size());
-    const auto percentile = [&](double share) { return double(values[std::size_t(share * (count - 1))]); };
-    return {.errors = compare(estimates, references),
-            .median = percentile(0.5),
-            .p99 = percentile(0.99),
-            .p999 = percentile(0.999),
-            .beyond = beyond / count,
-            .beyond_inside = beyond_inside / count};
 }
 
 } // namespace gnomon::evaluation

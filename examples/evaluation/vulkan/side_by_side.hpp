@@ -17,6 +17,7 @@
 #include <gnomon/passes/blur.hpp>
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace gnomon::evaluation {
@@ -34,6 +35,10 @@ struct side_by_side {
     difference_statistics difference;
 };
 
+// Over the pixels of a picture of visibility.
+difference_statistics difference_of(const renderer::image<float>& device, const renderer::image<float>& host,
+                                    std::span<const std::size_t> pixels, float tolerance);
+
 // The tolerance for visibilities that a filter averages, of which a texel has largest_weight at most.
 float tolerance_of(const renderer::vulkan::device& gpu, float largest_weight);
 
@@ -45,7 +50,10 @@ class device_comparison {
     side_by_side render(const filterable_method& m) const;
 
     difference_statistics difference(const renderer::image<float>& device, const renderer::image<float>& host,
-                                     float tolerance) const;
+                                     float tolerance) const
+    {
+        return difference_of(device, host, where_.pixels, tolerance);
+    }
 
     float tolerance() const { return tolerance_; }
     const depth_map& depths() const { return depths_; }

@@ -24,10 +24,20 @@ struct soft_shaders {
     std::span<const std::uint32_t> resolve, rows, columns, lighting;
 };
 
+// Of single scattering, by the ids of storage formats.
+struct scattering_shaders {
+    std::span<const std::uint32_t> rectify, rectify_moments, scattering;
+};
+struct rectified_shaders {
+    std::span<const std::uint32_t> prefix_groups, prefix_subgroups;
+    std::map<std::string, scattering_shaders> formats;
+};
+
 struct shader_texts {
     std::span<const std::uint32_t> scene, blur, layer;
     std::array<blend_shaders, 2> blend; // into one image and into two
     soft_shaders soft;
+    rectified_shaders rectified;
     std::map<std::string, method_shaders> methods; // by their ids
 };
 
