@@ -1,13 +1,14 @@
-// Single scattering on a Vulkan device against the CPU, step by step, by the kernels of the library on both. Each step of the
-// CPU starts from what the device has at that step, so that differences of earlier steps do not count.
+// Single scattering on a Vulkan device against the CPU, step by step, by the kernels of the library on both. Depths, averages and
+// look-ups of the CPU start from what the device has at that step, so that differences of earlier steps do not count. Filtered
+// texels and the whole start from what the CPU rasterized itself.
 //
 // Rectified from texels of the shadow map: both sides do the same operations, so codes differ by one at most, where the device
 // rounds the product of a channel and the largest code before it rounds to a code. A device that fuses products moves
 // positions by 2^-23 of the map, too, and a texel in a thousand may read the next texel.
 //
-// Rectified from moments: the device's sampler weighs texels with 8 bits at least, and small differences of moments are large
-// ones of two depths that are close to each other. These have their mean and their variance nevertheless: 99% of the
-// texels keep the tolerance of side_by_side.hpp.
+// Rectified from moments, of each side's own shadow map: the device's sampler weighs texels with 8 bits at least, and small
+// differences of moments are large ones of two depths that are close to each other. These have their mean and their variance
+// nevertheless: 99% of the texels keep the tolerance of side_by_side.hpp.
 //
 // Prefix averages: the CPU sums in double and rounds once. On the device each step rounds by 2^-24, and later shares leave half
 // of that on the mean: 1024 steps at random come to 2^-20, an eighth of half a code of 16 bits, all in one direction to 2^-15,

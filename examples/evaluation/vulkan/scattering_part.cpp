@@ -21,12 +21,12 @@ table_block differences(const std::vector<scattering_comparison>& all, bool has_
     table_block result{
         .title = "Scattering on the device and on the CPU",
         .text =
-            "Shares of the texels in which a code differs: each pass on the CPU starts from the texels that the device "
-            "starts from. Prefix averages are summed in float on the device and in double on the CPU; their codes "
-            "differ "
-            "by one at most. Differences of visibility are those of look-ups in the device's averages, and of the "
-            "whole "
-            "from the CPU's own shadow map.",
+            "Shares of the texels in which a code differs from the CPU's. The CPU makes texels from single depths, and "
+            "averages, of what the device has; it filters moments of its own shadow map. It sums averages in double "
+            "and "
+            "the device in float: their codes differ by one at most. Visibility on the CPU is looked up in the "
+            "device's "
+            "averages, and in averages of its own map.",
         .columns = {{.key = "format", .label = "format"},
                     {.key = "nearest", .label = "rectified, per million", .digits = 0, .scale = 1e6},
                     {.key = "filtered", .label = "filtered, mean, codes", .digits = 2},
