@@ -15,10 +15,12 @@ namespace gnomon::evaluation {
 
 namespace {
 
-rectified_corners<float> corners_of(const scattering_scene& scene)
+// The corners of the plane at a share of the far plane's distance.
+rectified_corners<float> corners_of(const scattering_scene& scene, float share)
 {
     const auto corner = [&](std::size_t k) {
-        return rectified_corner<float>{scene.corners[k].x, scene.corners[k].y, scene.corners[k].z};
+        const glm::vec3 end = share * scene.corners[k];
+        return rectified_corner<float>{end.x, end.y, end.z};
     };
     return {corner(0), corner(1), corner(2), corner(3)};
 }
@@ -63,17 +65,24 @@ template <class Texel> class counted_look_up {
         const float z_f = rectified_depth_of(map_.frame.depth, ray.position.polar, row.range);
         const gnomon::detail::neighbours n = gnomon::detail::neighbours_of<border_mode::clamp>(
             x / float(size) - 0.5f, std::max<std::size_t>(map_.columns / size, 1));
-        double weight = 1, all = 0, shadowed = 0, lower = 0, upper = 0;
+        double weight = row.decay == 0 ? 1 : in_fog(row, 0), all = 0, shadowed = 0, lower = 0, upper = 0;
         for (std::size_t u = 0; u < (n.upper + 1) * size; ++u) {
             all += weight;
             shadowed += weight * double(texels_(int(u), int(v)).share_before(z_f));
-            weight *= double(row.factor);
+            weight = row.decay == 0 ? weight * double(row.factor) : in_fog(row, u + 1);
             if (u / size == n.lower) lower += shadowed / all;
             if (u / size == n.upper) upper += shadowed / all;
         }
         const double width = double(size), before = (double(n.lower) + 0.5) * width + 0.5;
-        const double share = transmittance_weight_between(before, width, double(n.fraction), double(row.optical_depth));
+        const double share = gnomon::detail::rectified_share(before, width, double(n.fraction),
+                                                             double(row.optical_depth), double(row.decay));
         return (lower + share * (upper - lower)) / width;
+    }
+
+    // The weight of a texel of a row in height fog.
+    static double in_fog(const rectified_row& row, std::size_t u)
+    {
+        return height_fog_weight(double(u), double(u + 1), double(row.decay), double(row.optical_depth));
     }
 
     const rectified_scene& map_;
@@ -99,21 +108,22 @@ std::vector<float> counted(const rectified_scene& map, std::span<const view_segm
 std::string id_of(const rectified_options& options)
 {
     constexpr const char* sources[] = {"texel", "texels", "moments"};
-    return fmt::format("{}_{}_{}", sources[static_cast<int>(options.source)],
+    return fmt::format("{}_{}_{}{}", sources[static_cast<int>(options.source)],
                        options.depth == rectified_depth::polar ? "polar" : "cosine",
-                       options.range_per_row ? "row" : "frustum");
+                       options.range_per_row ? "row" : "frustum", options.fitted ? "_fitted" : "");
 }
 
 rectified_scene::rectified_scene(const scattering_scene& scene, const rectified_options& options)
     : columns(scene.columns), rows(scene.rows), scene_(scene), options_(options)
 {
-    const rectified_corners<float> far_plane = corners_of(scene);
+    const rectified_corners<float> far_plane = corners_of(scene, options.fitted ? scene.visible : 1);
     const rectified_frustum<float> bounds = rectified_frustum_from_corners(far_plane);
     frame = rectified_frame_of(bounds, options.depth);
     row_angle_ = frame.azimuth_length / float(rows.size());
     column_width_ = rectified_radius_step(frame, columns);
-    if (options.range_per_row) rectified_rows(frame, far_plane, scene.extinction, columns, rows);
-    else rectified_rows(frame, bounds, scene.extinction, columns, rows);
+    const rectified_fog fog{scene.falloff, scene.up.x, scene.up.y, scene.up.z};
+    if (options.range_per_row) rectified_rows(frame, far_plane, scene.extinction, columns, rows, fog);
+    else rectified_rows(frame, bounds, scene.extinction, columns, rows, fog);
 }
 
 std::vector<float> rectified_scene::exact(std::span<const view_segment> where) const

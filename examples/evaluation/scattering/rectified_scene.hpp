@@ -24,6 +24,7 @@ struct rectified_options {
     rectified_source source = rectified_source::texels;
     rectified_depth depth = rectified_depth::cosine;
     bool range_per_row = true; // of polar angles; else the range of the whole view frustum, as in the paper
+    bool fitted = false;       // radii end at the farthest visible surface; else at the far plane
 };
 
 // The setting of the paper.

@@ -1,7 +1,5 @@
 #include "scattering_frames.hpp"
 
-#include "scattering_page.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -95,7 +93,7 @@ class frame_comparison {
     {
         image<float> change = pixels(changes(frames[0])), expected(change.width, change.height);
         if (beyond) expected = pixels(changes(traced_[0]));
-        const std::string file = fmt::format("{}-{}-difference.png", scene_.scene.id, id);
+        std::string file = fmt::format("{}-{}-difference.png", scene_.scene.id, id);
         write_png(folder_ / file, reduced(error_picture(change, expected, change_scale), scene_.how.supersampling));
         return file;
     }
@@ -174,13 +172,12 @@ std::vector<std::pair<std::string, std::string>> key_of_changes()
 std::size_t steps_of_gate_frames() { return 1 + at_the_gate.size(); }
 std::size_t steps_of_entering_frames() { return 1 + of_the_dragon.size(); }
 
-compared_frames compare_gate_frames(const compared_scattering_scene& gate, const std::filesystem::path& folder,
-                                    steps& all)
+page_part compare_gate_frames(const compared_scattering_scene& gate, const std::filesystem::path& folder, steps& all)
 {
     const frame_comparison frames(gate, folder, all, gate_frames, [&](std::size_t i) {
         return gate_stage(double(gate.how.width) / gate.how.height, float(i) * gate_frame_time);
     });
-    compared_frames result;
+    page_part result;
     table_block table{
         .title = "Stability as the camera moves",
         .text = fmt::format(
@@ -217,13 +214,13 @@ compared_frames compare_gate_frames(const compared_scattering_scene& gate, const
     return result;
 }
 
-compared_frames compare_entering_frames(const compared_scattering_scene& entering, const std::filesystem::path& folder,
-                                        steps& all)
+page_part compare_entering_frames(const compared_scattering_scene& entering, const std::filesystem::path& folder,
+                                  steps& all)
 {
     const frame_comparison frames(entering, folder, all, 2, [&](std::size_t i) {
         return entering_stage(double(entering.how.width) / entering.how.height, i == 1);
     });
-    compared_frames result;
+    page_part result;
     pictures_block pictures{
         .title = "Changes as the dragon enters",
         .text =

@@ -139,7 +139,7 @@ class blocks_of_scene {
                           {"build_ms", first.build_ms},
                           {"map_mib", first.map_bytes / 0x1p20}},
                          m.of->its_family().colour};
-        const auto add = [&](std::string key, cell value) { result.cells.emplace_back(std::move(key), value); };
+        const auto add = [&](std::string key, const cell& value) { result.cells.emplace_back(std::move(key), value); };
         for (const scattering_reference& r : scattering_references) {
             const report_row* row = m.find(r.id);
             const std::string id = r.id;

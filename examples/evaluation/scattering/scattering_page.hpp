@@ -11,6 +11,12 @@
 
 namespace gnomon::evaluation {
 
+// What a comparison of its own adds to the page and to the report.
+struct page_part {
+    std::vector<block> blocks;
+    std::vector<report_row> rows;
+};
+
 // Two methods side by side, of which these two are first seen; numbers; speed against accuracy; pictures of errors.
 std::vector<block> blocks_of(const compared_scattering_scene& scene, const std::array<std::string, 2>& first);
 

@@ -39,6 +39,7 @@ struct scattering_scene {
     const scattering_depths& depths;
     light_map map;                    // the camera's place in the shadow map, and texels per unit of length
     std::array<glm::vec3, 4> corners; // of the view frustum's far plane in light axes, in turn from the upper left one
+    float visible = 1;                // distance of the farthest visible surface, as a share of the far plane's
     float extinction = 0;             // of the air at the camera's height, per unit of length
     float falloff = 0;     // of extinction with height: exp(-falloff height) above the camera; 0 if homogeneous
     glm::vec3 up{0, 1, 0}; // of the world, in light axes

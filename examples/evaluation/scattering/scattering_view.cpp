@@ -95,10 +95,15 @@ scattering_scene scattering_view::scene() const
     const auto corner = [&](double u, double v) {
         return glm::vec3(in_light_axes(light, eye.far_distance * ray_through(eye, {u, v}).direction));
     };
+    double farthest = 0;
+    for (const view_segment& s : where)
+        farthest = std::max(farthest, glm::dot(glm::dvec3(s.end), in_light_axes(light, eye.forward)));
+    constexpr double slack = 1 + 1e-4; // rounding leaves no surface outside
     const int resolution = depths.centres.width;
     return {.depths = depths,
             .map = map_of(light, eye, resolution),
             .corners = {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)},
+            .visible = std::min(1.0f, float(slack * farthest / eye.far_distance)),
             .extinction = stage.air.mean_extinction() * float(std::exp(-double(stage.air.falloff) * eye.position.y)),
             .falloff = stage.air.falloff,
             .up = glm::vec3(in_light_axes(light, {0, 1, 0})),

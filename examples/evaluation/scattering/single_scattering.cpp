@@ -2,6 +2,7 @@
 #include "hazy_scene.hpp"
 #include "map_pictures.hpp"
 #include "renderer/import/model.hpp"
+#include "scattering_beyond.hpp"
 #include "scattering_costs.hpp"
 #include "scattering_frames.hpp"
 #include "scattering_page.hpp"
@@ -75,16 +76,16 @@ void single_scattering(const settings& given)
     const settings how = sizes_of(given);
     const std::filesystem::path folder = how.folder("single_scattering");
     const std::vector<const hazy_scene*> scenes = registry_of<scene_entry>().all_of<hazy_scene>();
-    std::size_t count = steps_of_gate_frames() + steps_of_entering_frames();
+    std::size_t count = steps_of_gate_frames() + steps_of_entering_frames() + steps_of_fog() + steps_of_layers();
     for (const hazy_scene* s : scenes) count += steps_of_comparison(s->id);
     steps all("single_scattering", count + 1);
     page result = page_of("single_scattering", "Single scattering",
                           "Shafts of light in haze by one look-up of moments per pixel, and by ray marching.");
     result.blocks.push_back(introduction(how));
     std::vector<report_row> rows;
-    const auto add = [&](compared_frames&& frames) {
-        std::ranges::move(frames.blocks, std::back_inserter(result.blocks));
-        rows.insert(rows.end(), frames.rows.begin(), frames.rows.end());
+    const auto add = [&](page_part&& part) {
+        std::ranges::move(part.blocks, std::back_inserter(result.blocks));
+        rows.insert(rows.end(), part.rows.begin(), part.rows.end());
     };
     std::unique_ptr<shown_stage> first;
     for (const hazy_scene* s : scenes) {
@@ -104,6 +105,8 @@ void single_scattering(const settings& given)
     all.begin("costs");
     for (block& b : scattering_costs(first->stage, rows, std::min(4 * how.map_resolution, 2048)))
         result.blocks.push_back(std::move(b));
+    add(compare_layers(how, folder, all));
+    add(compare_fog(how, folder, all));
     write_page(folder, result);
     merge_report(how.out / "report.json", rows);
 }
