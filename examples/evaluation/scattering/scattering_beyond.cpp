@@ -142,13 +142,13 @@ std::size_t steps_of_layers() { return 1 + of_veils.size(); }
 page_part compare_fog(const settings& given, const std::filesystem::path& folder, steps& all)
 {
     settings how = given;
-    how.width /= 2, how.height /= 2;
+    how.width /= 2, how.height /= 2, how.map_resolution /= 2;
     page_part result;
     table_block table{
         .title = "Height fog",
         .text =
             "Root mean square errors of visibility against ray tracing, in thousandths, in air whose density falls by "
-            "e<sup>-falloff</sup> for each meter of height. Maps have the same texels as in even air, and rows have "
+            "e<sup>-falloff</sup> for each meter of height. Pictures and maps have half the resolution of the others. Maps have the same texels as in even air, and rows have "
             "the "
             "weights of their middle rays in the fog, or those of even air. A ray at another angle to the light "
             "crosses "
