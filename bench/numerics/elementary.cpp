@@ -1,25 +1,10 @@
 // The elementary functions. The baseline of each is the function of the C library in scalar code.
-#include "core/measure.hpp"
+#include "core/uniform.hpp"
 
 #include <gnomon/numerics/exp.h>
 #include <gnomon/numerics/trigonometry.h>
 
-#include <random>
-
 namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {
-
-template <std::size_t n> struct uniform : compilation {
-    static constexpr std::size_t inputs = n;
-    static std::vector<std::array<double, n>> samples(std::size_t count, std::uint64_t seed, double low, double high)
-    {
-        std::mt19937_64 random(seed);
-        std::uniform_real_distribution<double> value(low, high);
-        std::vector<std::array<double, n>> result(count);
-        for (auto& operands : result)
-            for (double& x : operands) x = value(random);
-        return result;
-    }
-};
 
 struct exp_range : uniform<1> {
     static auto samples(std::size_t count, std::uint64_t seed) { return uniform::samples(count, seed, -80, 80); }

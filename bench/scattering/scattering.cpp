@@ -1,29 +1,13 @@
 // Single scattering: the coordinates of the end of a view ray by the polar angle and by its cosine, of which the first is the
 // baseline; the weight of a ray that ends within a texel; radiance in a homogeneous medium and in fog; and the bounds of a
 // camera, which are made once for each frame.
-#include "core/measure.hpp"
+#include "core/uniform.hpp"
 
 #include <gnomon/scattering/height_fog.h>
 #include <gnomon/scattering/rectified_frustum.h>
 #include <gnomon/scattering/transmittance_weights.h>
 
-#include <random>
-
 namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {
-
-/// Numbers in [low, high].
-template <std::size_t n> struct uniform : compilation {
-    static constexpr std::size_t inputs = n;
-    static std::vector<std::array<double, n>> samples(std::size_t count, std::uint64_t seed, double low, double high)
-    {
-        std::mt19937_64 random(seed);
-        std::uniform_real_distribution<double> value(low, high);
-        std::vector<std::array<double, n>> result(count);
-        for (auto& operands : result)
-            for (double& x : operands) x = value(random);
-        return result;
-    }
-};
 
 struct positions : uniform<3> {
     static auto samples(std::size_t count, std::uint64_t seed) { return uniform::samples(count, seed, -1, 1); }

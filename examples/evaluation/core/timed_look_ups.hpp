@@ -14,6 +14,7 @@
 #include <bit>
 #include <cstddef>
 #include <limits>
+#include <ranges>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -25,6 +26,20 @@ struct measured_time {
     int lanes;
     double ns_kernel, ns_per_receiver;
 };
+
+// Receivers to time: 16 runs of neighbours from all over the picture.
+template <std::ranges::random_access_range Receivers>
+std::vector<std::ranges::range_value_t<Receivers>> runs_to_time(const Receivers& where, std::size_t neighbours = 512)
+{
+    constexpr std::size_t runs = 16;
+    if (where.size() <= runs * neighbours) return {where.begin(), where.end()};
+    std::vector<std::ranges::range_value_t<Receivers>> result;
+    for (std::size_t i = 0; i < runs; ++i) {
+        const auto first = where.begin() + std::ptrdiff_t((2 * i + 1) * (where.size() - neighbours) / (2 * runs));
+        result.insert(result.end(), first, first + std::ptrdiff_t(neighbours));
+    }
+    return result;
+}
 
 // Nanoseconds per receiver: the least time of at least three runs, and of as many as fit into so many seconds.
 inline double nanoseconds(const timed_run& timed, std::span<float> result, double spent_at_least = 0.15)

@@ -71,7 +71,7 @@ class measured_map {
             result.passes.emplace_back(p.name, p.milliseconds);
             result.build_ms += p.milliseconds;
         }
-        const std::vector<view_segment> timed = segments_to_time(where);
+        const std::vector<view_segment> timed = runs_to_time(where);
         std::vector<float> scratch(timed.size());
         const timed_look_up look_up = map_->timed(timed).front();
         result.lanes = look_up.lanes;
@@ -148,7 +148,8 @@ page_part compare_fog(const settings& given, const std::filesystem::path& folder
         .title = "Height fog",
         .text =
             "Root mean square errors of visibility against ray tracing, in thousandths, in air whose density falls by "
-            "e<sup>-falloff</sup> for each meter of height. Pictures and maps have half the resolution of the others. Maps have the same texels as in even air, and rows have "
+            "e<sup>-falloff</sup> for each meter of height. Pictures and maps have half the resolution of the others. "
+            "Maps have the same texels as in even air, and rows have "
             "the "
             "weights of their middle rays in the fog, or those of even air. A ray at another angle to the light "
             "crosses "

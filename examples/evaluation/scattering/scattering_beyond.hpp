@@ -11,7 +11,7 @@ std::size_t steps_of_fog();
 std::size_t steps_of_layers();
 
 // The room and the trees in height fog, by rows whose weights follow the fog and by rows of homogeneous air.
-page_part compare_fog(const settings& how, const std::filesystem::path& folder, steps& all);
+page_part compare_fog(const settings& given, const std::filesystem::path& folder, steps& all);
 
 // Translucent veils in the room: each surface of a pixel has a look-up of its own.
 page_part compare_layers(const settings& how, const std::filesystem::path& folder, steps& all);

@@ -30,7 +30,7 @@ class comparison {
           view_(view),
           places_(view.stage.interests, view.stage.eye, how.width, how.height),
           folder_(folder),
-          timed_(segments_to_time(view.where))
+          timed_(runs_to_time(view.where))
     {
         found_ = {scene, how, view.where.size(), {}, {}, {}};
         for (std::size_t i = 0; i < view.stage.interests.size(); ++i) {
@@ -208,18 +208,6 @@ compared_scattering_scene compare_scattering_methods(const scene_facts& scene, c
     comparison c(scene, view, how, folder, all);
     for (const scattering_method* m : scattering_methods(scene.id)) c.add(*m);
     return c.take();
-}
-
-std::vector<view_segment> segments_to_time(std::span<const view_segment> where, std::size_t neighbours)
-{
-    constexpr std::size_t runs = 16;
-    if (where.size() <= runs * neighbours) return {where.begin(), where.end()};
-    std::vector<view_segment> result;
-    for (std::size_t i = 0; i < runs; ++i) {
-        const auto first = where.begin() + std::ptrdiff_t((2 * i + 1) * (where.size() - neighbours) / (2 * runs));
-        result.insert(result.end(), first, first + std::ptrdiff_t(neighbours));
-    }
-    return result;
 }
 
 std::vector<float> visibilities_of(const scattering_map& map, std::span<const view_segment> where)

@@ -66,9 +66,6 @@ compared_scattering_scene compare_scattering_methods(const scene_facts& scene, c
                                                      const settings& how, const std::filesystem::path& folder,
                                                      steps& all);
 
-// View rays to time: 16 runs of neighbours from all over the picture.
-std::vector<view_segment> segments_to_time(std::span<const view_segment> where, std::size_t neighbours = 512);
-
 // Visibilities of all view rays, by all threads.
 std::vector<float> visibilities_of(const scattering_map& map, std::span<const view_segment> where);
 

@@ -35,7 +35,7 @@ class comparison {
           stage_(scenery, how),
           places_(scenery.interests, scenery.eye, how.width, how.height),
           folder_(folder),
-          timed_(receivers_to_time(stage_.where))
+          timed_(runs_to_time(stage_.where))
     {
         const soft_widths<float> texels = stage_.light(1e6f).penumbra(1.f, -1.f);
         found_ = {scene, how, stage_.where.size(), double(std::max(texels.x, texels.y)), {}, {}, {}};
@@ -209,18 +209,6 @@ compared_soft_scene compare_soft_methods(const scene_facts& scene, const stage& 
     comparison c(scene, scenery, how, folder, all);
     for (const soft_method* m : soft_methods()) c.add(*m, std::ranges::count(without_bias, m->id) > 0);
     return c.take();
-}
-
-std::vector<soft_receiver> receivers_to_time(std::span<const soft_receiver> where, std::size_t neighbours)
-{
-    constexpr std::size_t runs = 16;
-    if (where.size() <= runs * neighbours) return {where.begin(), where.end()};
-    std::vector<soft_receiver> result;
-    for (std::size_t i = 0; i < runs; ++i) {
-        const auto first = where.begin() + std::ptrdiff_t((2 * i + 1) * (where.size() - neighbours) / (2 * runs));
-        result.insert(result.end(), first, first + std::ptrdiff_t(neighbours));
-    }
-    return result;
 }
 
 } // namespace gnomon::evaluation

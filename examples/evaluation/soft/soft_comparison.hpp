@@ -65,7 +65,4 @@ compared_soft_scene compare_soft_methods(const scene_facts& scene, const rendere
                                          const std::filesystem::path& folder, steps& all,
                                          const std::vector<std::string>& without_bias = {});
 
-// Receivers to time: 16 runs of neighbours from all over the picture.
-std::vector<soft_receiver> receivers_to_time(std::span<const soft_receiver> where, std::size_t neighbours = 1024);
-
 } // namespace gnomon::evaluation

@@ -99,7 +99,7 @@ chart_block cost_of_texels(const soft_stage& stage, int finest_resolution)
 
 chart_block cost_of_receivers(const soft_stage& stage, const std::vector<std::string>& ids)
 {
-    const std::vector<soft_receiver> where = receivers_to_time(stage.where, 256);
+    const std::vector<soft_receiver> where = runs_to_time(stage.where, 256);
     const soft_widths<float> widest = stage.light(1e6f).penumbra(1.f, -1.f);
     panel p{.title = {},
             .x = {.label = "widest search, texels along each axis"},

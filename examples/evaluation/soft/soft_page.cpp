@@ -94,13 +94,12 @@ class blocks_of_scene {
                            .columns = {},
                            .rows = {}};
         const auto add = [&](std::string key, std::string label, int digits, double scale, std::string hint = {}) {
-            column c{.key = std::move(key),
-                     .label = std::move(label),
-                     .digits = digits,
-                     .best = best::low,
-                     .hint = std::move(hint)};
-            if (scale != 1) c.scale = scale;
-            result.columns.push_back(std::move(c));
+            result.columns.push_back({.key = std::move(key),
+                                      .label = std::move(label),
+                                      .digits = digits,
+                                      .scale = scale,
+                                      .best = best::low,
+                                      .hint = std::move(hint)});
         };
         result.columns.push_back({.key = "method", .label = "method"});
         for (const soft_reference& r : soft_references) {
