@@ -36,7 +36,7 @@ picture magnified_places::figure(const picture& whole) const
 }
 
 picture magnified_places::figure(const picture& whole, const picture& details, float contrast,
-                                  std::span<const glm::vec3> middles) const
+                                 std::span<const glm::vec3> middles) const
 {
     if (crops_.empty()) return whole;
     picture framed = whole;

@@ -158,7 +158,8 @@ inline float min_max_intensity(map_view<const float> depths, map_view<const dept
     level_weight of_level{1, factor};
     const auto doubled = [](level_weight w) { return level_weight{w.all + w.all * w.factor, w.factor * w.factor}; };
     for (std::size_t k = 1; k < min_max_block; k *= 2) of_level = doubled(of_level);
-    const std::size_t top = blocks > 0 ? std::size_t(std::bit_width(blocks)) - 1 : 0;
+    std::size_t top = 0;
+    while (blocks >> top > 1) ++top;
     for (std::size_t k = 0; k <= top; ++k, of_level = doubled(of_level)) levels[k] = of_level;
 
     // By blocks: the largest node that begins at the block and is not beyond the end, unless it must be opened.
