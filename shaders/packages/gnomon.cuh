@@ -2855,7 +2855,7 @@ inline constexpr double ray_march_jitter_scale = 52.9829189;
 template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real ray_march_fraction(Real x)
 {
     Real fraction = x - nearest_integer(x - Real(0.5));
-    return gnomon_select(fraction < Real(1), fraction, Real(0));
+    return gnomon_select(Real(0) <= fraction && fraction < Real(1), fraction, Real(0)); // also where nothing is rounded
 }
 
 /// A number in [0, 1) for the pixel at column x and row y: interleaved gradient noise, of which the values of 3 x 3

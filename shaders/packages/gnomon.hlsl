@@ -2172,7 +2172,7 @@ static const float ray_march_jitter_scale = 52.9829189;
 float gnomon_ray_march_fraction(float x)
 {
     float fraction = x - nearest_integer(x - 0.5);
-    return gnomon_select(fraction < 1.0, fraction, 0.0);
+    return gnomon_select(0.0 <= fraction && fraction < 1.0, fraction, 0.0); // also where nothing is rounded
 }
 
 /// A number in [0, 1) for the pixel at column x and row y: interleaved gradient noise, of which the values of 3 x 3

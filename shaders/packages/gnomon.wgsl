@@ -2107,7 +2107,7 @@ const ray_march_jitter_scale: f32 = 0x1.a7dd04p+5; // 52.9829189
 fn gnomon_ray_march_fraction(x: f32) -> f32
 {
     let fraction = x - nearest_integer(x - 0.5);
-    return gnomon_select(fraction < 1.0, fraction, 0.0);
+    return gnomon_select(0.0 <= fraction && fraction < 1.0, fraction, 0.0); // also where nothing is rounded
 }
 
 /// A number in [0, 1) for the pixel at column x and row y: interleaved gradient noise, of which the values of 3 x 3

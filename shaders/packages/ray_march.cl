@@ -164,7 +164,7 @@ __constant float ray_march_jitter_scale = 52.9829189f;
 static inline float gnomon_ray_march_fraction(float x)
 {
     float fraction = x - nearest_integer(x - 0.5f);
-    return gnomon_select(fraction < 1.0f, fraction, 0.0f);
+    return gnomon_select(0.0f <= fraction && fraction < 1.0f, fraction, 0.0f); // also where nothing is rounded
 }
 
 /// A number in [0, 1) for the pixel at column x and row y: interleaved gradient noise, of which the values of 3 x 3
