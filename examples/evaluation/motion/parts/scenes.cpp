@@ -9,7 +9,8 @@ namespace {
 
 part_run scenes(const motion_settings& how)
 {
-    const auto all = registry_of<scene_entry>().all_of<motion_scene>();
+    auto all = registry_of<scene_entry>().all_of<motion_scene>();
+    std::erase_if(all, [](const motion_scene* one) { return !one->motion.is_analytic(); });
     const auto found = std::make_shared<std::vector<scene_results>>(all.size());
     part_run result;
     for (std::size_t i = 0; i < all.size(); ++i)

@@ -10,7 +10,7 @@ const registered<motion_scene> entry{
                 .order = 110,
                 .text = "After Figure 12 of Andersson et al. One quad shadows another while both move, and both "
                         "shadow the ground. Accumulation shows each of its maps as a band."},
-    renderer::crossed_quads};
+    renderer::crossed_quads, motion_scene_facts{.tags = {"layered", "analytic"}}};
 
 } // namespace
 

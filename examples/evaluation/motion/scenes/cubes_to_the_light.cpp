@@ -10,7 +10,7 @@ const registered<motion_scene> entry{
                 .order = 140,
                 .text = "After Hong &amp; Oh. Surfaces in motion shadow themselves, and fine triangles make long "
                         "lists."},
-    renderer::cubes_to_the_light, motion_scene_facts{.tags = {"surfaces"}}};
+    renderer::cubes_to_the_light, motion_scene_facts{.tags = {"surfaces", "layered", "analytic"}}};
 
 } // namespace
 

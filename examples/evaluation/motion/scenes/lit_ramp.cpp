@@ -11,7 +11,7 @@ const registered<motion_scene> entry{
                 .text = "After Figure 10 of Andersson et al. The ramp moves towards the light and is lit "
                         "everywhere at all times. A method that forgets at which time a surface was where makes "
                         "it darker."},
-    renderer::lit_ramp};
+    renderer::lit_ramp, motion_scene_facts{.tags = {"layered", "analytic"}}};
 
 } // namespace
 

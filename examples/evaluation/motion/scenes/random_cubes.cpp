@@ -9,7 +9,7 @@ const registered<motion_scene> entry{scene_facts{.id = "random_cubes",
                                                  .order = 150,
                                                  .text = "After Hong &amp; Oh. Each cube has a path of its own."},
                                      [](double aspect) { return renderer::random_cubes(aspect, 400, 0.5f); },
-                                     motion_scene_facts{.tags = {"surfaces", "covers"}}};
+                                     motion_scene_facts{.tags = {"surfaces", "covers", "layered", "analytic"}}};
 
 } // namespace
 

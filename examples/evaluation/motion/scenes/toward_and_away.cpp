@@ -9,7 +9,7 @@ const registered<motion_scene> entry{
                 .label = "toward the light and away",
                 .order = 130,
                 .text = "After Figure 13 of Andersson et al. Depth changes during the exposure."},
-    renderer::toward_and_away};
+    renderer::toward_and_away, motion_scene_facts{.tags = {"layered", "analytic"}}};
 
 } // namespace
 
