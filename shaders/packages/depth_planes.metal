@@ -363,6 +363,9 @@ struct depth_trial
     float start, share, settled;
 };
 
+/// Weights of a triangle's vertices; they need not sum to 1.
+struct corner_weights { float a, b, c; };
+
 /// Bernstein coefficients of a cubic, the middle ones times 3.
 struct bernstein_cubic { float c0, c1, c2, c3; };
 
@@ -411,6 +414,25 @@ inline moving_edges moving_triangle_edges(moving_triangle m, float s_x, float s_
     return e;
 }
 
+/// Weights of the vertices for the point that the sample sees at time t, not negative: the edge functions, those
+/// against the triangle's facing as 0. If all three vanish, the weights are 1.
+inline corner_weights corner_weights_at(moving_edges e, float t)
+{
+    corner_weights v;
+    v.a = moving_edge_at(e.a, t);
+    v.b = moving_edge_at(e.b, t);
+    v.c = moving_edge_at(e.c, t);
+    bool back = (v.a + v.b) + v.c < 0.0f;
+    v.a = gnomon_max(gnomon_select(back, -1.0f * v.a, v.a), 0.0f);
+    v.b = gnomon_max(gnomon_select(back, -1.0f * v.b, v.b), 0.0f);
+    v.c = gnomon_max(gnomon_select(back, -1.0f * v.c, v.c), 0.0f);
+    bool vanished = (v.a + v.b) + v.c <= 0.0f;
+    v.a = gnomon_select(vanished, 1.0f, v.a);
+    v.b = gnomon_select(vanished, 1.0f, v.b);
+    v.c = gnomon_select(vanished, 1.0f, v.c);
+    return v;
+}
+
 /// Depth of the triangle's point at the sample at time t, in [-1, 1]; e from moving_triangle_edges. divided is 1 for
 /// depth z / w, with z in clip space, and 0 for a z that is linear in view distance: the result is then the mean of the
 /// vertices' z. Edge functions against the triangle's facing, which arise from rounding and outside of the covered
@@ -422,22 +444,11 @@ inline moving_edges moving_triangle_edges(moving_triangle m, float s_x, float s_
 /// v_k|; v = w where divided, else 1.
 inline float moving_depth_at(moving_triangle m, moving_edges e, float t, float divided)
 {
-    float a = moving_edge_at(e.a, t);
-    float b = moving_edge_at(e.b, t);
-    float c = moving_edge_at(e.c, t);
-    bool back = (a + b) + c < 0.0f;
-    a = gnomon_max(gnomon_select(back, -1.0f * a, a), 0.0f);
-    b = gnomon_max(gnomon_select(back, -1.0f * b, b), 0.0f);
-    c = gnomon_max(gnomon_select(back, -1.0f * c, c), 0.0f);
-    bool vanished = (a + b) + c <= 0.0f;
-    a = gnomon_select(vanished, 1.0f, a);
-    b = gnomon_select(vanished, 1.0f, b);
-    c = gnomon_select(vanished, 1.0f, c);
-
+    corner_weights v = corner_weights_at(e, t);
     float s = 1.0f - t;
-    float z = (a * (m.a.z0 * s + m.a.z1 * t) + b * (m.b.z0 * s + m.b.z1 * t)) + c * (m.c.z0 * s + m.c.z1 * t);
-    float w = (a * (m.a.w0 * s + m.a.w1 * t) + b * (m.b.w0 * s + m.b.w1 * t)) + c * (m.c.w0 * s + m.c.w1 * t);
-    float divisor = gnomon_select(0.0f < divided, w, (a + b) + c);
+    float z = (v.a * (m.a.z0 * s + m.a.z1 * t) + v.b * (m.b.z0 * s + m.b.z1 * t)) + v.c * (m.c.z0 * s + m.c.z1 * t);
+    float w = (v.a * (m.a.w0 * s + m.a.w1 * t) + v.b * (m.b.w0 * s + m.b.w1 * t)) + v.c * (m.c.w0 * s + m.c.w1 * t);
+    float divisor = gnomon_select(0.0f < divided, w, (v.a + v.b) + v.c);
     float depth = gnomon_max(gnomon_min(z / divisor, 1.0f), -1.0f); // a NaN becomes 1
     return gnomon_select(0.0f < w, depth, 1.0f);
 }

@@ -1529,6 +1529,10 @@ struct depth_trial
     float start, share, settled;
 };
 
+/// Weights of a triangle's vertices; they need not sum to 1.
+typedef struct gnomon_corner_weights gnomon_corner_weights;
+struct gnomon_corner_weights { float a, b, c; };
+
 /// Bernstein coefficients of a cubic, the middle ones times 3.
 typedef struct gnomon_bernstein_cubic gnomon_bernstein_cubic;
 struct gnomon_bernstein_cubic { float c0, c1, c2, c3; };
@@ -1578,6 +1582,25 @@ static inline gnomon_moving_edges moving_triangle_edges(moving_triangle m, float
     return e;
 }
 
+/// Weights of the vertices for the point that the sample sees at time t, not negative: the edge functions, those
+/// against the triangle's facing as 0. If all three vanish, the weights are 1.
+static inline gnomon_corner_weights gnomon_corner_weights_at(gnomon_moving_edges e, float t)
+{
+    gnomon_corner_weights v;
+    v.a = moving_edge_at(e.a, t);
+    v.b = moving_edge_at(e.b, t);
+    v.c = moving_edge_at(e.c, t);
+    bool back = (v.a + v.b) + v.c < 0.0f;
+    v.a = gnomon_max(gnomon_select(back, -1.0f * v.a, v.a), 0.0f);
+    v.b = gnomon_max(gnomon_select(back, -1.0f * v.b, v.b), 0.0f);
+    v.c = gnomon_max(gnomon_select(back, -1.0f * v.c, v.c), 0.0f);
+    bool vanished = (v.a + v.b) + v.c <= 0.0f;
+    v.a = gnomon_select(vanished, 1.0f, v.a);
+    v.b = gnomon_select(vanished, 1.0f, v.b);
+    v.c = gnomon_select(vanished, 1.0f, v.c);
+    return v;
+}
+
 /// Depth of the triangle's point at the sample at time t, in [-1, 1]; e from moving_triangle_edges. divided is 1 for
 /// depth z / w, with z in clip space, and 0 for a z that is linear in view distance: the result is then the mean of the
 /// vertices' z. Edge functions against the triangle's facing, which arise from rounding and outside of the covered
@@ -1589,22 +1612,11 @@ static inline gnomon_moving_edges moving_triangle_edges(moving_triangle m, float
 /// v_k|; v = w where divided, else 1.
 static inline float moving_depth_at(moving_triangle m, gnomon_moving_edges e, float t, float divided)
 {
-    float a = moving_edge_at(e.a, t);
-    float b = moving_edge_at(e.b, t);
-    float c = moving_edge_at(e.c, t);
-    bool back = (a + b) + c < 0.0f;
-    a = gnomon_max(gnomon_select(back, -1.0f * a, a), 0.0f);
-    b = gnomon_max(gnomon_select(back, -1.0f * b, b), 0.0f);
-    c = gnomon_max(gnomon_select(back, -1.0f * c, c), 0.0f);
-    bool vanished = (a + b) + c <= 0.0f;
-    a = gnomon_select(vanished, 1.0f, a);
-    b = gnomon_select(vanished, 1.0f, b);
-    c = gnomon_select(vanished, 1.0f, c);
-
+    gnomon_corner_weights v = gnomon_corner_weights_at(e, t);
     float s = 1.0f - t;
-    float z = (a * (m.a.z0 * s + m.a.z1 * t) + b * (m.b.z0 * s + m.b.z1 * t)) + c * (m.c.z0 * s + m.c.z1 * t);
-    float w = (a * (m.a.w0 * s + m.a.w1 * t) + b * (m.b.w0 * s + m.b.w1 * t)) + c * (m.c.w0 * s + m.c.w1 * t);
-    float divisor = gnomon_select(0.0f < divided, w, (a + b) + c);
+    float z = (v.a * (m.a.z0 * s + m.a.z1 * t) + v.b * (m.b.z0 * s + m.b.z1 * t)) + v.c * (m.c.z0 * s + m.c.z1 * t);
+    float w = (v.a * (m.a.w0 * s + m.a.w1 * t) + v.b * (m.b.w0 * s + m.b.w1 * t)) + v.c * (m.c.w0 * s + m.c.w1 * t);
+    float divisor = gnomon_select(0.0f < divided, w, (v.a + v.b) + v.c);
     float depth = gnomon_max(gnomon_min(z / divisor, 1.0f), -1.0f); // a NaN becomes 1
     return gnomon_select(0.0f < w, depth, 1.0f);
 }
@@ -5046,6 +5058,97 @@ static inline float two_point_third_moment(float b1, float b2, float b3, float n
 
 #endif
 
+// numerics/texel_filter.h ---------------------------------------------------------------------------------------------
+// Texels of a shadow map along one axis: the texel that holds a position, and the weights of the K + 1 texels that K
+// adjacent bilinear look-ups read, which are those of a filter K texels wide with linear ends.
+#ifndef GNOMON_NUMERICS_TEXEL_FILTER_H
+#define GNOMON_NUMERICS_TEXEL_FILTER_H
+
+__constant float gnomon_texel_limit = 65536.0f; // no map is larger: all positions beyond share one texel
+
+/// The texel that holds position x: the largest whole number not above x, clamped to [-65536, 65536].
+/// NaN: 65536.
+static inline float texel_below(float x)
+{
+    float limit = gnomon_texel_limit;
+    float inside = gnomon_max(gnomon_min(x, limit), -1.0f * limit);
+    float whole = nearest_integer(inside);
+    return whole - gnomon_select(inside < whole, 1.0f, 0.0f);
+}
+
+/// The weight of texel i, 0 to K, in the mean of K = look_ups adjacent bilinear look-ups along one axis. u is the
+/// distance of the first look-up from the centre of texel 0. In [0, 1].
+/// Domain: u in [0, 1], clamped; look_ups at least 1. Elsewhere a number in [0, 1].
+/// NaN: u counts as 0; 0 for look_ups.
+/// Error: the K + 1 weights sum to 1 within K + 2 roundings.
+static inline float texel_weight(float u, float i, float look_ups)
+{
+    float share = saturate_or_zero(u);
+    share = gnomon_select(i < 1.0f, 1.0f - share, gnomon_select(i < look_ups, 1.0f, share));
+    return saturate_or_zero(share / look_ups);
+}
+
+#endif
+
+// motion/layers/stochastic_sample.h -----------------------------------------------------------------------------------
+// A sample of a stochastic shadow map (Akenine-Moller et al. 2007): what a texel sees at one place and at one time of
+// the shutter interval, and how the point that it sees moves (Andersson et al. 2015). Times are stratified: sample k of
+// n has a time of its own between k / n and (k + 1) / n. That is slice k of a time-dependent shadow map.
+#ifndef GNOMON_MOTION_LAYERS_STOCHASTIC_SAMPLE_H
+#define GNOMON_MOTION_LAYERS_STOCHASTIC_SAMPLE_H
+
+/// Place (x, y) in texels of the map, time t in [0, 1], depth z, motion of the seen point from shutter open to shutter
+/// close in texels and in depth, and the id of the surface as in depth_time_range. The background has id
+/// gnomon_stochastic_nothing, depth 1 and no motion.
+typedef struct stochastic_sample stochastic_sample;
+struct stochastic_sample { float x, y, t, z, d_x, d_y, d_z, id; };
+
+__constant float gnomon_stochastic_nothing = -1.0f;               // the id of the background
+// 1 + 2^-21: a time is so far from the ends of its stratum
+__constant float gnomon_stratum_begin = 1.000000476837158203125f;
+__constant float gnomon_stratum_end = 0.999999523162841796875f;   // 1 - 2^-21
+
+/// A sample of the background.
+static inline stochastic_sample stochastic_background(float x, float y, float t)
+{
+    stochastic_sample s;
+    s.x = x;
+    s.y = y;
+    s.t = t;
+    s.z = 1.0f;
+    s.d_x = 0.0f;
+    s.d_y = 0.0f;
+    s.d_z = 0.0f;
+    s.id = gnomon_stochastic_nothing;
+    return s;
+}
+
+/// The time of stratum number `stratum`, 0 to count - 1, of the shutter interval: its begin for jitter 0, its end for
+/// jitter 1. The ends themselves are avoided, so that slice_of returns the stratum, bit for bit.
+/// Domain: whole numbers stratum < count <= 65536; elsewhere a time in [0, 1]. jitter is clamped to [0, 1].
+/// NaN: jitter 0; 0 for the other two.
+/// Error: 2^-20, and 4 2^-p of the result.
+/// Source: Andersson 2015, Sec. 3
+static inline float stratified_time(float stratum, float count, float jitter)
+{
+    float place = stratum + saturate_or_zero(jitter);
+    place = gnomon_min(place, (stratum + 1.0f) * gnomon_stratum_end);
+    place = gnomon_max(place, stratum * gnomon_stratum_begin);
+    return saturate_or_zero(place / count);
+}
+
+/// The stratum of `count` that holds time t: the whole number below t count, in [0, count - 1].
+/// Domain: t is clamped to [0, 1]; count is a whole number in [1, 65536].
+/// NaN: 0.
+/// Source: Andersson 2015, Sec. 3
+static inline float slice_of(float t, float count)
+{
+    float slice = texel_below(saturate_or_zero(t) * count);
+    return gnomon_max(gnomon_min(slice, count - 1.0f), 0.0f);
+}
+
+#endif
+
 // motion/range/range_cover.h ------------------------------------------------------------------------------------------
 // Texels that one surface covers for the whole shutter, in front of everything else: the coverage map of Hong & Oh
 // ("Efficient motion blurred shadows using a temporal shadow map", 2017). All other ranges of such a texel are occluded
@@ -5648,38 +5751,6 @@ static inline gnomon_moving_edge facing_function(gnomon_moving_vector n, gnomon_
     f.e1 = gnomon_select(known, f.e1, 0.0f);
     f.e2 = gnomon_select(known, f.e2, 0.0f);
     return f;
-}
-
-#endif
-
-// numerics/texel_filter.h ---------------------------------------------------------------------------------------------
-// Texels of a shadow map along one axis: the texel that holds a position, and the weights of the K + 1 texels that K
-// adjacent bilinear look-ups read, which are those of a filter K texels wide with linear ends.
-#ifndef GNOMON_NUMERICS_TEXEL_FILTER_H
-#define GNOMON_NUMERICS_TEXEL_FILTER_H
-
-__constant float gnomon_texel_limit = 65536.0f; // no map is larger: all positions beyond share one texel
-
-/// The texel that holds position x: the largest whole number not above x, clamped to [-65536, 65536].
-/// NaN: 65536.
-static inline float texel_below(float x)
-{
-    float limit = gnomon_texel_limit;
-    float inside = gnomon_max(gnomon_min(x, limit), -1.0f * limit);
-    float whole = nearest_integer(inside);
-    return whole - gnomon_select(inside < whole, 1.0f, 0.0f);
-}
-
-/// The weight of texel i, 0 to K, in the mean of K = look_ups adjacent bilinear look-ups along one axis. u is the
-/// distance of the first look-up from the centre of texel 0. In [0, 1].
-/// Domain: u in [0, 1], clamped; look_ups at least 1. Elsewhere a number in [0, 1].
-/// NaN: u counts as 0; 0 for look_ups.
-/// Error: the K + 1 weights sum to 1 within K + 2 roundings.
-static inline float texel_weight(float u, float i, float look_ups)
-{
-    float share = saturate_or_zero(u);
-    share = gnomon_select(i < 1.0f, 1.0f - share, gnomon_select(i < look_ups, 1.0f, share));
-    return saturate_or_zero(share / look_ups);
 }
 
 #endif
@@ -6978,6 +7049,80 @@ static inline gnomon_edge_equation edge_equation_widen(gnomon_edge_equation f, f
     f.e1.c = f.e1.c + by;
     f.e2.c = f.e2.c + by;
     return f;
+}
+
+#endif
+
+// motion/triangle/triangle_motion.h -----------------------------------------------------------------------------------
+// Motion of the point of a moving triangle that a sample sees: the motion vector of a stochastic shadow map.
+//
+// The point is fixed on the triangle: the mean of the vertices, each weighted by the edge function opposite to it, with
+// the weights of the sample's time (moving_triangle.h). Its places at shutter open and at shutter close are the means
+// of the vertices there, by the same weights. Edge functions are homogeneous, so this holds in perspective as well, and
+// for a light that moves. The motion is the chord from the one place to the other. In perspective the point need not
+// move along that chord at constant speed.
+#ifndef GNOMON_MOTION_TRIANGLE_TRIANGLE_MOTION_H
+#define GNOMON_MOTION_TRIANGLE_TRIANGLE_MOTION_H
+
+/// Motion from shutter open to shutter close, in the units of x / w and in depth.
+typedef struct triangle_motion triangle_motion;
+struct triangle_motion { float d_x, d_y, d_z; };
+
+/// A point in clip space, times the sum of the weights of the vertices that it is a mean of.
+typedef struct gnomon_weighted_point gnomon_weighted_point;
+struct gnomon_weighted_point { float x, y, z, w; };
+
+__constant float triangle_motion_limit = 65536.0f; // no map is larger
+
+/// The point with these weights at shutter open.
+static inline gnomon_weighted_point gnomon_moving_triangle_open(moving_triangle m, gnomon_corner_weights v)
+{
+    gnomon_weighted_point p;
+    p.x = (v.a * m.a.x0 + v.b * m.b.x0) + v.c * m.c.x0;
+    p.y = (v.a * m.a.y0 + v.b * m.b.y0) + v.c * m.c.y0;
+    p.z = (v.a * m.a.z0 + v.b * m.b.z0) + v.c * m.c.z0;
+    p.w = (v.a * m.a.w0 + v.b * m.b.w0) + v.c * m.c.w0;
+    return p;
+}
+
+/// The point with these weights at shutter close.
+static inline gnomon_weighted_point gnomon_moving_triangle_close(moving_triangle m, gnomon_corner_weights v)
+{
+    gnomon_weighted_point p;
+    p.x = (v.a * m.a.x1 + v.b * m.b.x1) + v.c * m.c.x1;
+    p.y = (v.a * m.a.y1 + v.b * m.b.y1) + v.c * m.c.y1;
+    p.z = (v.a * m.a.z1 + v.b * m.b.z1) + v.c * m.c.z1;
+    p.w = (v.a * m.a.w1 + v.b * m.b.w1) + v.c * m.c.w1;
+    return p;
+}
+
+/// Motion of the point that the sample sees at time t, from shutter open to shutter close; e from
+/// moving_triangle_edges. divided as in moving_depth_at: 1 for depth z / w, 0 for a z that is linear in view distance.
+/// Domain: the triangle covers the sample at time t. No motion where the point is behind the light at shutter open or
+/// at shutter close, w <= 0, or where it moves by more than 65536.
+/// NaN: no motion.
+/// Error: at either end of the shutter that of the edge functions times sum_k |x_k - x w_k| / |sum_k e_k w_k|, and 16
+/// 2^-p sum_k e_k (|x_k| + |x w_k|) / |sum_k e_k w_k|, with x the place there; y likewise; z with 1 for w unless
+/// divided.
+/// Source: Andersson 2015, Sec. 4
+static inline triangle_motion moving_triangle_motion(moving_triangle m, gnomon_moving_edges e, float t, float divided)
+{
+    gnomon_corner_weights v = gnomon_corner_weights_at(e, t);
+    gnomon_weighted_point p = gnomon_moving_triangle_open(m, v);
+    gnomon_weighted_point q = gnomon_moving_triangle_close(m, v);
+    bool by_w = 0.0f < divided;
+    float sum = (v.a + v.b) + v.c;
+    float d_x = q.x / q.w - p.x / p.w;
+    float d_y = q.y / q.w - p.y / p.w;
+    float d_z = q.z / gnomon_select(by_w, q.w, sum) - p.z / gnomon_select(by_w, p.w, sum);
+    float limit = triangle_motion_limit;
+    bool known = 0.0f < p.w && 0.0f < q.w && gnomon_abs(d_x) <= limit && gnomon_abs(d_y) <= limit &&
+                 gnomon_abs(d_z) <= limit;
+    triangle_motion r;
+    r.d_x = gnomon_select(known, d_x, 0.0f);
+    r.d_y = gnomon_select(known, d_y, 0.0f);
+    r.d_z = gnomon_select(known, d_z, 0.0f);
+    return r;
 }
 
 #endif

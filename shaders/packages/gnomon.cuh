@@ -2113,6 +2113,9 @@ template <class Real, class = require_real<Real>> struct depth_trial
     Real start, share, settled;
 };
 
+/// Weights of a triangle's vertices; they need not sum to 1.
+template <class Real, class = require_real<Real>> struct corner_weights { Real a, b, c; };
+
 /// Bernstein coefficients of a cubic, the middle ones times 3.
 template <class Real, class = require_real<Real>> struct bernstein_cubic { Real c0, c1, c2, c3; };
 
@@ -2165,6 +2168,26 @@ GNOMON_INLINE constexpr moving_edges<Real> moving_triangle_edges(moving_triangle
     return e;
 }
 
+/// Weights of the vertices for the point that the sample sees at time t, not negative: the edge functions, those
+/// against the triangle's facing as 0. If all three vanish, the weights are 1.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr corner_weights<Real> corner_weights_at(moving_edges<Real> e, Real t)
+{
+    corner_weights<Real> v;
+    v.a = moving_edge_at(e.a, t);
+    v.b = moving_edge_at(e.b, t);
+    v.c = moving_edge_at(e.c, t);
+    mask_t<Real> back = (v.a + v.b) + v.c < Real(0);
+    v.a = gnomon_max(gnomon_select(back, Real(-1) * v.a, v.a), Real(0));
+    v.b = gnomon_max(gnomon_select(back, Real(-1) * v.b, v.b), Real(0));
+    v.c = gnomon_max(gnomon_select(back, Real(-1) * v.c, v.c), Real(0));
+    mask_t<Real> vanished = (v.a + v.b) + v.c <= Real(0);
+    v.a = gnomon_select(vanished, Real(1), v.a);
+    v.b = gnomon_select(vanished, Real(1), v.b);
+    v.c = gnomon_select(vanished, Real(1), v.c);
+    return v;
+}
+
 /// Depth of the triangle's point at the sample at time t, in [-1, 1]; e from moving_triangle_edges. divided is 1 for
 /// depth z / w, with z in clip space, and 0 for a z that is linear in view distance: the result is then the mean of the
 /// vertices' z. Edge functions against the triangle's facing, which arise from rounding and outside of the covered
@@ -2178,22 +2201,11 @@ template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real moving_depth_at(moving_triangle<Real> m, moving_edges<Real> e, Real t,
                                              std::type_identity_t<Real> divided)
 {
-    Real a = moving_edge_at(e.a, t);
-    Real b = moving_edge_at(e.b, t);
-    Real c = moving_edge_at(e.c, t);
-    mask_t<Real> back = (a + b) + c < Real(0);
-    a = gnomon_max(gnomon_select(back, Real(-1) * a, a), Real(0));
-    b = gnomon_max(gnomon_select(back, Real(-1) * b, b), Real(0));
-    c = gnomon_max(gnomon_select(back, Real(-1) * c, c), Real(0));
-    mask_t<Real> vanished = (a + b) + c <= Real(0);
-    a = gnomon_select(vanished, Real(1), a);
-    b = gnomon_select(vanished, Real(1), b);
-    c = gnomon_select(vanished, Real(1), c);
-
+    corner_weights v = corner_weights_at(e, t);
     Real s = Real(1) - t;
-    Real z = (a * (m.a.z0 * s + m.a.z1 * t) + b * (m.b.z0 * s + m.b.z1 * t)) + c * (m.c.z0 * s + m.c.z1 * t);
-    Real w = (a * (m.a.w0 * s + m.a.w1 * t) + b * (m.b.w0 * s + m.b.w1 * t)) + c * (m.c.w0 * s + m.c.w1 * t);
-    Real divisor = gnomon_select(Real(0) < divided, w, (a + b) + c);
+    Real z = (v.a * (m.a.z0 * s + m.a.z1 * t) + v.b * (m.b.z0 * s + m.b.z1 * t)) + v.c * (m.c.z0 * s + m.c.z1 * t);
+    Real w = (v.a * (m.a.w0 * s + m.a.w1 * t) + v.b * (m.b.w0 * s + m.b.w1 * t)) + v.c * (m.c.w0 * s + m.c.w1 * t);
+    Real divisor = gnomon_select(Real(0) < divided, w, (v.a + v.b) + v.c);
     Real depth = gnomon_max(gnomon_min(z / divisor, Real(1)), Real(-1)); // a NaN becomes 1
     return gnomon_select(Real(0) < w, depth, Real(1));
 }
@@ -5991,6 +6003,107 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif
 
+// numerics/texel_filter.h ---------------------------------------------------------------------------------------------
+// Texels of a shadow map along one axis: the texel that holds a position, and the weights of the K + 1 texels that K
+// adjacent bilinear look-ups read, which are those of a filter K texels wide with linear ends.
+#ifndef GNOMON_NUMERICS_TEXEL_FILTER_H
+#define GNOMON_NUMERICS_TEXEL_FILTER_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+inline constexpr double texel_limit = 65536.0; // no map is larger: all positions beyond share one texel
+
+/// The texel that holds position x: the largest whole number not above x, clamped to [-65536, 65536].
+/// NaN: 65536.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real texel_below(Real x)
+{
+    Real limit = literal<Real>(texel_limit);
+    Real inside = gnomon_max(gnomon_min(x, limit), Real(-1) * limit);
+    Real whole = nearest_integer(inside);
+    return whole - gnomon_select(inside < whole, Real(1), Real(0));
+}
+
+/// The weight of texel i, 0 to K, in the mean of K = look_ups adjacent bilinear look-ups along one axis. u is the
+/// distance of the first look-up from the centre of texel 0. In [0, 1].
+/// Domain: u in [0, 1], clamped; look_ups at least 1. Elsewhere a number in [0, 1].
+/// NaN: u counts as 0; 0 for look_ups.
+/// Error: the K + 1 weights sum to 1 within K + 2 roundings.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real texel_weight(Real u, std::type_identity_t<Real> i, std::type_identity_t<Real> look_ups)
+{
+    Real share = saturate_or_zero(u);
+    share = gnomon_select(i < Real(1), Real(1) - share, gnomon_select(i < look_ups, Real(1), share));
+    return saturate_or_zero(share / look_ups);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// motion/layers/stochastic_sample.h -----------------------------------------------------------------------------------
+// A sample of a stochastic shadow map (Akenine-Moller et al. 2007): what a texel sees at one place and at one time of
+// the shutter interval, and how the point that it sees moves (Andersson et al. 2015). Times are stratified: sample k of
+// n has a time of its own between k / n and (k + 1) / n. That is slice k of a time-dependent shadow map.
+#ifndef GNOMON_MOTION_LAYERS_STOCHASTIC_SAMPLE_H
+#define GNOMON_MOTION_LAYERS_STOCHASTIC_SAMPLE_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// Place (x, y) in texels of the map, time t in [0, 1], depth z, motion of the seen point from shutter open to shutter
+/// close in texels and in depth, and the id of the surface as in depth_time_range. The background has id
+/// stochastic_nothing, depth 1 and no motion.
+template <class Real, class = require_real<Real>> struct stochastic_sample { Real x, y, t, z, d_x, d_y, d_z, id; };
+
+inline constexpr double stochastic_nothing = -1.0;               // the id of the background
+// 1 + 2^-21: a time is so far from the ends of its stratum
+inline constexpr double stratum_begin = 1.000000476837158203125;
+inline constexpr double stratum_end = 0.999999523162841796875;   // 1 - 2^-21
+
+/// A sample of the background.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr stochastic_sample<Real> stochastic_background(Real x, Real y, Real t)
+{
+    stochastic_sample<Real> s;
+    s.x = x;
+    s.y = y;
+    s.t = t;
+    s.z = Real(1);
+    s.d_x = Real(0);
+    s.d_y = Real(0);
+    s.d_z = Real(0);
+    s.id = literal<Real>(stochastic_nothing);
+    return s;
+}
+
+/// The time of stratum number `stratum`, 0 to count - 1, of the shutter interval: its begin for jitter 0, its end for
+/// jitter 1. The ends themselves are avoided, so that slice_of returns the stratum, bit for bit.
+/// Domain: whole numbers stratum < count <= 65536; elsewhere a time in [0, 1]. jitter is clamped to [0, 1].
+/// NaN: jitter 0; 0 for the other two.
+/// Error: 2^-20, and 4 2^-p of the result.
+/// Source: Andersson 2015, Sec. 3
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real stratified_time(Real stratum, Real count, Real jitter)
+{
+    Real place = stratum + saturate_or_zero(jitter);
+    place = gnomon_min(place, (stratum + Real(1)) * literal<Real>(stratum_end));
+    place = gnomon_max(place, stratum * literal<Real>(stratum_begin));
+    return saturate_or_zero(place / count);
+}
+
+/// The stratum of `count` that holds time t: the whole number below t count, in [0, count - 1].
+/// Domain: t is clamped to [0, 1]; count is a whole number in [1, 65536].
+/// NaN: 0.
+/// Source: Andersson 2015, Sec. 3
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real slice_of(Real t, Real count)
+{
+    Real slice = texel_below(saturate_or_zero(t) * count);
+    return gnomon_max(gnomon_min(slice, count - Real(1)), Real(0));
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
 // motion/range/range_cover.h ------------------------------------------------------------------------------------------
 // Texels that one surface covers for the whole shutter, in front of everything else: the coverage map of Hong & Oh
 // ("Efficient motion blurred shadows using a temporal shadow map", 2017). All other ranges of such a texel are occluded
@@ -6636,43 +6749,6 @@ GNOMON_INLINE constexpr moving_edge<Real> facing_function(moving_vector<Real> n,
     f.e1 = gnomon_select(known, f.e1, Real(0));
     f.e2 = gnomon_select(known, f.e2, Real(0));
     return f;
-}
-
-GNOMON_WARNINGS_ON } // namespace gnomon
-
-#endif
-
-// numerics/texel_filter.h ---------------------------------------------------------------------------------------------
-// Texels of a shadow map along one axis: the texel that holds a position, and the weights of the K + 1 texels that K
-// adjacent bilinear look-ups read, which are those of a filter K texels wide with linear ends.
-#ifndef GNOMON_NUMERICS_TEXEL_FILTER_H
-#define GNOMON_NUMERICS_TEXEL_FILTER_H
-
-GNOMON_WARNINGS_OFF namespace gnomon {
-
-inline constexpr double texel_limit = 65536.0; // no map is larger: all positions beyond share one texel
-
-/// The texel that holds position x: the largest whole number not above x, clamped to [-65536, 65536].
-/// NaN: 65536.
-template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real texel_below(Real x)
-{
-    Real limit = literal<Real>(texel_limit);
-    Real inside = gnomon_max(gnomon_min(x, limit), Real(-1) * limit);
-    Real whole = nearest_integer(inside);
-    return whole - gnomon_select(inside < whole, Real(1), Real(0));
-}
-
-/// The weight of texel i, 0 to K, in the mean of K = look_ups adjacent bilinear look-ups along one axis. u is the
-/// distance of the first look-up from the centre of texel 0. In [0, 1].
-/// Domain: u in [0, 1], clamped; look_ups at least 1. Elsewhere a number in [0, 1].
-/// NaN: u counts as 0; 0 for look_ups.
-/// Error: the K + 1 weights sum to 1 within K + 2 roundings.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real texel_weight(Real u, std::type_identity_t<Real> i, std::type_identity_t<Real> look_ups)
-{
-    Real share = saturate_or_zero(u);
-    share = gnomon_select(i < Real(1), Real(1) - share, gnomon_select(i < look_ups, Real(1), share));
-    return saturate_or_zero(share / look_ups);
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon
@@ -8080,6 +8156,86 @@ GNOMON_INLINE constexpr edge_equation<Real> edge_equation_widen(edge_equation<Re
     f.e1.c = f.e1.c + by;
     f.e2.c = f.e2.c + by;
     return f;
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// motion/triangle/triangle_motion.h -----------------------------------------------------------------------------------
+// Motion of the point of a moving triangle that a sample sees: the motion vector of a stochastic shadow map.
+//
+// The point is fixed on the triangle: the mean of the vertices, each weighted by the edge function opposite to it, with
+// the weights of the sample's time (moving_triangle.h). Its places at shutter open and at shutter close are the means
+// of the vertices there, by the same weights. Edge functions are homogeneous, so this holds in perspective as well, and
+// for a light that moves. The motion is the chord from the one place to the other. In perspective the point need not
+// move along that chord at constant speed.
+#ifndef GNOMON_MOTION_TRIANGLE_TRIANGLE_MOTION_H
+#define GNOMON_MOTION_TRIANGLE_TRIANGLE_MOTION_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// Motion from shutter open to shutter close, in the units of x / w and in depth.
+template <class Real, class = require_real<Real>> struct triangle_motion { Real d_x, d_y, d_z; };
+
+/// A point in clip space, times the sum of the weights of the vertices that it is a mean of.
+template <class Real, class = require_real<Real>> struct weighted_point { Real x, y, z, w; };
+
+inline constexpr double triangle_motion_limit = 65536.0; // no map is larger
+
+/// The point with these weights at shutter open.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr weighted_point<Real> moving_triangle_open(moving_triangle<Real> m, corner_weights<Real> v)
+{
+    weighted_point<Real> p;
+    p.x = (v.a * m.a.x0 + v.b * m.b.x0) + v.c * m.c.x0;
+    p.y = (v.a * m.a.y0 + v.b * m.b.y0) + v.c * m.c.y0;
+    p.z = (v.a * m.a.z0 + v.b * m.b.z0) + v.c * m.c.z0;
+    p.w = (v.a * m.a.w0 + v.b * m.b.w0) + v.c * m.c.w0;
+    return p;
+}
+
+/// The point with these weights at shutter close.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr weighted_point<Real> moving_triangle_close(moving_triangle<Real> m, corner_weights<Real> v)
+{
+    weighted_point<Real> p;
+    p.x = (v.a * m.a.x1 + v.b * m.b.x1) + v.c * m.c.x1;
+    p.y = (v.a * m.a.y1 + v.b * m.b.y1) + v.c * m.c.y1;
+    p.z = (v.a * m.a.z1 + v.b * m.b.z1) + v.c * m.c.z1;
+    p.w = (v.a * m.a.w1 + v.b * m.b.w1) + v.c * m.c.w1;
+    return p;
+}
+
+/// Motion of the point that the sample sees at time t, from shutter open to shutter close; e from
+/// moving_triangle_edges. divided as in moving_depth_at: 1 for depth z / w, 0 for a z that is linear in view distance.
+/// Domain: the triangle covers the sample at time t. No motion where the point is behind the light at shutter open or
+/// at shutter close, w <= 0, or where it moves by more than 65536.
+/// NaN: no motion.
+/// Error: at either end of the shutter that of the edge functions times sum_k |x_k - x w_k| / |sum_k e_k w_k|, and 16
+/// 2^-p sum_k e_k (|x_k| + |x w_k|) / |sum_k e_k w_k|, with x the place there; y likewise; z with 1 for w unless
+/// divided.
+/// Source: Andersson 2015, Sec. 4
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr triangle_motion<Real> moving_triangle_motion(moving_triangle<Real> m, moving_edges<Real> e,
+                                                                     Real t, std::type_identity_t<Real> divided)
+{
+    corner_weights v = corner_weights_at(e, t);
+    weighted_point p = moving_triangle_open(m, v);
+    weighted_point q = moving_triangle_close(m, v);
+    mask_t<Real> by_w = Real(0) < divided;
+    Real sum = (v.a + v.b) + v.c;
+    Real d_x = q.x / q.w - p.x / p.w;
+    Real d_y = q.y / q.w - p.y / p.w;
+    Real d_z = q.z / gnomon_select(by_w, q.w, sum) - p.z / gnomon_select(by_w, p.w, sum);
+    Real limit = literal<Real>(triangle_motion_limit);
+    mask_t<Real> known = Real(0) < p.w && Real(0) < q.w && gnomon_abs(d_x) <= limit && gnomon_abs(d_y) <= limit &&
+                         gnomon_abs(d_z) <= limit;
+    triangle_motion<Real> r;
+    r.d_x = gnomon_select(known, d_x, Real(0));
+    r.d_y = gnomon_select(known, d_y, Real(0));
+    r.d_z = gnomon_select(known, d_z, Real(0));
+    return r;
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon

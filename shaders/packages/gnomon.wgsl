@@ -1425,6 +1425,9 @@ struct depth_trial
     start: f32, share: f32, settled: f32,
 }
 
+/// Weights of a triangle's vertices; they need not sum to 1.
+struct gnomon_corner_weights { a: f32, b: f32, c: f32 }
+
 /// Bernstein coefficients of a cubic, the middle ones times 3.
 struct gnomon_bernstein_cubic { c0_: f32, c1_: f32, c2_: f32, c3_: f32 }
 
@@ -1473,6 +1476,25 @@ fn moving_triangle_edges(m: moving_triangle, s_x: f32, s_y: f32) -> gnomon_movin
     return e;
 }
 
+/// Weights of the vertices for the point that the sample sees at time t, not negative: the edge functions, those
+/// against the triangle's facing as 0. If all three vanish, the weights are 1.
+fn gnomon_corner_weights_at(e: gnomon_moving_edges, t: f32) -> gnomon_corner_weights
+{
+    var v: gnomon_corner_weights;
+    v.a = moving_edge_at(e.a, t);
+    v.b = moving_edge_at(e.b, t);
+    v.c = moving_edge_at(e.c, t);
+    let back = (v.a + v.b) + v.c < 0.0;
+    v.a = gnomon_max(gnomon_select(back, -1.0 * v.a, v.a), 0.0);
+    v.b = gnomon_max(gnomon_select(back, -1.0 * v.b, v.b), 0.0);
+    v.c = gnomon_max(gnomon_select(back, -1.0 * v.c, v.c), 0.0);
+    let vanished = (v.a + v.b) + v.c <= 0.0;
+    v.a = gnomon_select(vanished, 1.0, v.a);
+    v.b = gnomon_select(vanished, 1.0, v.b);
+    v.c = gnomon_select(vanished, 1.0, v.c);
+    return v;
+}
+
 /// Depth of the triangle's point at the sample at time t, in [-1, 1]; e from moving_triangle_edges. divided is 1 for
 /// depth z / w, with z in clip space, and 0 for a z that is linear in view distance: the result is then the mean of the
 /// vertices' z. Edge functions against the triangle's facing, which arise from rounding and outside of the covered
@@ -1484,22 +1506,11 @@ fn moving_triangle_edges(m: moving_triangle, s_x: f32, s_y: f32) -> gnomon_movin
 /// v_k|; v = w where divided, else 1.
 fn moving_depth_at(m: moving_triangle, e: gnomon_moving_edges, t: f32, divided: f32) -> f32
 {
-    var a = moving_edge_at(e.a, t);
-    var b = moving_edge_at(e.b, t);
-    var c = moving_edge_at(e.c, t);
-    let back = (a + b) + c < 0.0;
-    a = gnomon_max(gnomon_select(back, -1.0 * a, a), 0.0);
-    b = gnomon_max(gnomon_select(back, -1.0 * b, b), 0.0);
-    c = gnomon_max(gnomon_select(back, -1.0 * c, c), 0.0);
-    let vanished = (a + b) + c <= 0.0;
-    a = gnomon_select(vanished, 1.0, a);
-    b = gnomon_select(vanished, 1.0, b);
-    c = gnomon_select(vanished, 1.0, c);
-
+    let v = gnomon_corner_weights_at(e, t);
     let s = 1.0 - t;
-    let z = (a * (m.a.z0_ * s + m.a.z1_ * t) + b * (m.b.z0_ * s + m.b.z1_ * t)) + c * (m.c.z0_ * s + m.c.z1_ * t);
-    let w = (a * (m.a.w0_ * s + m.a.w1_ * t) + b * (m.b.w0_ * s + m.b.w1_ * t)) + c * (m.c.w0_ * s + m.c.w1_ * t);
-    let divisor = gnomon_select(0.0 < divided, w, (a + b) + c);
+    let z = (v.a * (m.a.z0_ * s + m.a.z1_ * t) + v.b * (m.b.z0_ * s + m.b.z1_ * t)) + v.c * (m.c.z0_ * s + m.c.z1_ * t);
+    let w = (v.a * (m.a.w0_ * s + m.a.w1_ * t) + v.b * (m.b.w0_ * s + m.b.w1_ * t)) + v.c * (m.c.w0_ * s + m.c.w1_ * t);
+    let divisor = gnomon_select(0.0 < divided, w, (v.a + v.b) + v.c);
     let depth = gnomon_max(gnomon_min(z / divisor, 1.0), -1.0); // a NaN becomes 1
     return gnomon_select(0.0 < w, depth, 1.0);
 }
@@ -4725,6 +4736,87 @@ fn two_point_third_moment(b1: f32, b2: f32, b3: f32, noise: f32) -> f32
     return b3 - third * (e * e / (cubed + e * e + gnomon_pivot_floor));
 }
 
+// numerics/texel_filter.h ---------------------------------------------------------------------------------------------
+// Texels of a shadow map along one axis: the texel that holds a position, and the weights of the K + 1 texels that K
+// adjacent bilinear look-ups read, which are those of a filter K texels wide with linear ends.
+
+const gnomon_texel_limit: f32 = 65536.0; // no map is larger: all positions beyond share one texel
+
+/// The texel that holds position x: the largest whole number not above x, clamped to [-65536, 65536].
+/// NaN: 65536.
+fn texel_below(x: f32) -> f32
+{
+    let limit = gnomon_texel_limit;
+    let inside = gnomon_max(gnomon_min(x, limit), -1.0 * limit);
+    let whole = nearest_integer(inside);
+    return whole - gnomon_select(inside < whole, 1.0, 0.0);
+}
+
+/// The weight of texel i, 0 to K, in the mean of K = look_ups adjacent bilinear look-ups along one axis. u is the
+/// distance of the first look-up from the centre of texel 0. In [0, 1].
+/// Domain: u in [0, 1], clamped; look_ups at least 1. Elsewhere a number in [0, 1].
+/// NaN: u counts as 0; 0 for look_ups.
+/// Error: the K + 1 weights sum to 1 within K + 2 roundings.
+fn texel_weight(u: f32, i: f32, look_ups: f32) -> f32
+{
+    var share = saturate_or_zero(u);
+    share = gnomon_select(i < 1.0, 1.0 - share, gnomon_select(i < look_ups, 1.0, share));
+    return saturate_or_zero(share / look_ups);
+}
+
+// motion/layers/stochastic_sample.h -----------------------------------------------------------------------------------
+// A sample of a stochastic shadow map (Akenine-Moller et al. 2007): what a texel sees at one place and at one time of
+// the shutter interval, and how the point that it sees moves (Andersson et al. 2015). Times are stratified: sample k of
+// n has a time of its own between k / n and (k + 1) / n. That is slice k of a time-dependent shadow map.
+
+/// Place (x, y) in texels of the map, time t in [0, 1], depth z, motion of the seen point from shutter open to shutter
+/// close in texels and in depth, and the id of the surface as in depth_time_range. The background has id
+/// gnomon_stochastic_nothing, depth 1 and no motion.
+struct stochastic_sample { x: f32, y: f32, t: f32, z: f32, d_x: f32, d_y: f32, d_z: f32, id: f32 }
+
+const gnomon_stochastic_nothing: f32 = -1.0; // the id of the background
+const gnomon_stratum_begin: f32 = 1.000000476837158203125; // 1 + 2^-21: a time is so far from the ends of its stratum
+const gnomon_stratum_end: f32 = 0.999999523162841796875; // 1 - 2^-21
+
+/// A sample of the background.
+fn stochastic_background(x: f32, y: f32, t: f32) -> stochastic_sample
+{
+    var s: stochastic_sample;
+    s.x = x;
+    s.y = y;
+    s.t = t;
+    s.z = 1.0;
+    s.d_x = 0.0;
+    s.d_y = 0.0;
+    s.d_z = 0.0;
+    s.id = gnomon_stochastic_nothing;
+    return s;
+}
+
+/// The time of stratum number `stratum`, 0 to count - 1, of the shutter interval: its begin for jitter 0, its end for
+/// jitter 1. The ends themselves are avoided, so that slice_of returns the stratum, bit for bit.
+/// Domain: whole numbers stratum < count <= 65536; elsewhere a time in [0, 1]. jitter is clamped to [0, 1].
+/// NaN: jitter 0; 0 for the other two.
+/// Error: 2^-20, and 4 2^-p of the result.
+/// Source: Andersson 2015, Sec. 3
+fn stratified_time(stratum: f32, count: f32, jitter: f32) -> f32
+{
+    var place = stratum + saturate_or_zero(jitter);
+    place = gnomon_min(place, (stratum + 1.0) * gnomon_stratum_end);
+    place = gnomon_max(place, stratum * gnomon_stratum_begin);
+    return saturate_or_zero(place / count);
+}
+
+/// The stratum of `count` that holds time t: the whole number below t count, in [0, count - 1].
+/// Domain: t is clamped to [0, 1]; count is a whole number in [1, 65536].
+/// NaN: 0.
+/// Source: Andersson 2015, Sec. 3
+fn slice_of(t: f32, count: f32) -> f32
+{
+    let slice = texel_below(saturate_or_zero(t) * count);
+    return gnomon_max(gnomon_min(slice, count - 1.0), 0.0);
+}
+
 // motion/range/range_cover.h ------------------------------------------------------------------------------------------
 // Texels that one surface covers for the whole shutter, in front of everything else: the coverage map of Hong & Oh
 // ("Efficient motion blurred shadows using a temporal shadow map", 2017). All other ranges of such a texel are occluded
@@ -5316,34 +5408,6 @@ fn facing_function(n: gnomon_moving_vector, d: gnomon_moving_vector) -> gnomon_m
     f.e1_ = gnomon_select(known, f.e1_, 0.0);
     f.e2_ = gnomon_select(known, f.e2_, 0.0);
     return f;
-}
-
-// numerics/texel_filter.h ---------------------------------------------------------------------------------------------
-// Texels of a shadow map along one axis: the texel that holds a position, and the weights of the K + 1 texels that K
-// adjacent bilinear look-ups read, which are those of a filter K texels wide with linear ends.
-
-const gnomon_texel_limit: f32 = 65536.0; // no map is larger: all positions beyond share one texel
-
-/// The texel that holds position x: the largest whole number not above x, clamped to [-65536, 65536].
-/// NaN: 65536.
-fn texel_below(x: f32) -> f32
-{
-    let limit = gnomon_texel_limit;
-    let inside = gnomon_max(gnomon_min(x, limit), -1.0 * limit);
-    let whole = nearest_integer(inside);
-    return whole - gnomon_select(inside < whole, 1.0, 0.0);
-}
-
-/// The weight of texel i, 0 to K, in the mean of K = look_ups adjacent bilinear look-ups along one axis. u is the
-/// distance of the first look-up from the centre of texel 0. In [0, 1].
-/// Domain: u in [0, 1], clamped; look_ups at least 1. Elsewhere a number in [0, 1].
-/// NaN: u counts as 0; 0 for look_ups.
-/// Error: the K + 1 weights sum to 1 within K + 2 roundings.
-fn texel_weight(u: f32, i: f32, look_ups: f32) -> f32
-{
-    var share = saturate_or_zero(u);
-    share = gnomon_select(i < 1.0, 1.0 - share, gnomon_select(i < look_ups, 1.0, share));
-    return saturate_or_zero(share / look_ups);
 }
 
 // motion/receiver/shutter.h -------------------------------------------------------------------------------------------
@@ -6600,6 +6664,74 @@ fn edge_equation_widen(given_f: gnomon_edge_equation, margin: f32, facing: f32) 
     f.e1_.c = f.e1_.c + by;
     f.e2_.c = f.e2_.c + by;
     return f;
+}
+
+// motion/triangle/triangle_motion.h -----------------------------------------------------------------------------------
+// Motion of the point of a moving triangle that a sample sees: the motion vector of a stochastic shadow map.
+//
+// The point is fixed on the triangle: the mean of the vertices, each weighted by the edge function opposite to it, with
+// the weights of the sample's time (moving_triangle.h). Its places at shutter open and at shutter close are the means
+// of the vertices there, by the same weights. Edge functions are homogeneous, so this holds in perspective as well, and
+// for a light that moves. The motion is the chord from the one place to the other. In perspective the point need not
+// move along that chord at constant speed.
+
+/// Motion from shutter open to shutter close, in the units of x / w and in depth.
+struct triangle_motion { d_x: f32, d_y: f32, d_z: f32 }
+
+/// A point in clip space, times the sum of the weights of the vertices that it is a mean of.
+struct gnomon_weighted_point { x: f32, y: f32, z: f32, w: f32 }
+
+const triangle_motion_limit: f32 = 65536.0; // no map is larger
+
+/// The point with these weights at shutter open.
+fn gnomon_moving_triangle_open(m: moving_triangle, v: gnomon_corner_weights) -> gnomon_weighted_point
+{
+    var p: gnomon_weighted_point;
+    p.x = (v.a * m.a.x0_ + v.b * m.b.x0_) + v.c * m.c.x0_;
+    p.y = (v.a * m.a.y0_ + v.b * m.b.y0_) + v.c * m.c.y0_;
+    p.z = (v.a * m.a.z0_ + v.b * m.b.z0_) + v.c * m.c.z0_;
+    p.w = (v.a * m.a.w0_ + v.b * m.b.w0_) + v.c * m.c.w0_;
+    return p;
+}
+
+/// The point with these weights at shutter close.
+fn gnomon_moving_triangle_close(m: moving_triangle, v: gnomon_corner_weights) -> gnomon_weighted_point
+{
+    var p: gnomon_weighted_point;
+    p.x = (v.a * m.a.x1_ + v.b * m.b.x1_) + v.c * m.c.x1_;
+    p.y = (v.a * m.a.y1_ + v.b * m.b.y1_) + v.c * m.c.y1_;
+    p.z = (v.a * m.a.z1_ + v.b * m.b.z1_) + v.c * m.c.z1_;
+    p.w = (v.a * m.a.w1_ + v.b * m.b.w1_) + v.c * m.c.w1_;
+    return p;
+}
+
+/// Motion of the point that the sample sees at time t, from shutter open to shutter close; e from
+/// moving_triangle_edges. divided as in moving_depth_at: 1 for depth z / w, 0 for a z that is linear in view distance.
+/// Domain: the triangle covers the sample at time t. No motion where the point is behind the light at shutter open or
+/// at shutter close, w <= 0, or where it moves by more than 65536.
+/// NaN: no motion.
+/// Error: at either end of the shutter that of the edge functions times sum_k |x_k - x w_k| / |sum_k e_k w_k|, and 16
+/// 2^-p sum_k e_k (|x_k| + |x w_k|) / |sum_k e_k w_k|, with x the place there; y likewise; z with 1 for w unless
+/// divided.
+/// Source: Andersson 2015, Sec. 4
+fn moving_triangle_motion(m: moving_triangle, e: gnomon_moving_edges, t: f32, divided: f32) -> triangle_motion
+{
+    let v = gnomon_corner_weights_at(e, t);
+    let p = gnomon_moving_triangle_open(m, v);
+    let q = gnomon_moving_triangle_close(m, v);
+    let by_w = 0.0 < divided;
+    let sum = (v.a + v.b) + v.c;
+    let d_x = q.x / q.w - p.x / p.w;
+    let d_y = q.y / q.w - p.y / p.w;
+    let d_z = q.z / gnomon_select(by_w, q.w, sum) - p.z / gnomon_select(by_w, p.w, sum);
+    let limit = triangle_motion_limit;
+    let known = 0.0 < p.w && 0.0 < q.w && gnomon_abs(d_x) <= limit && gnomon_abs(d_y) <= limit &&
+                gnomon_abs(d_z) <= limit;
+    var r: triangle_motion;
+    r.d_x = gnomon_select(known, d_x, 0.0);
+    r.d_y = gnomon_select(known, d_y, 0.0);
+    r.d_z = gnomon_select(known, d_z, 0.0);
+    return r;
 }
 
 // scattering/height_fog.h ---------------------------------------------------------------------------------------------

@@ -735,6 +735,9 @@ template <class Real, class = require_real<Real>> struct depth_trial
     Real start, share, settled;
 };
 
+/// Weights of a triangle's vertices; they need not sum to 1.
+template <class Real, class = require_real<Real>> struct corner_weights { Real a, b, c; };
+
 /// Bernstein coefficients of a cubic, the middle ones times 3.
 template <class Real, class = require_real<Real>> struct bernstein_cubic { Real c0, c1, c2, c3; };
 
@@ -787,6 +790,26 @@ GNOMON_INLINE constexpr moving_edges<Real> moving_triangle_edges(moving_triangle
     return e;
 }
 
+/// Weights of the vertices for the point that the sample sees at time t, not negative: the edge functions, those
+/// against the triangle's facing as 0. If all three vanish, the weights are 1.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr corner_weights<Real> corner_weights_at(moving_edges<Real> e, Real t)
+{
+    corner_weights<Real> v;
+    v.a = moving_edge_at(e.a, t);
+    v.b = moving_edge_at(e.b, t);
+    v.c = moving_edge_at(e.c, t);
+    mask_t<Real> back = (v.a + v.b) + v.c < Real(0);
+    v.a = gnomon_max(gnomon_select(back, Real(-1) * v.a, v.a), Real(0));
+    v.b = gnomon_max(gnomon_select(back, Real(-1) * v.b, v.b), Real(0));
+    v.c = gnomon_max(gnomon_select(back, Real(-1) * v.c, v.c), Real(0));
+    mask_t<Real> vanished = (v.a + v.b) + v.c <= Real(0);
+    v.a = gnomon_select(vanished, Real(1), v.a);
+    v.b = gnomon_select(vanished, Real(1), v.b);
+    v.c = gnomon_select(vanished, Real(1), v.c);
+    return v;
+}
+
 /// Depth of the triangle's point at the sample at time t, in [-1, 1]; e from moving_triangle_edges. divided is 1 for
 /// depth z / w, with z in clip space, and 0 for a z that is linear in view distance: the result is then the mean of the
 /// vertices' z. Edge functions against the triangle's facing, which arise from rounding and outside of the covered
@@ -800,22 +823,11 @@ template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real moving_depth_at(moving_triangle<Real> m, moving_edges<Real> e, Real t,
                                              std::type_identity_t<Real> divided)
 {
-    Real a = moving_edge_at(e.a, t);
-    Real b = moving_edge_at(e.b, t);
-    Real c = moving_edge_at(e.c, t);
-    mask_t<Real> back = (a + b) + c < Real(0);
-    a = gnomon_max(gnomon_select(back, Real(-1) * a, a), Real(0));
-    b = gnomon_max(gnomon_select(back, Real(-1) * b, b), Real(0));
-    c = gnomon_max(gnomon_select(back, Real(-1) * c, c), Real(0));
-    mask_t<Real> vanished = (a + b) + c <= Real(0);
-    a = gnomon_select(vanished, Real(1), a);
-    b = gnomon_select(vanished, Real(1), b);
-    c = gnomon_select(vanished, Real(1), c);
-
+    corner_weights v = corner_weights_at(e, t);
     Real s = Real(1) - t;
-    Real z = (a * (m.a.z0 * s + m.a.z1 * t) + b * (m.b.z0 * s + m.b.z1 * t)) + c * (m.c.z0 * s + m.c.z1 * t);
-    Real w = (a * (m.a.w0 * s + m.a.w1 * t) + b * (m.b.w0 * s + m.b.w1 * t)) + c * (m.c.w0 * s + m.c.w1 * t);
-    Real divisor = gnomon_select(Real(0) < divided, w, (a + b) + c);
+    Real z = (v.a * (m.a.z0 * s + m.a.z1 * t) + v.b * (m.b.z0 * s + m.b.z1 * t)) + v.c * (m.c.z0 * s + m.c.z1 * t);
+    Real w = (v.a * (m.a.w0 * s + m.a.w1 * t) + v.b * (m.b.w0 * s + m.b.w1 * t)) + v.c * (m.c.w0 * s + m.c.w1 * t);
+    Real divisor = gnomon_select(Real(0) < divided, w, (v.a + v.b) + v.c);
     Real depth = gnomon_max(gnomon_min(z / divisor, Real(1)), Real(-1)); // a NaN becomes 1
     return gnomon_select(Real(0) < w, depth, Real(1));
 }

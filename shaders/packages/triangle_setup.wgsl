@@ -318,6 +318,9 @@ struct depth_trial
     start: f32, share: f32, settled: f32,
 }
 
+/// Weights of a triangle's vertices; they need not sum to 1.
+struct gnomon_corner_weights { a: f32, b: f32, c: f32 }
+
 /// Bernstein coefficients of a cubic, the middle ones times 3.
 struct gnomon_bernstein_cubic { c0_: f32, c1_: f32, c2_: f32, c3_: f32 }
 
@@ -366,6 +369,25 @@ fn moving_triangle_edges(m: moving_triangle, s_x: f32, s_y: f32) -> gnomon_movin
     return e;
 }
 
+/// Weights of the vertices for the point that the sample sees at time t, not negative: the edge functions, those
+/// against the triangle's facing as 0. If all three vanish, the weights are 1.
+fn gnomon_corner_weights_at(e: gnomon_moving_edges, t: f32) -> gnomon_corner_weights
+{
+    var v: gnomon_corner_weights;
+    v.a = moving_edge_at(e.a, t);
+    v.b = moving_edge_at(e.b, t);
+    v.c = moving_edge_at(e.c, t);
+    let back = (v.a + v.b) + v.c < 0.0;
+    v.a = gnomon_max(gnomon_select(back, -1.0 * v.a, v.a), 0.0);
+    v.b = gnomon_max(gnomon_select(back, -1.0 * v.b, v.b), 0.0);
+    v.c = gnomon_max(gnomon_select(back, -1.0 * v.c, v.c), 0.0);
+    let vanished = (v.a + v.b) + v.c <= 0.0;
+    v.a = gnomon_select(vanished, 1.0, v.a);
+    v.b = gnomon_select(vanished, 1.0, v.b);
+    v.c = gnomon_select(vanished, 1.0, v.c);
+    return v;
+}
+
 /// Depth of the triangle's point at the sample at time t, in [-1, 1]; e from moving_triangle_edges. divided is 1 for
 /// depth z / w, with z in clip space, and 0 for a z that is linear in view distance: the result is then the mean of the
 /// vertices' z. Edge functions against the triangle's facing, which arise from rounding and outside of the covered
@@ -377,22 +399,11 @@ fn moving_triangle_edges(m: moving_triangle, s_x: f32, s_y: f32) -> gnomon_movin
 /// v_k|; v = w where divided, else 1.
 fn moving_depth_at(m: moving_triangle, e: gnomon_moving_edges, t: f32, divided: f32) -> f32
 {
-    var a = moving_edge_at(e.a, t);
-    var b = moving_edge_at(e.b, t);
-    var c = moving_edge_at(e.c, t);
-    let back = (a + b) + c < 0.0;
-    a = gnomon_max(gnomon_select(back, -1.0 * a, a), 0.0);
-    b = gnomon_max(gnomon_select(back, -1.0 * b, b), 0.0);
-    c = gnomon_max(gnomon_select(back, -1.0 * c, c), 0.0);
-    let vanished = (a + b) + c <= 0.0;
-    a = gnomon_select(vanished, 1.0, a);
-    b = gnomon_select(vanished, 1.0, b);
-    c = gnomon_select(vanished, 1.0, c);
-
+    let v = gnomon_corner_weights_at(e, t);
     let s = 1.0 - t;
-    let z = (a * (m.a.z0_ * s + m.a.z1_ * t) + b * (m.b.z0_ * s + m.b.z1_ * t)) + c * (m.c.z0_ * s + m.c.z1_ * t);
-    let w = (a * (m.a.w0_ * s + m.a.w1_ * t) + b * (m.b.w0_ * s + m.b.w1_ * t)) + c * (m.c.w0_ * s + m.c.w1_ * t);
-    let divisor = gnomon_select(0.0 < divided, w, (a + b) + c);
+    let z = (v.a * (m.a.z0_ * s + m.a.z1_ * t) + v.b * (m.b.z0_ * s + m.b.z1_ * t)) + v.c * (m.c.z0_ * s + m.c.z1_ * t);
+    let w = (v.a * (m.a.w0_ * s + m.a.w1_ * t) + v.b * (m.b.w0_ * s + m.b.w1_ * t)) + v.c * (m.c.w0_ * s + m.c.w1_ * t);
+    let divisor = gnomon_select(0.0 < divided, w, (v.a + v.b) + v.c);
     let depth = gnomon_max(gnomon_min(z / divisor, 1.0), -1.0); // a NaN becomes 1
     return gnomon_select(0.0 < w, depth, 1.0);
 }
