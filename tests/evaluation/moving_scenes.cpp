@@ -1,5 +1,6 @@
 // The scenes in motion: what the table of their builders says, and that lights see what they have to.
 #include "evaluation/motion/motion_scene.hpp"
+#include "renderer/scene/moving_stage_builder.hpp"
 #include "renderer/trace/tracer.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,7 @@
 #include "moving_stages.hpp"
 
+#include "moving_stage_builder.hpp"
+
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -8,37 +10,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <random>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace gnomon::renderer {
 
+using namespace paint;
+
 namespace {
-
-mesh painted(std::string name, const glm::vec3& albedo)
-{
-    return {.name = std::move(name), .albedo = albedo, .positions = {}, .normals = {}, .triangles = {}};
-}
-
-const glm::vec3 clay(0.72f, 0.45f, 0.33f), sand(0.74f, 0.66f, 0.48f), moss(0.42f, 0.58f, 0.36f), stone(0.5f);
-
-mesh moved(mesh part, const glm::vec3& by)
-{
-    for (glm::vec3& position : part.positions) position += by;
-    return part;
-}
-
-void add(moving_scene& world, const mesh& open, const mesh& closing)
-{
-    world.open.meshes.push_back(open);
-    world.closing.push_back(closing.positions);
-}
-
-void add(moving_scene& world, const mesh& open, const glm::vec3& motion) { add(world, open, moved(open, motion)); }
 
 // A level quad around its centre that can be seen from above.
 mesh level_quad(std::string name, const glm::vec3& albedo, const glm::vec3& centre, float half_x, float half_z)
@@ -72,101 +52,7 @@ void add_fine_cube(mesh& target, const glm::vec3& centre, float half, int cells)
         }
 }
 
-std::vector<glm::vec3> positions_at(const moving_scene& world, bool closing)
-{
-    std::vector<glm::vec3> result;
-    for (std::size_t m = 0; m < world.closing.size(); ++m) {
-        const auto& positions = closing ? world.closing[m] : world.open.meshes[m].positions;
-        result.insert(result.end(), positions.begin(), positions.end());
-    }
-    return result;
-}
-
-struct lamp {
-    glm::dvec3 open, closing;
-};
-
-struct view {
-    glm::dvec3 position, target;
-    double degrees;
-};
-
-const glm::vec3 green(0.05f, 0.6f, 0.1f), cyan(0.02f, 0.6f, 0.7f);
-
-using interests = std::vector<point_of_interest>;
-
-moving_stage staged(const moving_scene& casters, moving_scene world, const lamp& light, const view& eye, double aspect,
-                    interests places)
-{
-    moving_stage result{std::move(world), {}, {}, std::move(places)};
-    result.eye = perspective_view_from(eye.position, eye.target, bounds_of(result.world).corners(),
-                                       glm::radians(eye.degrees), aspect);
-    result.light = spot_light(casters, result.world, light.open, light.closing);
-    return result;
-}
-
-// A ground that holds all casters and shadows, and a quarter of their extent more on each side. In each scene either
-// the light or the caster is static, so the shadow of a vertex moves along a straight line between its two ends.
-moving_stage on_ground(const moving_scene& casters, const lamp& light, const view& eye, double aspect, interests places)
-{
-    bounds covered = bounds_of(casters);
-    for (const bool last : {false, true}) {
-        const glm::dvec3& from = last ? light.closing : light.open;
-        for (const glm::dvec3 corner : positions_at(casters, last))
-            covered.include(glm::vec3(from + from.y / (from.y - corner.y) * (corner - from)));
-    }
-    const glm::vec3 centre = covered.centre(), extent = covered.extent();
-    const float margin = 0.5f * std::max(extent.x, extent.z);
-    moving_scene world = casters;
-    add(world, ground({centre.x, 0, centre.z}, extent.x + margin, extent.z + margin, stone), glm::vec3(0));
-    return staged(casters, std::move(world), light, eye, aspect, std::move(places));
-}
-
-// std::uniform_real_distribution is not the same everywhere.
-class uniform {
-  public:
-    explicit uniform(std::uint32_t seed) : bits_(seed) {}
-    float operator()(float low, float high)
-    {
-        return low + (high - low) * (static_cast<float>(bits_() >> 8) * 0x1p-24f);
-    }
-
-  private:
-    std::mt19937 bits_;
-};
-
 } // namespace
-
-moving_camera spot_light(const moving_scene& casters, const moving_scene& world, const glm::dvec3& open,
-                         const glm::dvec3& closing)
-{
-    bounds directions; // unit vectors
-    for (const bool last : {false, true})
-        for (const glm::dvec3 corner : positions_at(casters, last))
-            directions.include(glm::vec3(glm::normalize(corner - (last ? closing : open))));
-    const glm::dvec3 direction(directions.centre());
-    moving_camera light{{}, closing - open};
-    double half_extent = 0, nearest = std::numeric_limits<double>::infinity(), farthest = 0;
-    for (const bool last : {false, true}) {
-        const glm::dvec3& position = last ? closing : open;
-        light.open =
-            perspective_view_from(position, position + direction, positions_at(world, last), glm::half_pi<double>(), 1);
-        nearest = std::min(nearest, light.open.near_distance);
-        farthest = std::max(farthest, light.open.far_distance);
-        // In this view of 90 degrees, 2 (u, v) - 1 is (x / z, y / z): ratios of linear functions of time, which are
-        // largest at an end.
-        for (const glm::vec3& corner : positions_at(casters, last)) {
-            if (!(view_distance(light.open, corner) > 0))
-                throw std::invalid_argument("spot light: a caster is not in front of it");
-            const glm::dvec2 seen = glm::abs(2.0 * glm::dvec2(project(light.open, corner)) - 1.0);
-            half_extent = std::max({half_extent, seen.x, seen.y});
-        }
-    }
-    light.open.position = open;
-    light.open.half_extent = glm::dvec2(1.001 * half_extent); // rounding leaves no corner outside
-    light.open.near_distance = nearest, light.open.far_distance = farthest;
-    return light;
-}
 
 moving_stage pillars(double aspect)
 {

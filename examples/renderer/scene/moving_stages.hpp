@@ -7,12 +7,6 @@
 
 namespace gnomon::renderer {
 
-// A spot light that moves along a straight line and looks at the middle of the casters. Its square picture just holds
-// the casters, and hence their shadows, at all times; its planes enclose the whole world at all times. Throws
-// std::invalid_argument if there is no caster, or if one is not in front of the light.
-moving_camera spot_light(const moving_scene& casters, const moving_scene& world, const glm::dvec3& open,
-                         const glm::dvec3& closing);
-
 // Andersson et al. 2015, Figure 11: 5 x 3 static pillars below a light that rises.
 moving_stage pillars(double aspect);
 

@@ -20,11 +20,6 @@ namespace gnomon::renderer {
 
 namespace {
 
-mesh painted(std::string name, const glm::vec3& albedo)
-{
-    return {.name = std::move(name), .albedo = albedo, .positions = {}, .normals = {}, .triangles = {}};
-}
-
 // A box between two opposite corners.
 void add_block(mesh& target, const glm::vec3& lower, const glm::vec3& upper)
 {

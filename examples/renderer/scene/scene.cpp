@@ -3,6 +3,7 @@
 #include <glm/common.hpp>
 
 #include <cmath>
+#include <utility>
 
 namespace gnomon::renderer {
 
@@ -63,6 +64,11 @@ bounds bounds_of(const scene& world)
     for (const mesh& part : world.meshes)
         for (const glm::vec3& position : part.positions) result.include(position);
     return result;
+}
+
+mesh painted(std::string name, const glm::vec3& albedo)
+{
+    return {.name = std::move(name), .albedo = albedo, .positions = {}, .normals = {}, .triangles = {}};
 }
 
 placement upright(const glm::vec3& centre, const glm::vec3& size, float angle)

@@ -65,6 +65,9 @@ struct placement {
 // Half axes of an upright solid of this full size, turned about y by an angle in radians.
 placement upright(const glm::vec3& centre, const glm::vec3& size, float angle = 0);
 
+// A mesh without triangles, for builders.
+mesh painted(std::string name, const glm::vec3& albedo);
+
 // Builders append to a mesh, so that many parts can share one albedo.
 void add_quad(mesh& target, const glm::vec3& corner, const glm::vec3& edge_u, const glm::vec3& edge_v);
 void add_box(mesh& target, const placement& where);

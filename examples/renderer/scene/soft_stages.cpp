@@ -8,17 +8,11 @@
 
 #include <array>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 namespace gnomon::renderer {
 
 namespace {
-
-mesh painted(std::string name, const glm::vec3& albedo)
-{
-    return {.name = std::move(name), .albedo = albedo, .positions = {}, .normals = {}, .triangles = {}};
-}
 
 // A knot that winds twice around the axis of a torus and three times through its hole.
 mesh knot(const glm::vec3& centre, float size)

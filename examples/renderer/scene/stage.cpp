@@ -11,11 +11,6 @@ namespace gnomon::renderer {
 
 namespace {
 
-mesh painted(std::string name, const glm::vec3& albedo)
-{
-    return {.name = std::move(name), .albedo = albedo, .positions = {}, .normals = {}, .triangles = {}};
-}
-
 // The light comes over the sign at x = -0.6, the fence at x = 0 and the wall at x = 0.55, in this order.
 const glm::vec3 fence_light(0.75f, -0.55f, 0.25f);
 

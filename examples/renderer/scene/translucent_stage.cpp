@@ -20,11 +20,6 @@ namespace gnomon::renderer {
 
 namespace {
 
-mesh painted(std::string name, const glm::vec3& albedo)
-{
-    return {.name = std::move(name), .albedo = albedo, .positions = {}, .normals = {}, .triangles = {}};
-}
-
 // The light comes from the front, over the smoke onto the pipes and the walls.
 const glm::vec3 yard_light = glm::normalize(glm::vec3(-0.30f, -0.80f, -0.55f));
 
