@@ -5,7 +5,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -14,21 +13,10 @@ namespace gnomon::renderer {
 
 namespace {
 
-// A generation of branches. Lengths and radii are fractions of those of the branch that carries them.
-struct generation {
-    int count, sides, segments;
-    float length, radius, spread,
-        first; // spread: tangent of the angle to the parent; first: where on the parent they begin
-};
-
-constexpr std::array generations{generation{11, 5, 3, 0.46f, 0.42f, 1.1f, 0.30f},
-                                 generation{5, 3, 2, 0.48f, 0.40f, 0.9f, 0.30f}};
-constexpr int leaves_per_twig = 24;
-
 class grower {
   public:
-    grower(mesh& wood, mesh& leaves, float height, std::uint32_t seed)
-        : wood_(wood), leaves_(leaves), leaf_(0.030f * height), random_(seed)
+    grower(mesh& wood, mesh& leaves, const tree_form& form, float height, std::uint32_t seed)
+        : wood_(wood), leaves_(leaves), form_(form), leaf_(0.030f * height), random_(seed)
     {}
 
     void grow(const glm::vec3& from, const glm::vec3& direction, float length, float radius, int sides, int segments,
@@ -47,11 +35,11 @@ class grower {
             const auto i = glm::min(static_cast<std::size_t>(place), path.size() - 2);
             return glm::mix(path[i], path[i + 1], place - static_cast<float>(i));
         };
-        if (depth == generations.size()) {
-            for (int i = 0; i < leaves_per_twig; ++i) add_leaf(at(between(0.2f, 1)) + leaf_ * 1.6f * anywhere());
+        if (depth == form_.branches.size()) {
+            for (int i = 0; i < form_.leaves; ++i) add_leaf(at(between(0.2f, 1)) + leaf_ * 1.6f * anywhere());
             return;
         }
-        const generation& next = generations[depth];
+        const generation& next = form_.branches[depth];
         for (int i = 0; i < next.count; ++i) {
             const float share =
                 glm::mix(next.first, 1.f, (static_cast<float>(i) + 0.9f) / static_cast<float>(next.count));
@@ -86,15 +74,18 @@ class grower {
     }
 
     mesh &wood_, &leaves_;
+    const tree_form& form_;
     float leaf_;
     std::mt19937 random_;
 };
 
 } // namespace
 
-void add_tree(mesh& wood, mesh& leaves, const glm::vec3& foot, float height, std::uint32_t seed)
+tree_form broad_leaved() { return {{{11, 5, 3, 0.46f, 0.42f, 1.1f, 0.30f}, {5, 3, 2, 0.48f, 0.40f, 0.9f, 0.30f}}, 24}; }
+
+void add_tree(mesh& wood, mesh& leaves, const glm::vec3& foot, float height, std::uint32_t seed, const tree_form& form)
 {
-    grower(wood, leaves, height, seed).grow(foot, {0, 1, 0}, 0.72f * height, 0.028f * height, 8, 4, 0);
+    grower(wood, leaves, form, height, seed).grow(foot, {0, 1, 0}, 0.72f * height, 0.028f * height, 8, 4, 0);
 }
 
 } // namespace gnomon::renderer
