@@ -34,16 +34,17 @@ struct report_row {
     double bytes_per_texel = 0;
     double map_bytes = 0;
     error_statistics errors{};
-    std::optional<double> noise{}, bias{}; // standard deviation over seeds, and mean error over them
-    std::optional<double> acne_unbiased{}; // of the same receivers without depth bias
-    std::optional<double> ns_kernel{};     // of values that have been fetched
-    double ns_per_receiver = 0;            // with the look-up
+    std::optional<double> noise{}, bias{};       // standard deviation over seeds, and mean error over them
+    std::optional<double> noise_beyond_camera{}; // of the difference from exact visibility at the camera's own times
+    std::optional<double> acne_unbiased{};       // of the same receivers without depth bias
+    std::optional<double> ns_kernel{};           // of values that have been fetched
+    double ns_per_receiver = 0;                  // with the look-up
     double build_ms = 0;
     std::string real = "float";
     int lanes = 1, threads = 1;
     std::string device = "cpu"; // or the name of a device that is no thread of the CPU
     int seeds = 1;
-    std::vector<std::pair<std::string, double>> passes{}; // milliseconds of the device, each in a field NAME_ms
+    std::vector<std::pair<std::string, double>> passes{}; // milliseconds of steps, each in a field NAME_ms
 };
 
 // A row with a method's ids, parameters and size of a texel.

@@ -1,0 +1,127 @@
+// What was set out for, and what was found.
+#include "evaluation/motion/words.hpp"
+#include "layered_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace gnomon::evaluation {
+
+namespace {
+
+class goals {
+  public:
+    explicit goals(compared_scenes scenes) : scenes_(scenes)
+    {
+        table_ = {.title = "Goals",
+                  .text =
+                      "What layers were to reach, and what this run found. Time is that of the map and of the "
+                      "look-ups, on one core.",
+                  .columns = {{.key = "goal", .label = "goal"},
+                              {.key = "scene", .label = "scene"},
+                              {.key = "found", .label = "found"},
+                              {.key = "met", .label = "met"}},
+                  .rows = {}};
+    }
+
+    table_block all()
+    {
+        for (const compared_layers& scene : scenes_) noise(scene);
+        for (const compared_layers& scene : scenes_) time(scene);
+        conversion();
+        model();
+        return std::move(table_);
+    }
+
+  private:
+    void add(std::string goal, std::string scene, std::string found, std::string met)
+    {
+        table_.rows.push_back({.cells = {{"goal", std::move(goal)},
+                                         {"scene", std::move(scene)},
+                                         {"found", std::move(found)},
+                                         {"met", std::move(met)}}});
+    }
+    static std::string yes(bool met) { return met ? "yes" : "no"; }
+
+    void noise(const compared_layers& scene)
+    {
+        constexpr std::array figures{"pillars", "crossed_quads", "toward_and_away"};
+        if (std::ranges::count(figures, scene.scene.id) == 0) return;
+        const layered_result *layers = scene.usual(usual_layers), *slices = best_of(scene, *slices_family, equal_input);
+        if (!layers || !slices || !slices->noise_beyond_camera || !layers->noise_beyond_camera) return;
+        const double beyond = *layers->noise_beyond_camera / *slices->noise_beyond_camera,
+                     with = *layers->row.noise / *slices->row.noise;
+        add("noise beyond the camera's at most 1/3 of that of time-dependent shadow maps", scene.scene.label,
+            fmt::format("{:.2f} of it ({:.1f} against {:.1f} thousandths); with the camera's noise {:.2f} of it",
+                        beyond, 1e3 * *layers->noise_beyond_camera, 1e3 * *slices->noise_beyond_camera, with),
+            yes(beyond <= 1. / 3));
+    }
+
+    void time(const compared_layers& scene)
+    {
+        constexpr std::array rich{"tentacles", "tree"};
+        if (std::ranges::none_of(rich, [&](const char* id) { return scene.scene.id.starts_with(id); })) return;
+        const layered_result* layers = scene.usual(usual_layers);
+        if (!layers) return;
+        const auto fits = [&](const layered_result& r) { return r.total_ms() <= 1.1 * layers->total_ms(); };
+        const layered_result *one = best_of(scene, *slices_family, equal_time, fits),
+                             *usual = best_of(scene, *slices_family, equal_input, fits);
+        if (!one || (usual && usual->row.errors.rmse < one->row.errors.rmse)) one = usual;
+        if (!one) return;
+        add("RMSE below that of time-dependent shadow maps of equal time, at their best bias", scene.scene.label,
+            fmt::format("{:.1f} thousandths in {} ms against {:.1f} in {} ms ({})", 1e3 * layers->row.errors.rmse,
+                        grouped(layers->total_ms()), 1e3 * one->row.errors.rmse, grouped(one->total_ms()),
+                        one->label()),
+            yes(layers->row.errors.rmse < one->row.errors.rmse));
+    }
+
+    void conversion()
+    {
+        double most = 0;
+        const compared_layers* where = nullptr;
+        for (const compared_layers& scene : scenes_)
+            if (const layered_result* layers = scene.usual(usual_layers)) {
+                const double ns = 1e6 * layers->conversion_ms / double(std::max(scene.samples_of_map, 1LL));
+                if (ns > most) most = ns, where = &scene;
+            }
+        if (where)
+            add("conversion in at most 100 ns per sample of the map", "the slowest: " + where->scene.label,
+                fmt::format("{:.0f} ns", most), yes(most <= 100));
+    }
+
+    // The model of depth with the least mean RMSE of all scenes.
+    void model()
+    {
+        const method* best = nullptr;
+        double least = 0, usual = 0;
+        std::string found;
+        for (const method* m : methods_in_order()) {
+            if (m->family != layers_family->id) continue;
+            double sum = 0;
+            int count = 0;
+            for (const compared_layers& scene : scenes_)
+                if (const layered_result* r = scene.usual(m->id); r && r->is_of(equal_input))
+                    sum += r->row.errors.rmse, ++count;
+            if (count == 0) continue;
+            const double mean = sum / count;
+            found += fmt::format("{}{} {:.1f}", found.empty() ? "" : ", ", m->label, 1e3 * mean);
+            if (!best || mean < least) best = m, least = mean;
+            if (m->id == usual_layers) usual = mean;
+        }
+        if (best)
+            add("the usual model of depth has the least RMSE", "mean of all scenes", found + " thousandths",
+                yes(usual <= least));
+    }
+
+    compared_scenes scenes_;
+    table_block table_;
+};
+
+} // namespace
+
+table_block goals_of(compared_scenes scenes) { return goals(scenes).all(); }
+
+} // namespace gnomon::evaluation

@@ -1,0 +1,54 @@
+// What a scene's camera sees: the reference, its pixels and penumbrae, and samples with their receivers, of one seed after
+// the other.
+#pragma once
+
+#include "layered_input.hpp"
+#include "layered_method.hpp"
+#include "renderer/scene/moving_scene.hpp"
+#include "renderer/trace/tracer.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+namespace gnomon::evaluation {
+
+struct camera_sizes {
+    int width, height, samples; // of a pixel
+    int reference_times;
+};
+
+class layered_view {
+  public:
+    // The stage outlives the view.
+    layered_view(const renderer::moving_stage& its_stage, const camera_sizes& its_size);
+
+    // Begins the samples of another seed.
+    void reseed(std::uint32_t seed);
+
+    const camera_samples& samples() const { return samples_; }
+
+    // The receivers of the seed in a map of so many texels a side.
+    const stochastic_receivers& receivers(int resolution);
+
+    // The visibility of each segment from that of each receiver.
+    std::vector<float> of_segments(const stochastic_receivers& receivers, std::span<const float> visibility) const;
+
+    // The mean visibility of each of `pixels`.
+    std::vector<float> of_pixels(std::span<const float> segments) const;
+
+    const renderer::moving_stage& stage;
+    const camera_sizes size;
+    renderer::reference_picture reference;
+    std::vector<std::size_t> pixels;    // that see a surface all of the time
+    std::vector<std::size_t> penumbrae; // indices into `pixels` of those that see the light for a part of the time
+    std::vector<float> expected;        // visibility of each of `pixels`
+
+  private:
+    camera_samples samples_;
+    std::map<int, stochastic_receivers> receivers_;
+};
+
+} // namespace gnomon::evaluation
