@@ -1,8 +1,9 @@
-// Lists of ranges: insertion of a range, the front at a time, and the resolve.
+// Lists of ranges: insertion of a range, the front at a time, the resolve, and transmittance.
 #include "core/measure.hpp"
 #include "support/hostile.hpp"
 
 #include <gnomon/motion/range/range_list.h>
+#include <gnomon/motion/range/range_transmittance.h>
 
 namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {
 
@@ -94,7 +95,21 @@ struct list_resolve : nine_ranges {
     }
 };
 
+/// One step of the transmittance of nine ranges, with ids for opacities.
+struct transmittance_step : nine_ranges {
+    static constexpr auto name = "step of transmittance";
+    template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
+    {
+        using real = std::common_type_t<Reals...>;
+        const std::array<real, inputs> x{operands...};
+        range_transmittance<real> step = range_transmittance_begin(real(0.5), real(1));
+        for (std::size_t k = 0; k < 9; ++k)
+            step = range_transmittance_add(step, range(x, k), real(9), real(0.125) * range(x, k).id);
+        return range_transmittance_lost(step, step.t0, step.t1);
+    }
+};
+
 [[maybe_unused]] const bool registered =
-    add_kernels<sixteen_times, sixteen_times, list_insert, list_front, list_resolve>("lists");
+    add_kernels<sixteen_times, sixteen_times, list_insert, list_front, list_resolve, transmittance_step>("lists");
 
 } // namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC

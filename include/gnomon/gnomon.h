@@ -39,6 +39,7 @@
 #include "motion/range/range_list.h"
 #include "motion/range/range_merge.h"
 #include "motion/range/range_summary.h"
+#include "motion/range/range_transmittance.h"
 #include "motion/receiver/facing.h"
 #include "motion/receiver/moving_receiver.h"
 #include "motion/receiver/receiver_path.h"

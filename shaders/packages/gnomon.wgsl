@@ -5372,6 +5372,65 @@ fn gnomon_range_is_second_layer(front: depth_time_range, r: depth_time_range) ->
     return front.t0_ <= r.t0_ && r.t0_ < front.t1_ && r.t1_ <= front.t1_;
 }
 
+// motion/range/range_transmittance.h ----------------------------------------------------------------------------------
+// Light through translucent surfaces that move: each range of a texel has an opacity, and light passes all ranges in
+// front of a receiver. At one time the transmittance is the product of 1 - opacity over these ranges. It changes only
+// when a range begins or ceases to be in front, so over the shutter interval it is a function of steps, whose mean is
+// exact. The lists need no order and are not resolved: translucent ranges may overlap in time. An opaque surface is a
+// range of opacity 1. (Palmer 2011, chapter 5, leaves transparency as future work.)
+//
+//     for (t = begin; t < end; t = step.t1)
+//         step = range_transmittance_begin(t, end);
+//         for every range of the texel, with its opacity:
+//             hidden = static_receiver_occluding_part(state, range);      or that of a moving receiver
+//             step = range_transmittance_add(step, hidden, id, opacity);
+//         lost = range_transmittance_lost(step, share0, share1);    the shutter's shares at step.t0 and step.t1
+//         state = static_receiver_add(state, lost);
+//
+// For a moving receiver with filtering, moving_receiver_filtered_light of a range with the times of the step, times the
+// opacity of the step, is what it loses. Steps are contiguous from begin to end, and n ranges make at most 2 n + 1.
+
+/// A step of the transmittance of a list: from t0 to t1 the same ranges are in front of the receiver.
+struct range_transmittance { t0_: f32, t1_: f32, transmittance: f32 }
+
+/// Begin a step at time t, without a range. It lasts until end at most.
+fn range_transmittance_begin(t: f32, end: f32) -> range_transmittance
+{
+    var step: range_transmittance;
+    step.t0_ = t;
+    step.t1_ = end;
+    step.transmittance = 1.0;
+    return step;
+}
+
+/// Add a range of the given opacity by `hidden`, its part in front of the receiver. The step ends when that part begins
+/// or ends next. A range of the receiver's own id takes no light.
+/// Domain: an opacity in [0, 1], and is clamped to that.
+/// NaN: a range, or an opacity, with a NaN takes no light.
+/// Error: after n ranges, 2 n 2^-p of the transmittance.
+fn range_transmittance_add(given_step: range_transmittance, hidden: depth_time_range, id: f32,
+                           opacity: f32) -> range_transmittance
+{
+    var step = given_step;
+    let counts = hidden.t0_ < hidden.t1_ && !(hidden.id == id);
+    let during = counts && hidden.t0_ <= step.t0_ && step.t0_ < hidden.t1_;
+    let later = counts && step.t0_ < hidden.t0_;
+    let change = gnomon_select(during, hidden.t1_, gnomon_select(later, hidden.t0_, step.t1_));
+    step.t1_ = gnomon_min(step.t1_, change);
+    let passing = 1.0 - saturate_or_zero(opacity);
+    step.transmittance = gnomon_select(during, step.transmittance * passing, step.transmittance);
+    return step;
+}
+
+/// Share of the light that a receiver loses during the step, in [0, 1]. The shutter has let in the shares share0 and
+/// share1 of the exposure's light at the begin and at the end of the step.
+/// NaN: 0.
+/// Error: of the share let in, 4 2^-p, and that of the transmittance.
+fn range_transmittance_lost(step: range_transmittance, share0: f32, share1: f32) -> f32
+{
+    return saturate_or_zero(share1 - share0) * saturate_or_zero(1.0 - step.transmittance);
+}
+
 // motion/receiver/facing.h --------------------------------------------------------------------------------------------
 // Times at which a turning surface faces the light (Palmer 2011, 2.3.2, (2.5) and (2.6)). The normal n and the
 // direction d from the surface to the light are both linear in time from shutter open to shutter close. The surface

@@ -236,7 +236,12 @@ TEST_CASE("no pass over ranges allocates")
     const compact_range_map compact{12, 9, compact_ranges(lists, {begins, bodies, groups, list_begins})};
     const float same = static_intensity(compact, 0.5f, 0.5f, static_receiver_begin(0.f, 4.f, 0.f, 1.f)) +
                        moving_intensity(compact, path, 0.f, 1.f);
+    const std::array<float, texels.size()> opacities{0.5f, 0.5f, 0.5f};
+    const translucent_range_map<float> translucent{lists, opacities};
+    const float veiled = static_intensity(translucent, 0.5f, 0.5f, static_receiver_begin(0.f, 4.f, 0.f, 1.f)) +
+                         moving_intensity(translucent, path, 0.f, 1.f);
     CHECK(allocations == before);
     CHECK(shadow > 0);
     CHECK(same > 0);
+    CHECK(veiled > 0);
 }

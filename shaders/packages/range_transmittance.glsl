@@ -1,0 +1,344 @@
+// Gnomon 0.1.0, range_transmittance.glsl: shadow filtering in GLSL, this file alone.
+// Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
+// Written by shaders/package.py from the kernels in include/gnomon: change them there.
+#ifndef GNOMON_RANGE_TRANSMITTANCE_GLSL
+#define GNOMON_RANGE_TRANSMITTANCE_GLSL
+
+// the language --------------------------------------------------------------------------------------------------------
+// GLSL from version 330, ESSL from version 300.
+// Compile without contraction for the same bits as on the CPU (docs/shaders.md). Exact products are exact in any case.
+#if defined(__cplusplus) || defined(__HLSL_VERSION) || defined(__OPENCL_C_VERSION__)
+#error "gnomon: range_transmittance.glsl is GLSL; another language's compiler reads it"
+#elif defined(GNOMON_PORTABLE_H)
+#error "gnomon: range_transmittance.glsl and the headers of include/gnomon exclude one another"
+#elif defined(GNOMON_PACKAGE) && GNOMON_PACKAGE != 100
+#error "gnomon: range_transmittance.glsl is not of the same version as a package before it"
+#endif
+#define GNOMON_PACKAGE 100 // major, minor and patch, two digits each
+
+#ifndef GNOMON_PORTABLE_GLSL_H
+#define GNOMON_PORTABLE_GLSL_H
+
+#if defined(GL_ES) && __VERSION__ < 300
+#error "gnomon: #version 300 es or later needed"
+#elif !defined(GL_ES) && __VERSION__ < 330
+#error "gnomon: #version 330 or later needed"
+#endif
+
+#if defined(GL_ES)
+// Kernels need high precision. Declare a lower one after this line if your own code uses it.
+precision highp float;
+precision highp int;
+#endif
+
+const float gnomon_pivot_floor = 9.31322574615478515625e-10; // 2^-30
+
+float gnomon_select(bool mask, float a, float b) { return mask ? a : b; }
+bool gnomon_any(bool mask) { return mask; }
+float gnomon_abs(float a) { return abs(a); }
+float gnomon_sqrt(float a) { return sqrt(a); }
+
+// x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
+// bits of NaN are above the bound, which is one.
+float gnomon_kept(float x) { return intBitsToFloat(min(floatBitsToInt(x), 0x7FC00000)); }
+float gnomon_apart(float x) { return uintBitsToFloat(min(floatBitsToUint(x), 0xFFC00000u)); }
+// A compiler that knew both operands would write min() and max(), which lose a NaN. gnomon_kept would not hide an operand
+// that is kept already, since two minima of integers become one; gnomon_apart is another one.
+float gnomon_min(float a, float b) { return gnomon_select(a < b, a, gnomon_apart(b)); }
+float gnomon_max(float a, float b) { return gnomon_select(b < a, a, gnomon_apart(b)); }
+float gnomon_product(float a, float b) { return gnomon_kept(a * b); }
+float gnomon_sum(float a, float b) { return gnomon_kept(a + b); }
+float gnomon_difference(float a, float b) { return gnomon_kept(a - b); }
+// By integers, so that a NaN becomes 0 where a compiler assumes that there is none.
+float gnomon_saturate(float x)
+{
+    int bits = floatBitsToInt(x);
+    return gnomon_select(bits > 0x7F800000, 0.0, intBitsToFloat(min(max(bits, 0), 0x3F800000)));
+}
+// a without the low half of its significand.
+float gnomon_high_part(float a) { return uintBitsToFloat(floatBitsToUint(a) & 0xFFFFF000u); }
+// The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
+float gnomon_power_of_two(float n) { return uintBitsToFloat((floatBitsToUint(n + 12582912.0) << 23u) + 0x3F800000u); }
+
+#endif
+
+// numerics/select.h ---------------------------------------------------------------------------------------------------
+// Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
+#ifndef GNOMON_NUMERICS_SELECT_H
+#define GNOMON_NUMERICS_SELECT_H
+
+/// x clamped to [low, high].
+/// NaN: stays NaN, so that the last step of a kernel can answer it.
+float clamp_or_nan(float x, float low, float high) { return gnomon_min(high, gnomon_max(low, x)); }
+
+/// x clamped to [low, high].
+/// NaN: high.
+float clamp_or_high(float x, float low, float high) { return gnomon_max(low, gnomon_min(x, high)); }
+
+/// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
+/// NaN: 0, lit.
+float saturate_or_zero(float x) { return gnomon_saturate(x); }
+
+#endif
+
+// motion/range/range.h ------------------------------------------------------------------------------------------------
+// Depth-time ranges. From time t0 to time t1 of the shutter interval [0, 1] a surface covers a texel of the shadow map,
+// at a depth that changes linearly from z0 to z1. The depth-time range of Hong & Oh ("Motion blurred shadows utilizing
+// a depth-time ranges shadow map", section 4), the tuple of their temporal shadow map (2017), and the interval of
+// Gribel et al. 2010 and Palmer 2011 are these five numbers. The id names the surface, because no surface shadows
+// itself.
+//
+// A range whose times are out of order, or with a NaN time, is empty: it shadows nothing.
+#ifndef GNOMON_MOTION_RANGE_RANGE_H
+#define GNOMON_MOTION_RANGE_RANGE_H
+
+/// Times in [0, 1], signed depths, and an id: a whole number that floats hold, such as a triangle's index below 2^24.
+struct depth_time_range { float t0, t1, z0, z1, id; };
+
+const float range_mixed = -1.0;                // the id of a range of several surfaces: it shadows them all
+const float range_nothing = -2.0;              // the id of a time without any surface
+const float range_far = 1152921504606846976.0; // 2^60: products of two depths are finite in float
+
+/// The range between two points of time and depth, given in either order.
+depth_time_range range_between(float time_a, float z_a, float time_b, float z_b, float id)
+{
+    bool swapped = time_b < time_a;
+    depth_time_range r;
+    r.t0 = gnomon_select(swapped, time_b, time_a);
+    r.t1 = gnomon_select(swapped, time_a, time_b);
+    r.z0 = gnomon_select(swapped, z_b, z_a);
+    r.z1 = gnomon_select(swapped, z_a, z_b);
+    r.id = id;
+    return r;
+}
+
+/// An empty range: it shadows nothing.
+depth_time_range range_empty(float id)
+{
+    depth_time_range r;
+    r.t0 = 1.0;
+    r.t1 = 0.0;
+    r.z0 = 1.0;
+    r.z1 = 1.0;
+    r.id = id;
+    return r;
+}
+
+/// Fraction of the range elapsed at time t, in [0, 1]: 0 up to t0, 1 from t1 on, 0 if t0 == t1.
+/// NaN: 0.
+float range_elapsed(depth_time_range r, float t) { return saturate_or_zero((t - r.t0) / (r.t1 - r.t0)); }
+
+/// Depth at time t, held constant before t0 and after t1; z0 if t0 == t1. Exact at both ends, and at all times if z0 ==
+/// z1.
+/// NaN: the result is NaN if z0 or z1 is.
+/// Error: 5 (|z0| + |z1|) 2^-p, p the bits of the significand.
+float range_depth(depth_time_range r, float t)
+{
+    float passed = range_elapsed(r, t);
+    return gnomon_select(r.z0 == r.z1, r.z0, r.z0 * (1.0 - passed) + r.z1 * passed);
+}
+
+/// Duration of the range, 0 if it is empty.
+float range_duration(depth_time_range r) { return gnomon_max(r.t1 - r.t0, 0.0); }
+
+/// The part of r between the times begin and end, possibly empty.
+depth_time_range range_clip(depth_time_range r, float begin, float end)
+{
+    depth_time_range c;
+    c.t0 = gnomon_max(begin, r.t0);
+    c.t1 = gnomon_min(end, r.t1);
+    c.z0 = range_depth(r, c.t0);
+    c.z1 = range_depth(r, c.t1);
+    c.id = r.id;
+    return c;
+}
+
+/// a where the mask is set, b elsewhere.
+depth_time_range gnomon_range_select(bool mask, depth_time_range a, depth_time_range b)
+{
+    depth_time_range r;
+    r.t0 = gnomon_select(mask, a.t0, b.t0);
+    r.t1 = gnomon_select(mask, a.t1, b.t1);
+    r.z0 = gnomon_select(mask, a.z0, b.z0);
+    r.z1 = gnomon_select(mask, a.z1, b.z1);
+    r.id = gnomon_select(mask, a.id, b.id);
+    return r;
+}
+
+/// r where the mask is set; elsewhere an empty range, which begins after all others.
+depth_time_range gnomon_range_keep_if(bool mask, depth_time_range r)
+{
+    return gnomon_range_select(mask, r, range_empty(range_nothing));
+}
+
+/// True if a comes before b in a total order: by begin, end, depth at begin, depth at end, id.
+bool gnomon_range_less(depth_time_range a, depth_time_range b)
+{
+    bool by_id = a.id < b.id;
+    bool by_z1 = a.z1 < b.z1 || (a.z1 == b.z1 && by_id);
+    bool by_z0 = a.z0 < b.z0 || (a.z0 == b.z0 && by_z1);
+    bool by_t1 = a.t1 < b.t1 || (a.t1 == b.t1 && by_z0);
+    return a.t0 < b.t0 || (a.t0 == b.t0 && by_t1);
+}
+
+/// True if a provably occludes all of b: all of a is in front of all of b while b lasts, or both have the same times
+/// and a has the nearer ends. Of two equal ranges the one with the lower id occludes the other. Nothing is rounded, so
+/// the relation is transitive: the ranges that remain when the occluded ones go do not depend on the order of the
+/// tests.
+bool gnomon_range_occludes(depth_time_range a, depth_time_range b)
+{
+    bool during = a.t0 <= b.t0 && b.t1 <= a.t1;
+    bool apart = gnomon_max(a.z0, a.z1) <= gnomon_min(b.z0, b.z1);
+    bool nearer = a.t0 == b.t0 && a.t1 == b.t1 && a.z0 <= b.z0 && a.z1 <= b.z1;
+    bool equal = nearer && a.z0 == b.z0 && a.z1 == b.z1;
+    return during && (apart || nearer) && !(equal && b.id < a.id);
+}
+
+/// The part of a during the time of b, possibly empty.
+depth_time_range gnomon_range_clip_to(depth_time_range a, depth_time_range b) { return range_clip(a, b.t0, b.t1); }
+
+/// Time at which two ranges of the same begin and end are at the same depth; one of these ends if they never are.
+float gnomon_range_crossing(depth_time_range a, depth_time_range b)
+{
+    float distance0 = a.z0 - b.z0;
+    float distance1 = a.z1 - b.z1;
+    float passed = saturate_or_zero(distance0 / (distance0 - distance1));
+    return a.t0 * (1.0 - passed) + a.t1 * passed;
+}
+
+/// The part of a that is in front of b, possibly empty. Where depths are equal throughout, the range with the lower id
+/// is in front. This part and the part of b in front of a fill the time that both share, bit for bit, unless both
+/// depths and ids are equal.
+/// Error: (80 z / d + 4) 2^-p for the time at which the front changes, z the largest depth and d the change of the
+/// distance between the ranges.
+depth_time_range gnomon_range_visible_part(depth_time_range a, depth_time_range b)
+{
+    depth_time_range near_a = gnomon_range_clip_to(a, b);
+    depth_time_range near_b = gnomon_range_clip_to(b, a);
+    float before0 = near_b.z0 - near_a.z0;
+    float before1 = near_b.z1 - near_a.z1;
+    bool tie = before0 == 0.0 && before1 == 0.0 && a.id < b.id;
+    bool first = 0.0 < before0 || (before0 == 0.0 && 0.0 < before1) || tie;
+    bool last = 0.0 < before1 || (before1 == 0.0 && 0.0 < before0) || tie;
+    float crossing = clamp_or_nan(gnomon_range_crossing(near_a, near_b), near_a.t0, near_a.t1);
+    float begin = gnomon_select(first, near_a.t0, gnomon_select(last, crossing, 1.0));
+    float end = gnomon_select(last, near_a.t1, gnomon_select(first, crossing, 0.0));
+    bool some = begin < end;
+    return range_clip(a, gnomon_select(some, begin, 1.0), gnomon_select(some, end, 0.0));
+}
+
+/// The part of r that remains after `other` occludes its begin, its end or all of it. If only the middle is occluded, r
+/// stays whole, since a range cannot have a hole. Cuts fall at times that `other` covers, so no gap opens.
+/// Error: that of range_depth, for the depth line.
+depth_time_range gnomon_range_trim(depth_time_range r, depth_time_range other)
+{
+    depth_time_range occluding = gnomon_range_visible_part(other, r);
+    bool some = occluding.t0 < occluding.t1;
+    float begin = gnomon_select(some && occluding.t0 <= r.t0, occluding.t1, r.t0);
+    float end = gnomon_select(some && r.t1 <= occluding.t1, occluding.t0, r.t1);
+    return range_clip(r, begin, end);
+}
+
+/// The part of r between begin and end that is in front of a receiver, possibly empty. The receiver's depth is a range,
+/// too, and level for a static receiver.
+/// NaN: a NaN depth is in front of nothing.
+/// Error: the times at which the two are within 26 z 2^-p of one another, z the largest depth; and 8 2^-p.
+depth_time_range range_occluding_part(depth_time_range r, depth_time_range receiver, float begin, float end)
+{
+    float early = gnomon_max(begin, r.t0);
+    float late = gnomon_min(end, r.t1);
+    // In most cases one of the two is in front at all times.
+    bool nearer = r.z0 < receiver.z0 && r.z0 < receiver.z1 && r.z1 < receiver.z0 && r.z1 < receiver.z1;
+    bool farther = receiver.z0 <= r.z0 && receiver.z0 <= r.z1 && receiver.z1 <= r.z0 && receiver.z1 <= r.z1;
+    float front = early;
+    float back = gnomon_select(farther, 0.0, late);
+    bool open = early < late && !(nearer || farther);
+    if (gnomon_any(open)) {
+        float before0 = range_depth(receiver, early) - range_depth(r, early);
+        float before1 = range_depth(receiver, late) - range_depth(r, late);
+        float passed = before0 / (before0 - before1); // in [0, 1] where their signs differ
+        float crossing = clamp_or_nan(early * (1.0 - passed) + late * passed, early, late);
+        float first = gnomon_select(0.0 < before0, early, gnomon_select(0.0 < before1, crossing, 1.0));
+        float last = gnomon_select(0.0 < before1, late, gnomon_select(0.0 < before0, crossing, 0.0));
+        front = gnomon_select(open, first, front);
+        back = gnomon_select(open, last, back);
+    }
+    bool some = front < back; // false for NaN
+    return range_clip(r, gnomon_select(some, front, 1.0), gnomon_select(some, back, 0.0));
+}
+
+/// Shadow intensity at time t and depth z on the surface with the given id: 1 where the range lasts at time t, lies
+/// more than the bias in front of z, and has another id; else 0.
+/// NaN: 0, lit.
+/// Source: Hong & Oh 2018, Sec. 3.3
+float range_intensity(depth_time_range r, float t, float z, float id, float bias)
+{
+    bool during = r.t0 <= t && t <= r.t1;
+    bool occludes = range_depth(r, t) + bias < z && !(id == r.id);
+    return gnomon_select(during && occludes, 1.0, 0.0);
+}
+
+#endif
+
+// motion/range/range_transmittance.h ----------------------------------------------------------------------------------
+// Light through translucent surfaces that move: each range of a texel has an opacity, and light passes all ranges in
+// front of a receiver. At one time the transmittance is the product of 1 - opacity over these ranges. It changes only
+// when a range begins or ceases to be in front, so over the shutter interval it is a function of steps, whose mean is
+// exact. The lists need no order and are not resolved: translucent ranges may overlap in time. An opaque surface is a
+// range of opacity 1. (Palmer 2011, chapter 5, leaves transparency as future work.)
+//
+//     for (t = begin; t < end; t = step.t1)
+//         step = range_transmittance_begin(t, end);
+//         for every range of the texel, with its opacity:
+//             hidden = static_receiver_occluding_part(state, range);      or that of a moving receiver
+//             step = range_transmittance_add(step, hidden, id, opacity);
+//         lost = range_transmittance_lost(step, share0, share1);    the shutter's shares at step.t0 and step.t1
+//         state = static_receiver_add(state, lost);
+//
+// For a moving receiver with filtering, moving_receiver_filtered_light of a range with the times of the step, times the
+// opacity of the step, is what it loses. Steps are contiguous from begin to end, and n ranges make at most 2 n + 1.
+#ifndef GNOMON_MOTION_RANGE_RANGE_TRANSMITTANCE_H
+#define GNOMON_MOTION_RANGE_RANGE_TRANSMITTANCE_H
+
+/// A step of the transmittance of a list: from t0 to t1 the same ranges are in front of the receiver.
+struct range_transmittance { float t0, t1, transmittance; };
+
+/// Begin a step at time t, without a range. It lasts until end at most.
+range_transmittance range_transmittance_begin(float t, float end)
+{
+    range_transmittance step;
+    step.t0 = t;
+    step.t1 = end;
+    step.transmittance = 1.0;
+    return step;
+}
+
+/// Add a range of the given opacity by `hidden`, its part in front of the receiver. The step ends when that part begins
+/// or ends next. A range of the receiver's own id takes no light.
+/// Domain: an opacity in [0, 1], and is clamped to that.
+/// NaN: a range, or an opacity, with a NaN takes no light.
+/// Error: after n ranges, 2 n 2^-p of the transmittance.
+range_transmittance range_transmittance_add(range_transmittance step, depth_time_range hidden, float id, float opacity)
+{
+    bool counts = hidden.t0 < hidden.t1 && !(hidden.id == id);
+    bool during = counts && hidden.t0 <= step.t0 && step.t0 < hidden.t1;
+    bool later = counts && step.t0 < hidden.t0;
+    float change = gnomon_select(during, hidden.t1, gnomon_select(later, hidden.t0, step.t1));
+    step.t1 = gnomon_min(step.t1, change);
+    float passing = 1.0 - saturate_or_zero(opacity);
+    step.transmittance = gnomon_select(during, step.transmittance * passing, step.transmittance);
+    return step;
+}
+
+/// Share of the light that a receiver loses during the step, in [0, 1]. The shutter has let in the shares share0 and
+/// share1 of the exposure's light at the begin and at the end of the step.
+/// NaN: 0.
+/// Error: of the share let in, 4 2^-p, and that of the transmittance.
+float range_transmittance_lost(range_transmittance step, float share0, float share1)
+{
+    return saturate_or_zero(share1 - share0) * saturate_or_zero(1.0 - step.transmittance);
+}
+
+#endif
+
+#endif
