@@ -60,7 +60,7 @@ CONSTRUCTS = [(rule, re.compile(pattern, re.MULTILINE)) for rule, pattern in CON
 DIVISOR = re.compile(r"/\s*(?:GNOMON_LITERAL\(\w+\)|Real\((-?[\d.e+-]+)\))") # drivers multiply by its rounded reciprocal
 RULES = [rule for rule, _ in CONSTRUCTS] + [
     "reserved word", "fused multiply-add", "division by a constant", "not ASCII", "include of a library", "include of a .hpp",
-    "include goes up", "no include guard", "too long", "test too long", "no comment", "unclear beginning", "field", "source", "mask",
+    "include goes up", "include of a layer", "name of a layer", "no include guard", "too long", "test too long", "no comment", "unclear beginning", "field", "source", "mask",
     "unused helper", "source of another folder", "macro of others",
     "mutable global"]
 
@@ -133,6 +133,8 @@ def lint_includes(path, text):
                 yield match.start(), "include goes up", target
             if target.endswith(".hpp") and path.suffix == ".h" and path.name != "gnomon.h":
                 yield match.start(), "include of a .hpp", target
+            if is_layer(Path(target)) and not is_layer(path) and path.name != "gnomon.h":
+                yield match.start(), "include of a layer", f"{target}: who includes {path.name} would get it, too (docs/patents.md)"
         elif is_kernel(path) or (not re.fullmatch(r"[a-z_]+", target) and layer < LAYER["simd"]):
             yield match.start(), "include of a library", target
 
@@ -178,6 +180,14 @@ def layer_of(path):
     return LAYER.get("/".join(path.parts[:2]), LAYER.get(path.parts[0], len(LAYERS)))
 
 
+UNPATENTED = {"stochastic_sample.h"} # in folders of layers
+
+
+def is_layer(path):
+    """True for the headers that docs/patents.md tells apart from all others by their names."""
+    return path.name.startswith("layer_")
+
+
 def is_kernel(path):
     return path.suffix == ".h" and path.parts[0] not in LAYERS[0]
 
@@ -186,6 +196,8 @@ def lint_header(path, text, words):
     code = blank(text, r"//[^\n]*|/\*.*?\*/", re.DOTALL)
     if path.suffix == ".h" and not text.isascii():
         yield next(i for i, c in enumerate(text) if ord(c) > 127), "not ASCII", "outside the basic alphabet"
+    if path.parent.name == "layers" and not is_layer(path) and path.name not in UNPATENTED:
+        yield 0, "name of a layer", "layer_... expected: docs/patents.md knows files by it"
     if not re.match(r"\s*#ifndef (GNOMON_\w+)\n#define \1\n.*#endif\s*$", code, re.DOTALL):
         yield 0, "no include guard", "#ifndef GNOMON_..., #define, #endif expected"
     yield from lint_includes(path, code)

@@ -3,4 +3,5 @@
 #define GNOMON_GNOMON_H
 #include "simd/xsimd.hpp"
 #include "passes/blur.hpp"
+#include "passes/layers/layer_map.hpp"
 #endif
