@@ -57,7 +57,7 @@ TEST_CASE("each scene in motion is whole: finite corners, valid triangles, a pla
             }));
         }
         CHECK(!stage.interests.empty());
-        for (const point_of_interest& place : stage.interests) CHECK(within_view(project(stage.eye, place.position)));
+        for (const point_of_interest& place : stage.interests) CHECK(within_view(project(stage.eye.open, place.position)));
     }
     CHECK(scenes().size() >= 11);
 }
@@ -115,7 +115,7 @@ TEST_CASE("nothing is shadowed where the light's picture ends")
         std::vector<bool> inside;
         for (int i = 0; i < 4000; ++i) {
             const float t = uniform(random);
-            const hit seen = rays.first_hit(ray_through(stage.eye, {uniform(random), uniform(random)}), t);
+            const hit seen = rays.first_hit(ray_through(stage.eye.open, {uniform(random), uniform(random)}), t);
             if (!seen.valid()) continue;
             const camera light = stage.light.at(double(t));
             if (glm::dot(direction_towards(light, seen.position), glm::dvec3(seen.normal)) <= 0) continue;
@@ -267,7 +267,7 @@ TEST_CASE("the lit ramp is lit, exactly and everywhere")
     std::vector<receiver_motion> receivers;
     for (int y = 0; y < 90; ++y)
         for (int x = 0; x < 160; ++x) {
-            const hit seen = rays.first_hit(ray_through(stage.eye, {(x + 0.5) / 160, (y + 0.5) / 90}), 0.5f);
+            const hit seen = rays.first_hit(ray_through(stage.eye.open, {(x + 0.5) / 160, (y + 0.5) / 90}), 0.5f);
             if (seen.valid()) receivers.push_back(rays.receiver_of(seen, 0.5f));
         }
     REQUIRE(receivers.size() > 500);

@@ -165,7 +165,7 @@ TEST_CASE("a moving model has unit size over all of its places, and its stage se
         for (std::size_t m = 0; m < parts; ++m)
             for (const glm::vec3& corner : now.meshes[m].positions) {
                 CHECK(within_view(project(stage.light.at(double(t)), corner)));
-                CHECK(within_view(project(stage.eye, corner)));
+                CHECK(within_view(project(stage.eye.open, corner)));
             }
     }
 }

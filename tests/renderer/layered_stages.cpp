@@ -246,8 +246,8 @@ TEST_CASE("each place of interest holds shade and penumbra")
         REQUIRE(!stage.interests.empty());
         for (const point_of_interest& place : stage.interests) {
             CAPTURE(place.id);
-            CHECK(within_view(project(stage.eye, place.position)));
-            const rectangle inset = inset_around(place, stage.eye, size, width, height);
+            CHECK(within_view(project(stage.eye.open, place.position)));
+            const rectangle inset = inset_around(place, stage.eye.open, size, width, height);
             int between = 0;
             for (int y = inset.y; y < inset.y + size; ++y)
                 for (int x = inset.x; x < inset.x + size; ++x) {

@@ -2,6 +2,7 @@
 // sits on a texel's centre, or beside it by a few ulps, leave no crack, and what passes a plane of the view is there
 // for a part of the time.
 #include "motion/range/moving_worlds.hpp"
+#include "renderer/raster/moving_samples.hpp"
 #include "support/effort.hpp"
 #include "support/hostile.hpp"
 
@@ -101,19 +102,19 @@ TEST_CASE("fans of triangles around a vertex on a texel's centre, or near it, le
     }
 }
 
-TEST_CASE("instants find a triangle of the fan at every time")
+TEST_CASE("samples find a triangle of the fan at every time")
 {
     bit_source bits(72);
     constexpr int samples = 8;
     int asked = 0;
     for (int i = 0; i < 300; ++i) {
         const fan f = any_fan(bits, fan_motion(i % 3));
-        const auto instants = rasterize_instants(world_of({f.part}), light_above(), world_size, world_size, samples);
-        for (int k = 0; k < samples; ++k) {
-            const auto& seen = instants[std::size_t((f.y * world_size + f.x) * samples + k)];
-            if (!(f.begin <= seen.t0 && seen.t0 <= f.end)) continue;
+        const sample_picture picture = rasterize_samples(world_of({f.part}), light_above(), world_size, world_size,
+                                                         {.samples = samples, .pattern = sample_pattern::centres});
+        for (const stochastic_sample<float>& seen : picture.map()(std::size_t(f.x), std::size_t(f.y))) {
+            if (!(f.begin <= seen.t && seen.t <= f.end)) continue;
             ++asked;
-            REQUIRE(seen.z0 < 1);
+            REQUIRE(seen.id >= 0);
         }
     }
     CHECK(asked > 300);

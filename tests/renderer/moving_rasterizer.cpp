@@ -179,7 +179,6 @@ TEST_CASE("impossible sizes of pictures are refused")
     range_rasterizer rasterize;
     CHECK_THROWS_WITH_AS(rasterize(world, light_of(world, false), 0, 5),
                          "moving rasterizer: 0x5 texels, 1 to 16384 per side are possible", std::invalid_argument);
-    CHECK_THROWS_AS(rasterize_instants(world, light_of(world, false), 5, 5, 0), std::invalid_argument);
 }
 
 TEST_CASE("triangle numbers count through the meshes")

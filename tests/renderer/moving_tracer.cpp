@@ -32,7 +32,7 @@ TEST_CASE("at any time, a moving scene is traced as the static scene of that tim
             const float margin = 10 * moving.offset();
             std::vector<receiver> receivers, probes;
             for (int i = 0; i < 2000; ++i) {
-                const view_ray ray = ray_through(stage.eye, {uniform(random), uniform(random)});
+                const view_ray ray = ray_through(stage.eye.open, {uniform(random), uniform(random)});
                 const hit seen = moving.first_hit(ray, t), expected = fixed.first_hit(ray, 0);
                 if (!seen.valid() || seen.mesh != expected.mesh || seen.triangle != expected.triangle) continue;
                 CHECK(glm::length(seen.position - expected.position) <= margin);
@@ -68,7 +68,7 @@ TEST_CASE("hits lie on their rays and triangles, and their points move with the 
     int met = 0;
     for (int i = 0; i < 2000; ++i) {
         const float t = uniform(random);
-        const view_ray ray = ray_through(stage.eye, {uniform(random), uniform(random)});
+        const view_ray ray = ray_through(stage.eye.open, {uniform(random), uniform(random)});
         const hit seen = rays.first_hit(ray, t);
         if (!seen.valid()) continue;
         ++met;
@@ -168,7 +168,7 @@ TEST_CASE("a photograph of a static scene is the shaded picture, and that of a m
     stage.light.motion = glm::dvec3(0);
     const tracer rays(stage.world);
     const reference_picture photograph = rays.photograph(stage.light, stage.eye, width, height, 5);
-    const auto seen = rasterize_surfaces(stage.world.open, stage.eye, width, height);
+    const auto seen = rasterize_surfaces(stage.world.open, stage.eye.open, width, height);
     const auto visible = traced_visibility(rays, stage.light.open, seen);
     const picture shaded = shade(stage.world.open, stage.light.open, seen, visible);
     int different = 0;
@@ -189,7 +189,7 @@ TEST_CASE("a photograph of a static scene is the shaded picture, and that of a m
     int compared = 0;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            const view_ray ray = ray_through(bar.eye, {(x + 0.5) / width, (y + 0.5) / height});
+            const view_ray ray = ray_through(bar.eye.open, {(x + 0.5) / width, (y + 0.5) / height});
             const glm::dvec3 ground = ray.origin - ray.origin.y / ray.direction.y * ray.direction;
             const glm::dvec3 above = ray.origin - (ray.origin.y - 2) / ray.direction.y * ray.direction;
             if (ray.direction.y >= 0 || std::max(std::abs(ground.x), std::abs(ground.z)) > 2) continue;
@@ -210,11 +210,11 @@ TEST_CASE("sizes of moving queries are checked, and an empty scene is lit")
     CHECK_THROWS_WITH(rays.mean_visibility(light, receivers, 0, visible), "tracer: 0 samples, at least one expected");
     CHECK_THROWS_WITH(rays.mean_visibility(light, receivers, 4, std::span(visible).first(1)),
                       "tracer: 2 receivers, room for 1 results");
-    CHECK_THROWS_WITH(rays.photograph(light, camera{}, 4, 4, -1), "tracer: -1 samples, at least one expected");
+    CHECK_THROWS_WITH(rays.photograph(light, {}, 4, 4, -1), "tracer: -1 samples, at least one expected");
     const std::vector<receiver> fixed(2);
     CHECK_THROWS_WITH(rays.visibility(light, fixed, std::vector<float>(3), visible),
                       "tracer: 2 receivers, times for 3");
-    const reference_picture empty = rays.photograph(light, camera{}, 4, 4, 3);
+    const reference_picture empty = rays.photograph(light, {}, 4, 4, 3);
     CHECK(empty.visibility.pixels == std::vector<float>(16, 1));
     CHECK(empty.coverage.pixels == std::vector<float>(16, 0));
     CHECK(empty.colour(2, 2) == gnomon::renderer::daylight.background);

@@ -16,7 +16,8 @@ using namespace gnomon::test;
 TEST_CASE("samples in time see what the camera's segments say")
 {
     const moving_scene world = moving_boxes(7, 8);
-    const camera eye = perspective_view_from({2, 5, 6}, {0, 0, 0}, bounds_of(world).corners(), glm::radians(45.0), 1.5);
+    const moving_camera eye{
+        perspective_view_from({2, 5, 6}, {0, 0, 0}, bounds_of(world).corners(), glm::radians(45.0), 1.5)};
     constexpr int width = 60, height = 40, samples = 16;
     const seen_motion analytic = camera_segments(world, eye, width, height, 1e-4f);
     const seen_motion stochastic = stochastic_visibility(world, eye, width, height, samples);
@@ -46,8 +47,8 @@ TEST_CASE("nothing behind the eye or in front of the near plane is seen")
 {
     const moving_scene world = moving_boxes(8, 0);
     // Level, a little above the ground, in the midst of it.
-    const camera eye =
-        perspective_view_from({0, 0.5, 0}, {0, 0.5, -5}, bounds_of(world).corners(), glm::radians(60.0), 1);
+    const moving_camera eye{
+        perspective_view_from({0, 0.5, 0}, {0, 0.5, -5}, bounds_of(world).corners(), glm::radians(60.0), 1)};
     const seen_motion seen = camera_segments(world, eye, 64, 64, 0);
     for (std::size_t pixel = 0; pixel < 64 * 64; ++pixel) {
         const std::size_t y = pixel / 64;

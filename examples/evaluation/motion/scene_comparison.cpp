@@ -86,7 +86,7 @@ class scene_comparison {
     {
         const auto& [stage, size] = std::tie(view_.stage, view_.size);
         const rectangle part =
-            inset_around(stage.interests.front(), stage.eye, size.width / inset_share, size.width, size.height);
+            inset_around(stage.interests.front(), stage.eye.at(0.5), size.width / inset_share, size.width, size.height);
         const std::string to = file("close-" + name);
         write_png(folder_ / to, magnify(whole, part, 4));
         found_.close_ups.push_back({to, fmt::format("{} from close by: {}", found_.scene.label, words),

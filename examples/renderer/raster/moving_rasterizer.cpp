@@ -209,41 +209,6 @@ void rasterize_tile(const tiled_triangles& scenery, std::size_t tile, const rang
     }
 }
 
-// Puts a triangle into the samples that see it, at their times, in front of what they have seen so far.
-void sample_instants(const tile_triangle& triangle, const moving_samples& at, const moving_tile& where, int samples,
-                     std::vector<depth_time_range<float>>& nearest)
-{
-    const moving_setup& s = triangle.setup();
-    const quadratic_coverage coverage = triangle.quadratic(at, 1);
-    const moving_edges<texel_pack> negative = s.negative ? triangle.quadratic(at, -1).edges : coverage.edges;
-    const auto instant = [&](std::size_t lane, int k) -> depth_time_range<float>* {
-        const glm::ivec2 place = at.place(lane);
-        if (!triangle.contains(place)) return nullptr;
-        return &nearest[where.pixel(place) * std::size_t(samples) + std::size_t(k)];
-    };
-    for (int k = 0; k < samples; ++k) {
-        texel_lanes time{}, least, most, z;
-        for (std::size_t i = 0; i < texel_pack::size; ++i)
-            if (const auto* there = instant(i, k)) time[i] = there->t0;
-        const texel_pack t = texel_pack::load_unaligned(time.data());
-        const auto at_time = [&](const moving_edges<texel_pack>& e) {
-            return std::array{moving_edge_at(e.a, t), moving_edge_at(e.b, t), moving_edge_at(e.c, t)};
-        };
-        const auto inside = at_time(coverage.edges), outside = at_time(negative);
-        gnomon_min(gnomon_min(inside[0], inside[1]), inside[2]).store_unaligned(least.data());
-        gnomon_max(gnomon_max(outside[0], outside[1]), outside[2]).store_unaligned(most.data());
-        coverage.depth(t).store_unaligned(z.data());
-        for (std::size_t i = 0; i < texel_pack::size; ++i) {
-            const bool covered = (s.positive && least[i] >= 0) || (s.negative && most[i] <= 0);
-            auto* there = covered ? instant(i, k) : nullptr;
-            if (there && z[i] > -1 && z[i] < there->z0) {
-                there->z0 = there->z1 = z[i];
-                there->id = float(s.number);
-            }
-        }
-    }
-}
-
 // Copies with stores that bypass the caches: a map is larger than these, and memory to be overwritten need not be read.
 void copy_to_memory(std::span<const depth_time_range<float>> from, depth_time_range<float>* to)
 {
@@ -257,15 +222,6 @@ void copy_to_memory(std::span<const depth_time_range<float>> from, depth_time_ra
     _mm_sfence();
 #endif
     std::ranges::copy(from, to);
-}
-
-// A number in [0, 1) for each sample: the bits of its index, mixed.
-float jitter(std::uint32_t sample)
-{
-    std::uint32_t x = sample * 0x9e3779b9u;
-    x = (x ^ (x >> 16)) * 0x21f0aaadu;
-    x = (x ^ (x >> 15)) * 0x735a2d97u;
-    return float((x ^ (x >> 15)) >> 8) * 0x1p-24f;
 }
 
 } // namespace
@@ -312,28 +268,6 @@ const range_lists& range_rasterizer::operator()(const moving_scene& world, const
     lists_.first.back() = static_cast<std::uint32_t>(end);
     lists_.ranges.resize(end);
     return lists_;
-}
-
-std::vector<depth_time_range<float>> rasterize_instants(const moving_scene& world, const moving_camera& eye, int width,
-                                                        int height, int samples)
-{
-    if (samples < 1) throw std::invalid_argument("moving rasterizer: at least one sample is needed");
-    const tiled_triangles scenery(world, eye, width, height, faces::both);
-    std::vector<depth_time_range<float>> result(std::size_t(width) * std::size_t(height) * std::size_t(samples));
-    for (std::size_t i = 0; i < result.size(); ++i) {
-        const auto stratum = float(i % std::size_t(samples));
-        const float t = std::min((stratum + jitter(std::uint32_t(i))) / float(samples), 1.f);
-        result[i] = {t, t, 1, 1, 0};
-    }
-    tbb::parallel_for(std::size_t(0), scenery.tiles(), [&](std::size_t tile) {
-        tile_bins bins;
-        bins.assign(scenery, tile);
-        for (std::size_t i = 0; i < packs_per_tile; ++i)
-            bins.for_each(i / moving_samples::packs_per_block, [&, at = moving_samples(i)](const tile_triangle& t) {
-                sample_instants(t, at, scenery.tile(tile), samples, result);
-            });
-    });
-    return result;
 }
 
 std::size_t range_lists::bytes() const

@@ -70,12 +70,6 @@ class range_rasterizer {
     range_lists lists_;
 };
 
-// Stochastic rasterization: `samples` samples for each texel, each at a time in its own stratum of the shutter
-// interval. Sample k of texel i is element i samples + k, a range of no duration with the depth and the id of the
-// nearest triangle at that time, or with depth 1 if there is none.
-std::vector<depth_time_range<float>> rasterize_instants(const moving_scene& world, const moving_camera& eye, int width,
-                                                        int height, int samples);
-
 // A triangle by its mesh and its index in that mesh.
 struct triangle_place {
     std::uint32_t mesh, triangle;

@@ -31,6 +31,7 @@ bool finite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y
 struct moving_view {
     camera open, close;
     glm::dvec2 size;
+    double reach;
 
     moving_vertex<double> vertex(const glm::vec3& opening, const glm::vec3& closing) const
     {
@@ -76,9 +77,9 @@ bool set_extent(moving_setup& s, const moving_view& from)
     s.between_planes = -1 < nearest && farthest < 1;
     s.nearest = static_cast<float>(nearest);
     if (!s.before_eye) low = glm::dvec2(0), high = from.size;
-    s.first = glm::ivec2(glm::clamp(glm::ceil(low - 0.5 - double(tile_triangle::margin)), glm::dvec2(0), from.size));
-    s.last =
-        glm::ivec2(glm::clamp(glm::floor(high - 0.5 + double(tile_triangle::margin)), glm::dvec2(-1), from.size - 1.0));
+    const double reach = from.reach + double(tile_triangle::margin);
+    s.first = glm::ivec2(glm::clamp(glm::ceil(low - 0.5 - reach), glm::dvec2(0), from.size));
+    s.last = glm::ivec2(glm::clamp(glm::floor(high - 0.5 + reach), glm::dvec2(-1), from.size - 1.0));
     return s.first.x <= s.last.x && s.first.y <= s.last.y;
 }
 
@@ -166,13 +167,13 @@ template <class Visit> void for_each_tile(const moving_setup& s, const Visit& vi
 } // namespace
 
 tiled_triangles::tiled_triangles(const moving_scene& world, const moving_camera& eye, int width, int height,
-                                 faces visible)
-    : size_(width, height), grid_((size_ + moving_tile_size - 1) / moving_tile_size)
+                                 faces visible, float reach)
+    : size_(width, height), grid_((size_ + moving_tile_size - 1) / moving_tile_size), reach_(reach)
 {
     if (width < 1 || height < 1 || width > largest_extent || height > largest_extent)
         throw std::invalid_argument(fmt::format("moving rasterizer: {}x{} texels, 1 to {} per side are possible", width,
                                                 height, largest_extent));
-    setups_ = set_up(world, {eye.open, eye.at(1), size_}, visible);
+    setups_ = set_up(world, {eye.open, eye.at(1), size_, double(reach)}, visible);
     sort_into_tiles();
 }
 
@@ -240,7 +241,7 @@ void tile_bins::assign(const tiled_triangles& scenery, std::size_t tile, bool fr
         const moving_setup& s = *member;
         const std::size_t i = triangles_.size() % 64;
         if (i == 0) touching_.emplace_back();
-        const std::uint64_t blocks = triangles_.emplace_back(s, where).blocks();
+        const std::uint64_t blocks = triangles_.emplace_back(s, where).blocks(scenery.reach());
         for_each_bit(blocks, [&](std::size_t block) { touching_.back()[block] |= std::uint64_t(1) << i; });
     }
 }

@@ -76,12 +76,15 @@ struct moving_tile {
     }
 };
 
-// The triangles of a scene, sorted into the tiles in which they are seen at some time.
+// The triangles of a scene, sorted into the tiles in which they are seen at some time by samples that are at most
+// `reach` from the centres of their texels, along x and y.
 class tiled_triangles {
   public:
     // Throws std::invalid_argument for a picture that is empty or too large.
-    tiled_triangles(const moving_scene& world, const moving_camera& eye, int width, int height, faces visible);
+    tiled_triangles(const moving_scene& world, const moving_camera& eye, int width, int height, faces visible,
+                    float reach = 0);
 
+    float reach() const { return reach_; }
     std::size_t tiles() const { return first_.size() - 1; }
     moving_tile tile(std::size_t i) const;
 
@@ -95,6 +98,7 @@ class tiled_triangles {
     void sort_into_tiles();
 
     glm::ivec2 size_, grid_; // in texels, in tiles
+    float reach_;
     std::vector<moving_setup> setups_;
     std::vector<std::uint32_t> first_, members_;
 };
@@ -279,7 +283,7 @@ class tile_triangle {
     const moving_setup& setup() const { return *setup_; }
 
     // A bit for each block in which the triangle covers a sample at some time.
-    std::uint64_t blocks() const
+    std::uint64_t blocks(float reach) const
     {
         constexpr int count = moving_blocks * moving_blocks;
         static constexpr auto middle_x = tile_offsets<count, moving_blocks, moving_block_size, false>(),
@@ -289,7 +293,7 @@ class tile_triangle {
         if (high_.x - low_.x + high_.y - low_.y < 2)
             return ends; // one block, or two neighbours: the triangle reaches into both
         const cell_test touched(widen(wide_, errors_, -1), errors_, *setup_,
-                                0.5f * float(moving_block_size - 1) + margin);
+                                0.5f * float(moving_block_size - 1) + reach + margin);
         const std::size_t lanes = texel_pack::size, end = std::size_t((high_.y + 1) * moving_blocks);
         std::uint64_t blocks = 0;
         for (std::size_t i = std::size_t(low_.y * moving_blocks) / lanes * lanes; i < end; i += lanes)
@@ -355,6 +359,9 @@ class tile_triangle {
 class tile_bins {
   public:
     void assign(const tiled_triangles& scenery, std::size_t tile, bool front_to_back = false);
+
+    const tile_triangle& operator[](std::size_t i) const { return triangles_[i]; }
+    std::size_t index_of(const tile_triangle& triangle) const { return std::size_t(&triangle - triangles_.data()); }
 
     // Calls visit(triangle) for the triangles of a block, front to back or in the order of their numbers.
     template <class Visit> void for_each(std::size_t block, const Visit& visit) const

@@ -115,7 +115,7 @@ moving_stage tentacles_from_above(double aspect, bool full)
 {
     moving_stage result = tentacles(aspect, full);
     result.world.open.name = "tentacles from above";
-    result.eye =
+    result.eye.open =
         perspective_view_from({0, 7, 0.1}, {0, 0, 0}, bounds_of(result.world).corners(), glm::radians(40.0), aspect);
     return result;
 }

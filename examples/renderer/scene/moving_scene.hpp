@@ -1,5 +1,5 @@
-// A scene while the shutter is open. Every vertex moves along a straight line at constant speed. So may the light,
-// which keeps its orientation: vertices move linearly through its clip space, too.
+// A scene while the shutter is open. Every vertex moves along a straight line at constant speed. So may the light and the
+// camera, which keep their orientations: vertices move linearly through their clip spaces, too.
 #pragma once
 
 #include "camera.hpp"
@@ -36,8 +36,7 @@ struct moving_camera {
 // A stage of motion.
 struct moving_stage {
     moving_scene world;
-    camera eye;
-    moving_camera light;
+    moving_camera eye, light;
     std::vector<point_of_interest> interests;
 };
 

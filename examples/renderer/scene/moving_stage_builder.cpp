@@ -74,8 +74,8 @@ moving_stage staged(const moving_scene& casters, moving_scene world, const light
                     double aspect, std::vector<point_of_interest> places)
 {
     moving_stage result{std::move(world), {}, {}, std::move(places)};
-    result.eye = perspective_view_from(eye.position, eye.target, bounds_of(result.world).corners(),
-                                       glm::radians(eye.degrees), aspect);
+    result.eye.open = perspective_view_from(eye.position, eye.target, bounds_of(result.world).corners(),
+                                            glm::radians(eye.degrees), aspect);
     result.light = spot_light(casters, result.world, light.open, light.closing);
     return result;
 }

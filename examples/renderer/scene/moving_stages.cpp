@@ -210,7 +210,7 @@ moving_stage animated_model_stage(moving_scene model, double aspect)
     everywhere.positions.assign(corners.begin(), corners.end());
     const stage framed = model_stage({"", {everywhere}}, aspect);
     add(model, framed.world.meshes.back(), glm::vec3(0));
-    return {std::move(model), framed.eye, {framed.light, glm::dvec3(0)}, {}};
+    return {std::move(model), {framed.eye}, {framed.light}, {}};
 }
 
 } // namespace gnomon::renderer

@@ -17,7 +17,7 @@ namespace {
 
 class surfaces {
   public:
-    surfaces(const moving_scene& world, const camera& eye, int width, int height)
+    surfaces(const moving_scene& world, const moving_camera& eye, int width, int height)
         : world_(world), eye_(eye), size_(width, height), numbers_(world.open)
     {}
 
@@ -26,19 +26,20 @@ class surfaces {
     {
         const auto width = static_cast<std::size_t>(size_.x);
         const view_ray ray = ray_through(
-            eye_,
+            eye_.open,
             glm::dvec2(static_cast<double>(pixel % width) + 0.5, static_cast<double>(pixel / width) + 0.5) / size_);
         const auto number = static_cast<std::uint32_t>(r.id);
-        const auto position = [&](float depth) {
-            const double passed = 0.5 + 0.5 * static_cast<double>(depth);
-            return glm::vec3(ray.origin + glm::mix(eye_.near_distance, eye_.far_distance, passed) * ray.direction);
+        const auto position = [&](float depth, float t) {
+            const double passed = 0.5 + 0.5 * double(depth);
+            const double distance = glm::mix(eye_.open.near_distance, eye_.open.far_distance, passed);
+            return glm::vec3(ray.origin + double(t) * eye_.motion + distance * ray.direction);
         };
         return {r.t0,
                 r.t1,
                 0,
                 number,
-                position(r.z0),
-                position(r.z1),
+                position(r.z0, r.t0),
+                position(r.z1, r.t1),
                 normal(number, r.t0, ray),
                 normal(number, r.t1, ray)};
     }
@@ -58,7 +59,7 @@ class surfaces {
     }
 
     const moving_scene& world_;
-    const camera& eye_;
+    const moving_camera& eye_;
     glm::dvec2 size_;
     triangle_numbers numbers_;
 };
@@ -70,10 +71,10 @@ float sunlight(const camera& light, const glm::vec3& p, const glm::vec3& n)
 
 } // namespace
 
-seen_motion camera_segments(const moving_scene& world, const camera& eye, int width, int height, float tolerance)
+seen_motion camera_segments(const moving_scene& world, const moving_camera& eye, int width, int height, float tolerance)
 {
     range_rasterizer rasterize;
-    const range_lists& lists = rasterize(world, {eye}, width, height, {.resolved = true, .depth_tolerance = tolerance});
+    const range_lists& lists = rasterize(world, eye, width, height, {.resolved = true, .depth_tolerance = tolerance});
     const surfaces of(world, eye, width, height);
     const range_map<float> map = lists.map();
     const auto list = [&](std::size_t pixel) { return map(pixel % map.width, pixel / map.width); };
@@ -90,15 +91,19 @@ seen_motion camera_segments(const moving_scene& world, const camera& eye, int wi
     return result;
 }
 
-seen_motion stochastic_visibility(const moving_scene& world, const camera& eye, int width, int height, int samples)
+seen_motion stochastic_visibility(const moving_scene& world, const moving_camera& eye, int width, int height,
+                                  int samples, std::uint32_t seed)
 {
-    const std::vector<depth_time_range<float>> instants = rasterize_instants(world, {eye}, width, height, samples);
+    constexpr std::uint32_t apart = 0x5bd1e995; // from the seeds of shadow maps
+    const sample_picture drawn =
+        rasterize_samples(world, eye, width, height, {samples, seed ^ apart, sample_pattern::centres});
     const surfaces of(world, eye, width, height);
     const auto each = static_cast<std::size_t>(samples);
     seen_motion result{width, height, {0}, {}};
-    for (std::size_t i = 0; i < instants.size(); ++i) {
-        if (instants[i].z0 < 1) {
-            result.segments.push_back(of.at(i / each, instants[i]));
+    for (std::size_t i = 0; i < drawn.of.size(); ++i) {
+        const stochastic_sample<float>& s = drawn.of[i];
+        if (s.id >= 0) {
+            result.segments.push_back(of.at(i / each, {s.t, s.t, s.z, s.z, s.id}));
             result.segments.back().weight = 1 / static_cast<float>(samples);
         }
         if (i % each == each - 1) result.first.push_back(static_cast<std::uint32_t>(result.segments.size()));

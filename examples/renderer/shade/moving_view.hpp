@@ -5,6 +5,7 @@
 
 #include "renderer/output/image.hpp"
 #include "renderer/raster/moving_rasterizer.hpp"
+#include "renderer/raster/moving_samples.hpp"
 #include "renderer/scene/moving_scene.hpp"
 
 #include <glm/vec3.hpp>
@@ -38,10 +39,13 @@ struct seen_motion {
 
 // The analytic view: the segments of each pixel. A segment ends where depth departs by more than the tolerance from a
 // line, so that positions do not depart further either.
-seen_motion camera_segments(const moving_scene& world, const camera& eye, int width, int height, float tolerance);
+seen_motion camera_segments(const moving_scene& world, const moving_camera& eye, int width, int height,
+                            float tolerance);
 
-// The stochastic view: `samples` times for each pixel, one in each stratum of the shutter interval.
-seen_motion stochastic_visibility(const moving_scene& world, const camera& eye, int width, int height, int samples);
+// The stochastic view through the centre of each pixel: `samples` times, one in each stratum of the shutter interval. They
+// are independent of those of a shadow map of any seed.
+seen_motion stochastic_visibility(const moving_scene& world, const moving_camera& eye, int width, int height,
+                                  int samples, std::uint32_t seed = 0);
 
 // The picture under the lighting model of shading.hpp, with a visibility of the light for each segment.
 picture shade(const moving_scene& world, const moving_camera& light, const seen_motion& seen,

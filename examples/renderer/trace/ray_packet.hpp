@@ -29,7 +29,7 @@ inline std::uint64_t random_bits(std::size_t owner, int i)
 }
 
 // A time in part i of n.
-inline float stratified_time(std::size_t owner, int i, int n)
+inline float random_time(std::size_t owner, int i, int n)
 {
     const auto jitter = static_cast<float>(random_bits(owner, i) >> 40) * 0x1p-24f;
     return (static_cast<float>(i) + jitter) / static_cast<float>(n);

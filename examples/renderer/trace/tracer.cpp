@@ -117,7 +117,7 @@ void tracer::mean_visibility(const moving_camera& light, std::span<const receive
             for (int first = 0; first < times; first += packet) {
                 alignas(64) mask valid{};
                 for (int i = 0; i < std::min(packet, times - first); ++i) {
-                    const float time = stratified_time(r, first + i, times);
+                    const float time = random_time(r, first + i, times);
                     if (state_->aim(rays, i, between(at, time), light, time) > 0)
                         valid[static_cast<std::size_t>(i)] = -1;
                 }
@@ -151,16 +151,19 @@ receiver_motion tracer::receiver_of(const hit& seen, float time_of_hit) const
     return {at(0), at(1)};
 }
 
-reference_picture tracer::photograph(const moving_camera& light, const camera& eye, int width, int height,
+reference_picture tracer::photograph(const moving_camera& light, const moving_camera& eye, int width, int height,
                                      int samples) const
 {
     check_samples(samples);
     reference_picture result{{width, height, 1}, {width, height, 0}, {width, height}};
     const auto expose = [&](int x, int y) {
-        const view_ray centre = ray_through(eye, {(x + 0.5) / width, (y + 0.5) / height});
+        const view_ray centre = ray_through(eye.open, {(x + 0.5) / width, (y + 0.5) / height});
         const segment ray{glm::vec3(centre.origin), glm::vec3(centre.direction), endless};
+        const auto ray_at = [&](float time) {
+            return segment{glm::vec3(centre.origin + double(time) * eye.motion), ray.direction, endless};
+        };
         const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-        const bool one_hit = state_->always_alike(ray);
+        const bool one_hit = eye.motion == glm::dvec3(0) && state_->always_alike(ray);
         const hit only = one_hit ? first_hit(centre, 0) : hit{};
         const bool one_is_all = one_hit && (!only.valid() || state_->always_alike({only.position, only.normal}, light));
         const int times = one_is_all ? 1 : samples;
@@ -173,7 +176,8 @@ reference_picture tracer::photograph(const moving_camera& light, const camera& e
             std::array<hit, packet> seen{};
             std::array<float, packet> cosines{};
             for (int i = 0; i < std::min(packet, times - first); ++i) {
-                set_ray(view.ray, i, ray, stratified_time(pixel, first + i, times));
+                const float time = random_time(pixel, first + i, times);
+                set_ray(view.ray, i, ray_at(time), time);
                 view.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
                 looking[static_cast<std::size_t>(i)] = -1;
             }

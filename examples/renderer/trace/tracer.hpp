@@ -97,9 +97,9 @@ class tracer {
     // Distance along the normal at which a ray starts: a few roundings of the scene's diagonal.
     float offset() const;
 
-    // The picture of a static camera: rays through the centre of each pixel at `samples` times, one in each of as many
-    // equal parts of [0, 1], chosen by the index of the pixel. Parallel over pixels.
-    reference_picture photograph(const moving_camera& light, const camera& eye, int width, int height,
+    // The picture of a camera: rays through the centre of each pixel at `samples` times, one in each of as many equal
+    // parts of [0, 1], chosen by the index of the pixel. Parallel over pixels.
+    reference_picture photograph(const moving_camera& light, const moving_camera& eye, int width, int height,
                                  int samples) const;
 
   private:
