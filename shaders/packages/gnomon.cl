@@ -5149,6 +5149,711 @@ static inline float slice_of(float t, float count)
 
 #endif
 
+// motion/layers/layer_clusters.h --------------------------------------------------------------------------------------
+// Clusters of the samples around a tile of a stochastic shadow map: up to four layers, one behind the other (Andersson
+// et al. 2015, Sec. 4.1, Depth clustering). Depths are those in the middle of the shutter interval, by each sample's
+// own motion. 64 equal bins lie between the least and the greatest of them. Layers are cut in the middle of the longest
+// runs of empty bins that have occupied bins on either side. A level surface has no such run, hence no cut. Nothing is
+// sorted.
+//
+//     window = layer_window_begin(layer_middle_depth(s));
+//     window = layer_window_add(window, layer_middle_depth(s));                    for all samples s
+//     mark bin layer_bin_of(layer_middle_depth(s), window) of 64                   for all s whose bin is not -1
+//     state = layer_cuts_begin(window);
+//     state = layer_cuts_add(state, 1 or 0: occupied or not);                      for bins 0 to 63
+//     cuts = layer_cuts_end(state, 4);
+//     at = layer_of(layer_middle_depth(s), cuts);                                  for all samples: 0 is the nearest
+// layer
+//
+// Marks are the caller's, such as bits of its language's integers. The background is behind every layer and forms none.
+// A sample of NaN is no information: it is in front of every layer, so that none counts it.
+#ifndef GNOMON_MOTION_LAYERS_LAYER_CLUSTERS_H
+#define GNOMON_MOTION_LAYERS_LAYER_CLUSTERS_H
+
+__constant float gnomon_layer_depth_limit = 2.0f;      // middle depths of surfaces lie in [-2, 2]
+__constant float gnomon_layer_no_cut = 3.0f;           // a cut behind all surfaces
+__constant float gnomon_layer_background_depth = 4.0f; // the middle depth of the background
+__constant float gnomon_layer_unknown_depth = -4.0f;   // the middle depth of a sample of NaN
+__constant float gnomon_layer_last_bin = 63.0f;
+__constant float gnomon_layer_least_extent = 0.00006103515625f; // 2^-14: depths that lie closer together are one layer
+
+/// The depth of a sample in the middle of the shutter interval by its own motion, z + (1/2 - t) d_z, limited to [-2,
+/// 2]; gnomon_layer_background_depth for the background.
+/// Domain: any.
+/// NaN: gnomon_layer_unknown_depth, also for infinite depths and motions.
+/// Error: 4 2^-p where |d_z| <= 2.
+/// Source: Andersson 2015, Sec. 4.1
+static inline float layer_middle_depth(stochastic_sample s)
+{
+    float z = s.z + (0.5f - s.t) * s.d_z;
+    float limit = gnomon_layer_depth_limit;
+    float inside = gnomon_max(gnomon_min(z, limit), -1.0f * limit);
+    bool known = gnomon_abs(z) <= gnomon_texel_limit;
+    float middle = gnomon_select(known, inside, gnomon_layer_unknown_depth);
+    return gnomon_select(s.id < 0.0f, gnomon_layer_background_depth, middle);
+}
+
+/// True for the middle depth of a surface, false for those of the background and of a sample of NaN.
+static inline bool gnomon_layer_is_surface(float middle) { return gnomon_abs(middle) <= gnomon_layer_depth_limit; }
+
+/// The least and the greatest middle depth of the surfaces in a window. least is above greatest if there is none.
+typedef struct gnomon_layer_window gnomon_layer_window;
+struct gnomon_layer_window { float least, greatest; };
+
+/// The window of one sample, by its middle depth.
+static inline gnomon_layer_window layer_window_begin(float middle)
+{
+    bool surface = gnomon_layer_is_surface(middle);
+    gnomon_layer_window w;
+    w.least = gnomon_select(surface, middle, gnomon_layer_background_depth);
+    w.greatest = gnomon_select(surface, middle, gnomon_layer_unknown_depth);
+    return w;
+}
+
+/// The window with one more sample, by its middle depth.
+static inline gnomon_layer_window layer_window_add(gnomon_layer_window window, float middle)
+{
+    gnomon_layer_window other = layer_window_begin(middle);
+    window.least = gnomon_min(window.least, other.least);
+    window.greatest = gnomon_max(window.greatest, other.greatest);
+    return window;
+}
+
+/// The bin of a middle depth, a whole number from 0 to 63; -1 for the background.
+/// Domain: depths beyond the window are in its first or last bin.
+/// NaN: -1.
+static inline float layer_bin_of(float middle, gnomon_layer_window window)
+{
+    float share = saturate_or_zero((middle - window.least) / (window.greatest - window.least));
+    float bin = gnomon_min(texel_below(64.0f * share), gnomon_layer_last_bin);
+    return gnomon_select(gnomon_layer_is_surface(middle), bin, -1.0f);
+}
+
+/// A fold over bins: the window, the number of bins so far, 1 if one of them is occupied, the number of empty ones
+/// since the last of these, and the lengths and centres of the three longest runs, in bins.
+typedef struct gnomon_layer_runs gnomon_layer_runs;
+struct gnomon_layer_runs
+{
+    float least, greatest, bins, begun, empty;
+    float length0, length1, length2, centre0, centre1, centre2;
+};
+
+/// The state before bin 0.
+static inline gnomon_layer_runs layer_cuts_begin(gnomon_layer_window window)
+{
+    gnomon_layer_runs r;
+    r.least = window.least;
+    r.greatest = window.greatest;
+    r.bins = 0.0f;
+    r.begun = 0.0f;
+    r.empty = 0.0f;
+    r.length0 = 0.0f;
+    r.length1 = 0.0f;
+    r.length2 = 0.0f;
+    r.centre0 = 0.0f;
+    r.centre1 = 0.0f;
+    r.centre2 = 0.0f;
+    return r;
+}
+
+/// The state after the next bin, from near to far. A bin is occupied if occupied is above 0. Of runs of the same length
+/// the nearer one counts as longer.
+static inline gnomon_layer_runs layer_cuts_add(gnomon_layer_runs state, float occupied)
+{
+    bool some = 0.0f < occupied;
+    float centre = state.bins - 0.5f * state.empty;
+    bool third = some && state.length2 < state.empty;
+    bool second = some && state.length1 < state.empty;
+    bool first = some && state.length0 < state.empty;
+    state.length2 = gnomon_select(second, state.length1, gnomon_select(third, state.empty, state.length2));
+    state.centre2 = gnomon_select(second, state.centre1, gnomon_select(third, centre, state.centre2));
+    state.length1 = gnomon_select(first, state.length0, gnomon_select(second, state.empty, state.length1));
+    state.centre1 = gnomon_select(first, state.centre0, gnomon_select(second, centre, state.centre1));
+    state.length0 = gnomon_select(first, state.empty, state.length0);
+    state.centre0 = gnomon_select(first, centre, state.centre0);
+    state.begun = gnomon_select(some, 1.0f, state.begun);
+    state.empty = gnomon_select(some, 0.0f, state.empty + state.begun);
+    state.bins = state.bins + 1.0f;
+    return state;
+}
+
+/// Depths that cut a window into layers, from near to far; gnomon_layer_no_cut for those that are not needed.
+typedef struct gnomon_layer_cuts gnomon_layer_cuts;
+struct gnomon_layer_cuts { float c0, c1, c2; };
+
+/// The cuts at the longest runs of empty bins, one fewer than `layers`, in depths between the samples of the bins
+/// before and those of the bins behind. None if the window is shorter than 2^-14.
+/// Domain: layers from 1 to 4; a smaller number makes one layer, a larger one up to four.
+/// NaN: one layer.
+/// Error: half a bin, less 2^-22 in float.
+/// Source: Andersson 2015, Sec. 4.1
+static inline gnomon_layer_cuts layer_cuts_end(gnomon_layer_runs state, float layers)
+{
+    float none = gnomon_layer_no_cut;
+    float extent = state.greatest - state.least;
+    bool surfaces = gnomon_layer_is_surface(state.least) && gnomon_layer_is_surface(state.greatest);
+    bool some = surfaces && gnomon_layer_least_extent <= extent;
+    float per_bin = 0.015625f * extent;
+    bool first = some && 0.0f < state.length0 && 1.0f < layers;
+    bool second = some && 0.0f < state.length1 && 2.0f < layers;
+    bool third = some && 0.0f < state.length2 && 3.0f < layers;
+    float a = gnomon_select(first, state.least + per_bin * state.centre0, none);
+    float b = gnomon_select(second, state.least + per_bin * state.centre1, none);
+    float c = gnomon_select(third, state.least + per_bin * state.centre2, none);
+    float near_ab = gnomon_min(a, b);
+    float far_ab = gnomon_max(a, b);
+    float middle = gnomon_min(far_ab, c);
+    gnomon_layer_cuts r;
+    r.c0 = gnomon_min(near_ab, middle);
+    r.c1 = gnomon_max(near_ab, middle);
+    r.c2 = gnomon_max(far_ab, c);
+    return r;
+}
+
+/// The layer of a middle depth, 0 to 3 from near to far; 4 for the background, which is behind every layer.
+/// NaN: -1, in front of every layer.
+static inline float layer_of(float middle, gnomon_layer_cuts cuts)
+{
+    float known = gnomon_select(-1.0f * gnomon_layer_depth_limit <= middle, 0.0f, -1.0f);
+    float first = gnomon_select(cuts.c0 <= middle, 1.0f, 0.0f);
+    float second = gnomon_select(cuts.c1 <= middle, 1.0f, 0.0f);
+    float third = gnomon_select(cuts.c2 <= middle, 1.0f, 0.0f);
+    float behind = gnomon_select(gnomon_layer_background_depth <= middle, 1.0f, 0.0f);
+    return (known + first) + ((second + third) + behind);
+}
+
+#endif
+
+// motion/layers/layer_grid.h ------------------------------------------------------------------------------------------
+// The grid of one layer of a tile: its samples, moved to the middle of the shutter interval by the mean motion of the
+// layer (Andersson et al. 2015, Sec. 4.1 and 5). The u axis points along the motion d, and the grid is stretched by
+// (f + |d|) / f along it, so that it holds all that is in the tile's guard band at some time:
+//
+//     s_v = o / f,    s_u = o / (f + |d|)                                          f texels of the map on o texels of
+// the grid
+//     u = s_u (x cos + y sin + |d| (1/2 - t)) + o / 2
+//     v = s_v (y cos - x sin) + o / 2
+//
+// with (x, y) from the tile's centre, and (cos, sin) = d / |d|. Corners of a turned window fall off the grid. A depth
+// moves
+// along: z + (1/2 - t) d_z.
+//
+//     state = layer_motion_begin(first);                                           any sample of the layer
+//     state = layer_motion_add(state, s, layer_middle_depth(s));                   for all samples of the layer
+//     motion = layer_motion_end(state);
+//     grid = layer_grid_make(motion, f, o);
+#ifndef GNOMON_MOTION_LAYERS_LAYER_GRID_H
+#define GNOMON_MOTION_LAYERS_LAYER_GRID_H
+
+/// A fold over the samples of a layer: a motion, sums of differences from it and of their squares, the number of
+/// samples, and the least and greatest middle depths and motions in depth.
+typedef struct gnomon_layer_motion_sums gnomon_layer_motion_sums;
+struct gnomon_layer_motion_sums
+{
+    float first_x, first_y, first_z, x, y, z, square, square_z, count;
+    float least, greatest, least_d, greatest_d;
+};
+
+/// The mean motion of a layer over the whole shutter interval, in texels and in depth; the root mean square distance of
+/// its samples' motions from that; and depths between which all samples are that are moved to the middle of the shutter
+/// interval by the mean motion.
+typedef struct gnomon_layer_motion gnomon_layer_motion;
+struct gnomon_layer_motion { float d_x, d_y, d_z, spread, spread_z, least, greatest; };
+
+/// The state before the first sample. Sums are relative to the motion of `first`, so that samples of one motion have no
+/// spread.
+static inline gnomon_layer_motion_sums layer_motion_begin(stochastic_sample first)
+{
+    float limit = gnomon_texel_limit;
+    gnomon_layer_motion_sums r;
+    r.first_x = gnomon_select(gnomon_abs(first.d_x) <= limit, first.d_x, 0.0f);
+    r.first_y = gnomon_select(gnomon_abs(first.d_y) <= limit, first.d_y, 0.0f);
+    r.first_z = gnomon_select(gnomon_abs(first.d_z) <= limit, first.d_z, 0.0f);
+    r.x = 0.0f;
+    r.y = 0.0f;
+    r.z = 0.0f;
+    r.square = 0.0f;
+    r.square_z = 0.0f;
+    r.count = 0.0f;
+    r.least = gnomon_layer_background_depth;
+    r.greatest = gnomon_layer_unknown_depth;
+    r.least_d = limit;
+    r.greatest_d = -1.0f * limit;
+    return r;
+}
+
+/// The state after one more sample and its middle depth.
+/// Domain: motions up to 65536 texels; longer ones are no information.
+/// NaN: no information, the state as before.
+static inline gnomon_layer_motion_sums layer_motion_add(gnomon_layer_motion_sums state, stochastic_sample s,
+                                                        float middle)
+{
+    float limit = gnomon_texel_limit;
+    bool moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
+    bool known = moves && gnomon_layer_is_surface(middle);
+    float x = gnomon_select(known, s.d_x - state.first_x, 0.0f);
+    float y = gnomon_select(known, s.d_y - state.first_y, 0.0f);
+    float z = gnomon_select(known, s.d_z - state.first_z, 0.0f);
+    state.x = state.x + x;
+    state.y = state.y + y;
+    state.z = state.z + z;
+    state.square = state.square + (x * x + y * y);
+    state.square_z = state.square_z + z * z;
+    state.count = state.count + gnomon_select(known, 1.0f, 0.0f);
+    state.least = gnomon_select(known && middle < state.least, middle, state.least);
+    state.greatest = gnomon_select(known && state.greatest < middle, middle, state.greatest);
+    state.least_d = gnomon_select(known && s.d_z < state.least_d, s.d_z, state.least_d);
+    state.greatest_d = gnomon_select(known && state.greatest_d < s.d_z, s.d_z, state.greatest_d);
+    return state;
+}
+
+/// The motion of the layer. Opposite motions cancel: the mean may be 0 and the spread large. All is 0 without a sample.
+/// Error: of the mean, (n + 3) 2^-p of the largest distance from the motion of `first`, and 2^-p of itself, n the
+/// number of samples; of spread^2, (n + 8) 2^-p of the square of that distance.
+/// Source: Andersson 2015, Sec. 4.1
+static inline gnomon_layer_motion layer_motion_end(gnomon_layer_motion_sums state)
+{
+    float share = 1.0f / gnomon_max(state.count, 1.0f);
+    float x = state.x * share;
+    float y = state.y * share;
+    float z = state.z * share;
+    bool some = 0.0f < state.count;
+    gnomon_layer_motion r;
+    r.d_x = gnomon_select(some, state.first_x + x, 0.0f);
+    r.d_y = gnomon_select(some, state.first_y + y, 0.0f);
+    r.d_z = gnomon_select(some, state.first_z + z, 0.0f);
+    r.spread = gnomon_sqrt(gnomon_max(0.0f, state.square * share - (x * x + y * y)));
+    r.spread_z = gnomon_sqrt(gnomon_max(0.0f, state.square_z * share - z * z));
+    // A sample is off by |1/2 - t| of what its motion differs from the mean.
+    float off = 0.5f * gnomon_max(state.greatest_d - r.d_z, r.d_z - state.least_d);
+    r.least = gnomon_select(some, state.least - off, 0.0f);
+    r.greatest = gnomon_select(some, state.greatest + off, 0.0f);
+    return r;
+}
+
+/// Direction of the motion, texels of the grid per texel of the map along it and across, length of the motion in
+/// texels, its part in depth, half the extent of the grid in texels, centre and scale that stretch the layer's depths
+/// to [-1, 1], and the spread of motion in texels and in depth.
+typedef struct layer_grid layer_grid;
+struct layer_grid
+{
+    float axis_x, axis_y, scale_u, scale_v, motion, d_z, middle, centre, scale, spread, spread_z;
+};
+
+__constant float gnomon_layer_least_motion = 0.00000095367431640625f; // 2^-20 texels: shorter motions have no direction
+// 2^-10: no layer is stretched as if it were thinner
+__constant float gnomon_layer_least_depths = 0.0009765625f;
+
+/// The grid of a layer of this motion, with `texels` by `texels` texels for a window of `guard` by `guard` texels of
+/// the map. A motion of less than 2^-20 texels counts as none, and the axes are those of the map.
+/// Domain: motions up to 65536 texels; guard > 0; texels > 0.
+/// NaN: a NaN in the motion, guard or texels stays NaN where it matters; layer_place_is_inside is then 0.
+/// Source: Andersson 2015, Eq. 11
+static inline layer_grid layer_grid_make(gnomon_layer_motion mean, float guard, float texels)
+{
+    float chord = gnomon_sqrt(mean.d_x * mean.d_x + mean.d_y * mean.d_y);
+    bool moves = gnomon_layer_least_motion <= chord;
+    layer_grid g;
+    g.axis_x = gnomon_select(moves, mean.d_x / chord, 1.0f);
+    g.axis_y = gnomon_select(moves, mean.d_y / chord, 0.0f);
+    g.motion = gnomon_select(moves, chord, 0.0f);
+    g.scale_u = texels / (guard + g.motion);
+    g.scale_v = texels / guard;
+    g.d_z = mean.d_z;
+    g.middle = 0.5f * texels;
+    g.centre = 0.5f * (mean.least + mean.greatest);
+    g.scale = 2.0f / gnomon_max(gnomon_layer_least_depths, mean.greatest - mean.least);
+    g.spread = mean.spread;
+    g.spread_z = mean.spread_z;
+    return g;
+}
+
+/// A place on a layer's grid, in its texels, texel centres at +0.5.
+typedef struct gnomon_layer_place gnomon_layer_place;
+struct gnomon_layer_place { float u, v; };
+
+/// The place on the grid of (x, y) at time t, in texels of the map from the tile's centre.
+/// Error: 4 2^-p (s_u (|x| + |y| + |d|) + o) for u, the same with s_v and without |d| for v.
+/// Source: Andersson 2015, Eq. 6
+static inline gnomon_layer_place layer_grid_place(layer_grid grid, float x, float y, float t)
+{
+    float along = x * grid.axis_x + y * grid.axis_y;
+    float across = y * grid.axis_x - x * grid.axis_y;
+    gnomon_layer_place r;
+    r.u = grid.scale_u * (along + grid.motion * (0.5f - t)) + grid.middle;
+    r.v = grid.scale_v * across + grid.middle;
+    return r;
+}
+
+/// 1 if the place is in a texel of the grid, else 0. The texel is (texel_below(u), texel_below(v)).
+/// NaN: 0.
+static inline float layer_place_is_inside(layer_grid grid, gnomon_layer_place place)
+{
+    float texels = 2.0f * grid.middle;
+    bool begun = 0.0f <= place.u && 0.0f <= place.v;
+    return gnomon_select(begun && place.u < texels && place.v < texels, 1.0f, 0.0f);
+}
+
+/// The depth in the middle of the shutter interval of a depth z at time t, by the motion of the layer: z + (1/2 - t)
+/// d_z.
+/// Source: Andersson 2015, Sec. 4.2
+static inline float layer_grid_depth(layer_grid grid, float z, float t) { return z + (0.5f - t) * grid.d_z; }
+
+/// That depth in the layer's own scale: samples of the layer are in [-1, 1], a receiver behind all of them is above 1.
+/// NaN: NaN.
+/// Error: scale times 4 2^-p (|z| + |d_z| + |centre|).
+static inline float layer_grid_own_depth(layer_grid grid, float z, float t)
+{
+    return (layer_grid_depth(grid, z, t) - grid.centre) * grid.scale;
+}
+
+#endif
+
+// motion/layers/layer_look_up.h ---------------------------------------------------------------------------------------
+// Look-up in a layer's grid: the footprint of a receiver with its probes and mip level, the bias and the least variance
+// that a layer calls for, the filter across the motion, and blends with the neighbouring tile (Andersson et al. 2015,
+// Sec. 4.2 and 5).
+//
+// A camera sample stands for the time t_r -+ 1/(2N), while which its world point is held in camera space. The light
+// sees that point move: the ends of the footprint are its places at both times, each by the grid at its own time, so
+// that what moves with the layer has a footprint of no length. The second axis is the pixel's own footprint. Probes are
+// spread evenly along the longer axis, at most 16, and the mip level is that of the shorter.
+//
+//     ends = layer_footprint_make(grid, x0, y0, t0, x1, y1, t1, cross_x, cross_y, widening);
+//     for k from 0 to ends.probes - 1: the mean of sums at layer_probe(ends, k) in level ends.level
+//     bias = layer_bias(grid, slope_along, slope_across, t, reach, limit);
+//     visibility by layer_visibility(sums, layer_grid_own_depth(grid, z - bias, t), layer_minimum_variance(grid, slope,
+// least))
+//
+// Places (x, y) are in texels of the map from the tile's centre.
+#ifndef GNOMON_MOTION_LAYERS_LAYER_LOOK_UP_H
+#define GNOMON_MOTION_LAYERS_LAYER_LOOK_UP_H
+
+__constant float gnomon_layer_most_probes = 16.0f;
+__constant float gnomon_layer_uniform_variance = 0.083333333333333333f; // 1/12, of a time between 0 and 1
+__constant float gnomon_layer_tent_growth = 0.025f;                     // half of 0.05 texels per texel of motion
+__constant float gnomon_layer_tent_begin = 2.0f;                        // texels of motion from which on the tent grows
+
+/// Centre of a footprint, the vector from its one end to the other, the number of probes along that, and the mip level.
+typedef struct gnomon_layer_footprint gnomon_layer_footprint;
+struct gnomon_layer_footprint { float u, v, along_u, along_v, probes, level; };
+
+/// The footprint of a world point that the light sees at (x0, y0) at time t0 and at (x1, y1) at time t1. (cross_x,
+/// cross_y) is the second axis, the extent of a pixel on the map. Both ends are limited to the grid. The footprint is
+/// at least `widening` texels of the map wide in either direction.
+/// NaN: stays NaN; one probe at level 0.
+/// Source: Andersson 2015, Sec. 4.2
+static inline gnomon_layer_footprint layer_footprint_make(layer_grid grid, float x0, float y0, float t0, float x1,
+                                                          float y1, float t1, float cross_x, float cross_y,
+                                                          float widening)
+{
+    float last = grid.middle + grid.middle - 0.5f; // the centre of the last texel
+    gnomon_layer_place p0 = layer_grid_place(grid, x0, y0, t0);
+    gnomon_layer_place p1 = layer_grid_place(grid, x1, y1, t1);
+    p0.u = clamp_or_nan(p0.u, 0.5f, last);
+    p0.v = clamp_or_nan(p0.v, 0.5f, last);
+    p1.u = clamp_or_nan(p1.u, 0.5f, last);
+    p1.v = clamp_or_nan(p1.v, 0.5f, last);
+    float time_u = p1.u - p0.u;
+    float time_v = p1.v - p0.v;
+    float cross_u = grid.scale_u * (cross_x * grid.axis_x + cross_y * grid.axis_y);
+    float cross_v = grid.scale_v * (cross_y * grid.axis_x - cross_x * grid.axis_y);
+    float time_length = gnomon_sqrt(time_u * time_u + time_v * time_v);
+    float cross_length = gnomon_sqrt(cross_u * cross_u + cross_v * cross_v);
+
+    // The longer axis around the middle of the ends, limited to the grid.
+    bool over_time = cross_length <= time_length;
+    float half_u = 0.5f * gnomon_select(over_time, time_u, cross_u);
+    float half_v = 0.5f * gnomon_select(over_time, time_v, cross_v);
+    float u = 0.5f * (p0.u + p1.u);
+    float v = 0.5f * (p0.v + p1.v);
+    float u0 = clamp_or_nan(u - half_u, 0.5f, last);
+    float v0 = clamp_or_nan(v - half_v, 0.5f, last);
+    float u1 = clamp_or_nan(u + half_u, 0.5f, last);
+    float v1 = clamp_or_nan(v + half_v, 0.5f, last);
+    gnomon_layer_footprint r;
+    r.u = 0.5f * (u0 + u1);
+    r.v = 0.5f * (v0 + v1);
+    r.along_u = u1 - u0;
+    r.along_v = v1 - v0;
+    float longer = gnomon_sqrt(r.along_u * r.along_u + r.along_v * r.along_v);
+    float shorter = gnomon_max(gnomon_min(cross_length, time_length), widening * grid.scale_v);
+    float width = gnomon_max(gnomon_max(0.0625f * longer, shorter), 1.0f);
+    float probes = -1.0f * texel_below(-1.0f * (longer / width)); // rounded up
+    r.probes = gnomon_max(gnomon_min(probes, gnomon_layer_most_probes), 1.0f);
+    r.level = gnomon_max(polynomial_log(width) * gnomon_exp_log2_e, 0.0f);
+    return r;
+}
+
+/// The place of probe k, 0 to probes - 1.
+static inline gnomon_layer_place layer_probe(gnomon_layer_footprint footprint, float k)
+{
+    float share = (k + 0.5f) / footprint.probes - 0.5f;
+    gnomon_layer_place r;
+    r.u = footprint.u + share * footprint.along_u;
+    r.v = footprint.v + share * footprint.along_v;
+    return r;
+}
+
+/// The texels of the map by which a layer's places are off at time t, since its samples move unlike: the spread of
+/// motion times |1/2 - t|.
+/// NaN: NaN.
+static inline float layer_widening(layer_grid grid, float t) { return grid.spread * gnomon_abs(0.5f - t); }
+
+/// The bias in [0, 2] to subtract from a receiver's depth at time t. slope_along and slope_across are the changes of
+/// depth per texel of the map along the motion and across (layer_slope), or a bound on both. reach is the distance in
+/// texels of the grid from a receiver to the farthest centre of a texel that its filter reads. What of the motion is
+/// not the layer's adds to this: spread_z |1/2 - t| in depth, and spread |1/2 - t| texels along the slope. limit is the
+/// largest bias of a slope.
+/// Domain: any; reach, limit at least 0.
+/// NaN: what is NaN counts for nothing.
+/// Error: 8 2^-p of the result.
+static inline float layer_bias(layer_grid grid, float slope_along, float slope_across, float t, float reach,
+                               float limit)
+{
+    float off = layer_widening(grid, t);
+    depth_gradient gradient;
+    gradient.x = slope_along;
+    gradient.y = slope_across;
+    float rise = depth_bias_receiver_plane(gradient, reach / grid.scale_u + off, reach / grid.scale_v + off, limit);
+    return gnomon_depth_bias_limit(rise + gnomon_depth_bias_limit(grid.spread_z * gnomon_abs(0.5f - t)));
+}
+
+/// Slopes of depth along the motion of a layer and across, from its gradient along x and y of the map.
+/// Error: 2 2^-p (|x| + |y|).
+static inline depth_gradient layer_slope(layer_grid grid, depth_gradient gradient)
+{
+    depth_gradient r;
+    r.x = gradient.x * grid.axis_x + gradient.y * grid.axis_y;
+    r.y = gradient.y * grid.axis_x - gradient.x * grid.axis_y;
+    return r;
+}
+
+/// The least variance of the layer's own depth, for layer_visibility: `least` of depth itself, and what the spread of
+/// motion adds over the shutter interval, (spread_z^2 + (slope spread)^2) / 12. slope is the change of depth per texel
+/// of the map.
+/// Domain: least at least 0.
+/// NaN: stays NaN.
+static inline float layer_minimum_variance(layer_grid grid, float slope, float least)
+{
+    float tilted = slope * grid.spread;
+    float moved = gnomon_layer_uniform_variance * (grid.spread_z * grid.spread_z + tilted * tilted);
+    return (least + moved) * (grid.scale * grid.scale);
+}
+
+/// Half the width of the filter across a layer's motion, in texels of its grid: of a tent of full width 0.05 (|d| - 2)
+/// texels of the map, at least 0, but not wider than the guard band of (guard - tile) / 2 texels on either side.
+/// NaN: 0.
+/// Source: Andersson 2015, Sec. 5
+static inline float layer_tent_radius(layer_grid grid, float guard, float tile)
+{
+    float radius = gnomon_layer_tent_growth * (grid.motion - gnomon_layer_tent_begin);
+    float band = 0.5f * (guard - tile);
+    return gnomon_max(gnomon_min(radius, band) * grid.scale_v, 0.0f);
+}
+
+/// The weight of a row of texels at a distance in texels under a tent of this radius, not normalised: 1 at distance 0.
+/// Domain: any distance; radius at least 0. For a radius up to 1 all other rows have weight 0.
+/// NaN: 0.
+static inline float layer_tent_weight(float distance, float radius)
+{
+    return saturate_or_zero(1.0f - gnomon_abs(distance) / gnomon_max(1.0f, radius));
+}
+
+/// The neighbour of a tile along one axis, -1 or 1, and its weight, from 0 to 1/2.
+typedef struct gnomon_layer_neighbour gnomon_layer_neighbour;
+struct gnomon_layer_neighbour { float towards, weight; };
+
+/// The neighbour on the side of x, in texels of the map from the tile's centre. Its weight is 0 up to a third of the
+/// way to the border, 1/2 at the border, and linear between. With weights w_x and w_y of both axes the four tiles have
+/// (1 - w_x) (1 - w_y), w_x (1 - w_y), (1 - w_x) w_y and w_x w_y: a look-up in all of them by these weights has no
+/// border; one chosen at random with these probabilities is the paper's.
+/// Domain: tile > 0.
+/// NaN: weight 0.
+/// Source: Andersson 2015, Sec. 5
+static inline gnomon_layer_neighbour layer_neighbour_at(float x, float tile)
+{
+    gnomon_layer_neighbour r;
+    r.towards = gnomon_select(x < 0.0f, -1.0f, 1.0f);
+    r.weight = 0.5f * saturate_or_zero(3.0f * (gnomon_abs(x) / tile) - 0.5f);
+    return r;
+}
+
+#endif
+
+// motion/layers/layer_sums.h ------------------------------------------------------------------------------------------
+// What a texel of a layer's grid holds, and the visibility of a receiver through the layer (Andersson et al. 2015, Sec.
+// 4.1 and 4.2). A sample in the layer or behind it has weight w = 1, one in front of the layer has none. A sample in
+// the layer has opacity a = 1: where one sees past the layer, it is transparent. Per texel
+//
+//     variance       sums of w a z, w a z^2, w a, w                                layer_sums, Eq. 7
+//     four moments   sums of w a z, ..., w a z^4, w a, w                           gnomon_layer_moments4_sums
+//     exponential    sums of w a exp(c z), w a, w                                  gnomon_layer_exponential_sums
+//
+// where z is the layer's own depth, in [-1, 1] (layer_grid_own_depth). Filters and mip levels are linear in the sums.
+// With the mean depths of what is opaque, Eq. 8, and the opacity a = sum w a / sum w, a layer lets through
+//
+//     V = 1 - a intensity                                                          Eq. 10
+//
+// and a receiver sees the product over all layers. A layer whose samples are all before the receiver has intensity 1,
+// one whose samples are all behind has 0, whatever bound is used. A sum of weights of 0 is no information: filters grow
+// until there is some, and without any the layer counts as transparent.
+//
+//     share = layer_share_of(layer_of(layer_middle_depth(s), cuts), layer);
+//     sums = layer_sums_add(sums, layer_grid_own_depth(grid, s.z, s.t), share);    into the texel at
+// layer_grid_place(...)
+//
+//     visibility = 1, then visibility * layer_visibility(sums, layer_grid_own_depth(grid, z_r - bias, t_r), minimum)
+//                                                                                  for all layers with their filtered
+// sums
+#ifndef GNOMON_MOTION_LAYERS_LAYER_SUMS_H
+#define GNOMON_MOTION_LAYERS_LAYER_SUMS_H
+
+/// Opacity and weight of a sample for a layer, each 0 or 1.
+typedef struct gnomon_layer_share gnomon_layer_share;
+struct gnomon_layer_share { float opacity, weight; };
+
+/// Opacity and weight for layer number `layer` of a sample that is in layer `at` (layer_of).
+/// NaN: no weight for an `at` of NaN.
+/// Source: Andersson 2015, Sec. 4.1
+static inline gnomon_layer_share layer_share_of(float at, float layer)
+{
+    gnomon_layer_share r;
+    r.opacity = gnomon_select(at == layer, 1.0f, 0.0f);
+    r.weight = gnomon_select(layer <= at, 1.0f, 0.0f);
+    return r;
+}
+
+/// Sums over samples of opacity times depth and its square, of opacity, and of weight, each times weight.
+typedef struct layer_sums layer_sums;
+struct layer_sums { float z, zz, opacity, weight; };
+
+/// The sums with one more sample at the layer's own depth z, by its share.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: 1, which shadows least.
+/// Source: Andersson 2015, Eq. 7
+static inline layer_sums layer_sums_add(layer_sums sums, float z, gnomon_layer_share share)
+{
+    float a = share.weight * share.opacity;
+    float x = clamp_or_high(z, -1.0f, 1.0f);
+    sums.z = sums.z + a * x;
+    sums.zz = sums.zz + a * (x * x);
+    sums.opacity = sums.opacity + a;
+    sums.weight = sums.weight + share.weight;
+    return sums;
+}
+
+/// The visibility 1 - a intensity through a layer, where a = opacity / weight is its opacity and intensity is a bound
+/// on the share of its samples before a receiver at the layer's own depth z: 1 behind all of them, 0 in front of all of
+/// them.
+/// NaN: 1.
+/// Source: Andersson 2015, Eq. 10
+static inline float gnomon_layer_transmission(float opacity, float weight, float intensity, float z)
+{
+    float bound = gnomon_select(1.0f < z, 1.0f, gnomon_select(-1.0f < z, intensity, 0.0f));
+    float known = gnomon_select(0.0f < weight, saturate_or_zero(opacity / weight), 0.0f);
+    return 1.0f - saturate_or_zero(known * bound);
+}
+
+/// The visibility of a receiver at the layer's own depth z through the layer, in [0, 1], by Cantelli's bound. A weight
+/// of 0 gives 1, a weight without opacity gives 1.
+/// Domain: any z; minimum_variance at least 0, of the layer's own depth (layer_minimum_variance).
+/// NaN: 1.
+/// Error: that of cantelli_lower times the opacity, and 2^-p; with depths that are each off by n roundings of float
+/// sums, as for r = n 2^-p there.
+/// Source: Andersson 2015, Eq. 8; Andersson 2015, Eq. 9; Andersson 2015, Eq. 10
+static inline float layer_visibility(layer_sums sums, float z, float minimum_variance)
+{
+    variance_moments b;
+    b.mean = sums.z / sums.opacity;
+    b.square = sums.zz / sums.opacity;
+    return gnomon_layer_transmission(sums.opacity, sums.weight, cantelli_lower(b, z, minimum_variance), z);
+}
+
+/// Sums over samples of opacity times the powers of depth, of opacity, and of weight, each times weight.
+typedef struct gnomon_layer_moments4_sums gnomon_layer_moments4_sums;
+struct gnomon_layer_moments4_sums { float b1, b2, b3, b4, opacity, weight; };
+
+/// The sums with one more sample at the layer's own depth z, by its share.
+/// Domain: any z, limited to [-1, 1].
+/// NaN: 1, which shadows least.
+static inline gnomon_layer_moments4_sums layer_moments4_add(gnomon_layer_moments4_sums sums, float z,
+                                                            gnomon_layer_share share)
+{
+    float a = share.weight * share.opacity;
+    moments4 b = moments4_from_depth(clamp_or_high(z, -1.0f, 1.0f));
+    sums.b1 = sums.b1 + a * b.b1;
+    sums.b2 = sums.b2 + a * b.b2;
+    sums.b3 = sums.b3 + a * b.b3;
+    sums.b4 = sums.b4 + a * b.b4;
+    sums.opacity = sums.opacity + a;
+    sums.weight = sums.weight + share.weight;
+    return sums;
+}
+
+__constant float gnomon_layer_moments4_noise = 3.3e-8f; // 1.1 times 2^-25, one rounding to float
+__constant float gnomon_layer_moments4_weight = 3e-7f;  // the weight of the bias for one rounding
+
+/// The visibility of a receiver at the layer's own depth z through the layer, in [0, 1], by a certified bound from four
+/// moments. roundings is the number of roundings to float of a sum, of at most sum w each. What they leave of the
+/// moments grows by the inverse of the opacity, and so does the bias.
+/// Domain: any z; roundings at least 1, clamped. A weight of 0 gives 1, a weight without opacity gives 1.
+/// NaN: 1.
+/// Source: Andersson 2015, Eq. 10; Peters 2017, Alg. 1
+static inline float layer_moments4_visibility(gnomon_layer_moments4_sums sums, float z, float roundings)
+{
+    float share = 1.0f / sums.opacity;
+    moments4 b;
+    b.b1 = sums.b1 * share;
+    b.b2 = sums.b2 * share;
+    b.b3 = sums.b3 * share;
+    b.b4 = sums.b4 * share;
+    float n = gnomon_max(1.0f, roundings) * (sums.weight * share);
+    float alpha = bias_weight_of_roundings(gnomon_layer_moments4_weight, n);
+    moments4 noise;
+    noise.b1 = n * gnomon_layer_moments4_noise;
+    noise.b2 = noise.b1;
+    noise.b3 = noise.b1;
+    noise.b4 = noise.b1;
+    hankel4 h = hankel4_constant_bias(b, bias4_raw_b2, bias4_raw_b4, alpha);
+    float intensity = certified4_constant_bias_lower(h, noise, bias4_raw_b2, bias4_raw_b4, alpha, z);
+    return gnomon_layer_transmission(sums.opacity, sums.weight, intensity, z);
+}
+
+/// Sums over samples of opacity times exp(c z), of opacity, and of weight, each times weight.
+typedef struct gnomon_layer_exponential_sums gnomon_layer_exponential_sums;
+struct gnomon_layer_exponential_sums { float warped, opacity, weight; };
+
+/// The sums with one more sample at the layer's own depth z, by its share.
+/// Domain: any z, limited to [-1, 1]; settings as for exponential_intensity.
+/// NaN: 1, which shadows least.
+static inline gnomon_layer_exponential_sums layer_exponential_add(gnomon_layer_exponential_sums sums, float z,
+                                                                  gnomon_layer_share share,
+                                                                  exponential_settings settings)
+{
+    float a = share.weight * share.opacity;
+    sums.warped = sums.warped + a * exponential_encode(z, settings).warped;
+    sums.opacity = sums.opacity + a;
+    sums.weight = sums.weight + share.weight;
+    return sums;
+}
+
+/// The visibility of a receiver at the layer's own depth z through the layer, in [0, 1], by Markov's bound. A weight of
+/// 0 gives 1, a weight without opacity gives 1.
+/// Domain: any z; settings as for exponential_intensity.
+/// NaN: 1.
+/// Error: that of exponential_intensity times the opacity, and 2 2^-p.
+/// Source: Andersson 2015, Eq. 10; Annen 2008
+static inline float layer_exponential_visibility(gnomon_layer_exponential_sums sums, float z,
+                                                 exponential_settings settings)
+{
+    exponential_moment b;
+    b.warped = sums.warped / sums.opacity;
+    return gnomon_layer_transmission(sums.opacity, sums.weight, exponential_intensity(b, z, settings), z);
+}
+
+#endif
+
 // motion/range/range_cover.h ------------------------------------------------------------------------------------------
 // Texels that one surface covers for the whole shutter, in front of everything else: the coverage map of Hong & Oh
 // ("Efficient motion blurred shadows using a temporal shadow map", 2017). All other ranges of such a texel are occluded

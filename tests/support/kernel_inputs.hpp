@@ -29,9 +29,8 @@ template <class T> class kernel_inputs {
         std::istringstream words{std::string(families)};
         std::size_t given = 0;
         for (std::string word; words >> word;) {
-            const auto* found = std::find_if(std::begin(input_families<T>), std::end(input_families<T>),
-                                             [&](const auto& family) { return family.name == word; });
-            if (found == std::end(input_families<T>)) wrong(kernel, "there is no family " + word);
+            const input_family<T>* found = find_family<T>(word);
+            if (found == nullptr) wrong(kernel, "there is no family " + word);
             families_.push_back(found);
             given += found->numbers;
             informs_.resize(given, word != "texels"); // of which a NaN names a default

@@ -1,0 +1,779 @@
+// Gnomon 0.1.0, layer_clusters.cuh: shadow filtering in CUDA and C++20, this file alone.
+// Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
+// Written by shaders/package.py from the kernels in include/gnomon: change them there.
+#ifndef GNOMON_LAYER_CLUSTERS_CUH
+#define GNOMON_LAYER_CLUSTERS_CUH
+
+// Begins a function whose operations clang must not fuse with others. Versions that fuse nevertheless, under
+// -ffp-contract=fast, spare products that are read twice, but for PowerPC.
+#if defined(__clang__)
+#define GNOMON_UNFUSED _Pragma("clang fp contract(off)")
+#else
+#define GNOMON_UNFUSED
+#endif
+
+// True where products may be fused with sums.
+#if defined(__FMA__) || defined(__CUDA_ARCH__) || defined(__aarch64__) || defined(__powerpc64__) || \
+    defined(__s390x__) || (defined(__ARM_FEATURE_FMA) && __ARM_FP & 8) ||                           \
+    (defined(__riscv_flen) && __riscv_flen >= 64) || (defined(__FP_FAST_FMA) && defined(__FP_FAST_FMAF))
+#define GNOMON_HAS_FMA true
+#else
+#define GNOMON_HAS_FMA false
+#endif
+
+// True where std::fma is an instruction, whose result with -0 is left alone.
+#if defined(__clang__) && defined(__powerpc64__)
+#define GNOMON_SCALAR_FMA false
+#else
+#define GNOMON_SCALAR_FMA GNOMON_HAS_FMA
+#endif
+
+// With plain inline, compilers leave calls in pack kernels.
+#if defined(__CUDACC__)
+#define GNOMON_INLINE __host__ __device__ __forceinline__
+#elif defined(_MSC_VER)
+#define GNOMON_INLINE __forceinline
+#else
+#define GNOMON_INLINE __attribute__((always_inline)) inline
+#endif
+// Between a name and its bracket: a macro of that name, of whatever header, is not meant.
+#define GNOMON_NO_MACRO
+
+// Warnings of compilers that a user may have turned on, and that the dialect cannot avoid: comparisons of a Real with 0 or
+// with itself, types of variables that are deduced, and for GCC the length of an array that is a template's argument.
+#if defined(__clang__) && !defined(__CUDACC__)
+#define GNOMON_WARNINGS_OFF                                                                \
+    _Pragma("clang diagnostic push") _Pragma("clang diagnostic ignored \"-Wfloat-equal\"") \
+        _Pragma("clang diagnostic ignored \"-Wctad-maybe-unsupported\"")
+#define GNOMON_WARNINGS_ON _Pragma("clang diagnostic pop")
+#elif defined(__GNUC__) && !defined(__CUDACC__)
+#define GNOMON_WARNINGS_OFF                                                            \
+    _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wfloat-equal\"") \
+        _Pragma("GCC diagnostic ignored \"-Wsign-conversion\"")
+#define GNOMON_WARNINGS_ON _Pragma("GCC diagnostic pop")
+#else
+#define GNOMON_WARNINGS_OFF
+#define GNOMON_WARNINGS_ON
+#endif
+
+// the language --------------------------------------------------------------------------------------------------------
+// C++20, also CUDA: kernels are templates over Real, which is float, double or any pack of them.
+#if !defined(__cplusplus) || defined(__METAL_VERSION__)
+#error "gnomon: layer_clusters.cuh is CUDA and C++20; another language's compiler reads it"
+#elif defined(GNOMON_PORTABLE_H)
+#error "gnomon: layer_clusters.cuh and the headers of include/gnomon exclude one another"
+#elif defined(GNOMON_PACKAGE) && GNOMON_PACKAGE != 100
+#error "gnomon: layer_clusters.cuh is not of the same version as a package before it"
+#endif
+#define GNOMON_PACKAGE 100 // major, minor and patch, two digits each
+
+#ifndef GNOMON_PORTABLE_CPP_H
+#define GNOMON_PORTABLE_CPP_H
+
+#if !defined(__cpp_concepts)
+#error "gnomon: C++20 needed (-std=c++20)"
+#elif defined(Real)
+#error "gnomon: a macro named Real is in the way; include this before it, or undefine it"
+#endif
+
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST) ||        \
+    defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || (defined(__CUDA_PREC_DIV) && !__CUDA_PREC_DIV) || \
+    (defined(__CUDA_PREC_SQRT) && !__CUDA_PREC_SQRT) || (defined(__clang__) && __FLT_EVAL_METHOD__ == -1)
+#error "gnomon: fast mathematics voids exact products, rounding and NaN: compile without -ffast-math or parts of it"
+#elif (defined(__FLT_EVAL_METHOD__) && (__FLT_EVAL_METHOD__ < 0 || __FLT_EVAL_METHOD__ % 16 != 0)) || \
+    (defined(_M_IX86_FP) && _M_IX86_FP < 2)
+#error "gnomon: x87 rounds twice: compile with -msse2 -mfpmath=sse, or /arch:SSE2"
+#elif defined(__clang__) && __clang_major__ < 15
+// These versions have no macro for -funsafe-math-optimizations and its parts. Where they know the first of these pragmas,
+// the first is an error there; elsewhere the last keeps the operations of all that follows.
+#if defined(__x86_64__) || defined(__i386__) || defined(__powerpc__) || defined(__s390x__)
+#pragma float_control(except, on, push) // gnomon: compile without -ffast-math or parts of it
+#pragma float_control(pop)
+#else
+#pragma clang fp reassociate(off)
+#endif
+#elif defined(_MSC_VER) && !defined(__clang__)
+#pragma fp_contract(off)
+#elif defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
+// #pragma GCC optimize changes no macro, but the value of this.
+static_assert(__builtin_isunordered(__builtin_nanf(""), 1.0f),
+              "gnomon: fast mathematics voids NaN: compile without -ffast-math or parts of it");
+#endif
+
+static_assert(0.1 < double(0.1f), "gnomon: compile without -fsingle-precision-constant");
+
+#if defined(__CUDACC_RTC__)
+namespace gnomon::std {
+
+using uint32_t = unsigned int;
+using uint64_t = unsigned long long;
+
+template <class A, class B> inline constexpr bool is_same_v = false;
+template <class A> inline constexpr bool is_same_v<A, A> = true;
+template <class A, class B>
+concept same_as = is_same_v<A, B>;
+
+template <class T> inline constexpr bool is_floating_point_v = is_same_v<T, float> || is_same_v<T, double>;
+template <class T> inline constexpr bool is_integral_v = false;
+template <class T>
+requires requires(T x) { x % x; }
+inline constexpr bool is_integral_v<T> = true;
+template <class T> inline constexpr bool is_arithmetic_v = is_floating_point_v<T> || is_integral_v<T>;
+
+template <class T> struct type_identity {
+    using type = T;
+};
+template <class T> using type_identity_t = typename type_identity<T>::type;
+template <class T> struct remove_cvref : type_identity<T> {};
+template <class T> struct remove_cvref<const T> : type_identity<T> {};
+template <class T> struct remove_cvref<T&> : remove_cvref<T> {};
+template <class T> struct remove_cvref<T&&> : remove_cvref<T> {};
+template <class T> using remove_cvref_t = typename remove_cvref<T>::type;
+template <bool condition, class A, class B> struct conditional : type_identity<A> {};
+template <class A, class B> struct conditional<false, A, B> : type_identity<B> {};
+template <bool condition, class A, class B> using conditional_t = typename conditional<condition, A, B>::type;
+
+template <class T> __device__ T&& declval() noexcept;
+template <class T, class... Arguments>
+concept constructible_from = requires
+{
+    T(declval<Arguments>()...);
+};
+
+template <class T> struct numeric_limits;
+template <> struct numeric_limits<float> {
+    static constexpr int digits = 24, min_exponent = -125, max_exponent = 128;
+};
+template <> struct numeric_limits<double> {
+    static constexpr int digits = 53, min_exponent = -1021, max_exponent = 1024;
+};
+
+using ::abs;
+using ::fma;
+using ::ldexp;
+using ::sqrt;
+
+} // namespace gnomon::std
+#else
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+#include <utility>
+#endif
+
+namespace gnomon {
+
+/// The scalar in one lane of a pack, or the scalar itself.
+template <class T> struct lane {
+    using type = T;
+};
+template <class T>
+requires(!std::is_arithmetic_v<T>) && requires { typename T::value_type; }
+struct lane<T> {
+    using type = typename T::value_type;
+};
+template <class T> using lane_t = typename lane<T>::type;
+
+/// The type of a comparison: bool for a scalar, the pack's own mask for a pack.
+template <class T> using mask_t = std::remove_cvref_t<decltype(std::declval<T>() < std::declval<T>())>;
+
+template <class T>
+using arithmetic_result =
+    decltype((-std::declval<T>() + std::declval<T>()) * std::declval<T>() / (std::declval<T>() - std::declval<T>()));
+
+/// True for the types whose digits and exponents the kernels are made for. Others round elsewhere, as long double,
+/// _Float16 and numbers of many digits do.
+template <class T> inline constexpr bool is_lane = std::is_same_v<T, float> || std::is_same_v<T, double>;
+
+/// Operations of a pack that are faster than the generic code below: a specialization provides them (simd/xsimd.hpp).
+template <class T> struct pack_operations {};
+
+/// False for a pack of another library that is no Real by itself, since its operators lack something or round otherwise:
+/// gnomon::pack of it is (simd/pack.hpp). The library's adapter knows, so without it no pack of xsimd or of the standard
+/// library is one.
+template <class T> GNOMON_INLINE constexpr bool is_native_real()
+{
+    constexpr bool is_of_xsimd = requires { typename T::arch_type; };
+    constexpr bool is_of_std = requires { typename T::abi_type; };
+    if constexpr (requires { pack_operations<T>::native; }) return pack_operations<T>::native;
+    else return !is_of_xsimd && !is_of_std;
+}
+template <class T> inline constexpr bool is_native = is_native_real<T>();
+
+/// A type that can be Real: closed under its own arithmetic, so that one type holds every intermediate value, with
+/// lanes of float or double. Expression templates are excluded: evaluate them into a value first.
+template <class T>
+concept real_number = std::same_as<arithmetic_result<T>, T> && is_lane<lane_t<T>> && is_native<T> &&
+    std::constructible_from<T, lane_t<T>> && requires
+{
+    typename mask_t<T>;
+};
+
+template <class T> struct require_real_of {
+    static_assert(
+        real_number<T>,
+        "gnomon: Real must be float, double or a pack of them, closed under + - * / "
+        "(no other precision, no integer; no expression template: evaluate it first; no foreign pack without its "
+        "adapter: include gnomon/simd/xsimd.hpp or std_simd.hpp, and let Real be gnomon::pack of it)");
+    using type = T;
+};
+template <class T> using require_real = typename require_real_of<T>::type;
+
+/// The value as a Real, rounded once from double to the type of a lane.
+template <class T> GNOMON_INLINE constexpr T literal(double value) { return T(static_cast<lane_t<T>>(value)); }
+
+template <class T>
+inline constexpr double splitter = double(std::uint64_t{1} << (std::numeric_limits<T>::digits + 1) / 2) + 1.0;
+template <class T>
+inline constexpr double pivot_floor = std::numeric_limits<T>::min_exponent < -1000 ? 0x1p-66 : 0x1p-30;
+
+// Without an instruction for it, a scalar fma is a library call, which is correct but slower than splitting.
+template <class T> GNOMON_INLINE constexpr bool fma_is_fused()
+{
+    if constexpr (requires { pack_operations<T>::fused; }) return pack_operations<T>::fused;
+    else return GNOMON_SCALAR_FMA && is_lane<T>;
+}
+template <class T> inline constexpr bool is_fused = fma_is_fused<T>();
+
+/// The value of type To with the bits of `from`: std::bit_cast, which libc++ lacks before version 14.
+template <class To, class From> GNOMON_INLINE constexpr To gnomon_bit_cast(const From& from)
+{
+    return __builtin_bit_cast(To, from);
+}
+
+template <class T, class Bits> GNOMON_INLINE constexpr T select_by_bits(bool mask, T a, T b)
+{
+    const Bits ones = Bits(0) - Bits(mask);
+    return gnomon_bit_cast<T>(Bits((gnomon_bit_cast<Bits>(a) & ones) | (gnomon_bit_cast<Bits>(b) & ~ones)));
+}
+
+// GCC compiles a conditional operator to a branch, to skip work that only one side needs. For receivers that differ
+// from their neighbours, half the time of a kernel is then lost to mispredictions. Bit operations stay free of
+// branches, and GCC vectorises them.
+template <class M, class T> GNOMON_INLINE constexpr T gnomon_select(M mask, T a, T b)
+{
+    if constexpr (!std::is_same_v<M, bool>) return select GNOMON_NO_MACRO(mask, a, b);
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
+    else if constexpr (std::is_same_v<T, float>) return select_by_bits<T, std::uint32_t>(mask, a, b);
+    else if constexpr (std::is_same_v<T, double>) return select_by_bits<T, std::uint64_t>(mask, a, b);
+#endif
+    else return mask ? a : b;
+}
+
+template <class M> GNOMON_INLINE constexpr bool gnomon_any(M mask)
+{
+    if constexpr (std::is_same_v<M, bool>) return mask;
+    else if constexpr (requires { any_of(mask); }) return any_of(mask);
+    else return any GNOMON_NO_MACRO(mask);
+}
+
+/// x, of which the optimizer knows nothing.
+template <class T> GNOMON_INLINE constexpr T opaque(T x)
+{
+#if defined(__GNUC__) && !defined(__CUDA_ARCH__)
+    if (!__builtin_is_constant_evaluated()) {
+        auto bits = __builtin_bit_cast(std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>, x);
+        __asm__("" : "+r"(bits));
+        return __builtin_bit_cast(T, bits);
+    }
+#endif
+    return x;
+}
+
+// The second operand of a minimum or a maximum, through a sum that clang does not see through. Otherwise, when clang knows
+// this operand to be no NaN, it takes an instruction of Arm or PowerPC that returns a NaN for a signalling one.
+template <class T> GNOMON_INLINE constexpr T second_operand(T x)
+{
+#if defined(__clang__) && (defined(__aarch64__) || defined(__powerpc__))
+    return x + opaque(T(-0.0));
+#else
+    return x;
+#endif
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_min(T a, T b)
+{
+    if constexpr (requires { pack_operations<T>::min GNOMON_NO_MACRO(a, b); })
+        return pack_operations<T>::min GNOMON_NO_MACRO(a, b);
+    else if constexpr (std::is_floating_point_v<T>) {
+        const T second = second_operand(b); // above, or clang would make a branch of the choice
+        return a < b ? a : second;
+    } else return gnomon_select(a < b, a, b);
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_max(T a, T b)
+{
+    if constexpr (requires { pack_operations<T>::max GNOMON_NO_MACRO(a, b); })
+        return pack_operations<T>::max GNOMON_NO_MACRO(a, b);
+    else if constexpr (std::is_floating_point_v<T>) {
+        const T second = second_operand(b);
+        return b < a ? a : second;
+    } else return gnomon_select(b < a, a, b);
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_saturate(T x)
+{
+    return gnomon_min(T(lane_t<T>(1)), gnomon_max(x, T(lane_t<T>(0))));
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_abs(T a)
+{
+    using std::abs;
+    return abs GNOMON_NO_MACRO(a);
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_sqrt(T a)
+{
+#if defined(__CUDA_ARCH__)
+    // Correctly rounded under nvcc --use_fast_math, too.
+    if constexpr (std::is_same_v<T, float>) return __fsqrt_rn(a);
+    else if constexpr (std::is_same_v<T, double>) return __dsqrt_rn(a);
+    else
+#elif defined(__GNUC__)
+    // std::sqrt compiles to a call as well, which sets errno.
+    if constexpr (std::is_same_v<T, float>) return __builtin_sqrtf(a);
+    else if constexpr (std::is_same_v<T, double>) return __builtin_sqrt(a);
+    else
+#endif
+    {
+        using std::sqrt;
+        return sqrt(a);
+    }
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_fma(T a, T b, T c)
+{
+    GNOMON_UNFUSED
+    if constexpr (std::is_floating_point_v<T>) return std::fma(a, b, c);
+    else if constexpr (requires { pack_operations<T>::fma(a, b, c); }) return pack_operations<T>::fma(a, b, c);
+    else return a * b + c;
+}
+
+template <class T> GNOMON_INLINE constexpr T gnomon_sum(T a, T b) { return a + b; }
+template <class T> GNOMON_INLINE constexpr T gnomon_difference(T a, T b) { return a - b; }
+
+template <class T> GNOMON_INLINE constexpr T gnomon_power_of_two(T n)
+{
+    if constexpr (std::is_same_v<T, float>) {
+        // The sum has n in its low bits, and the shift moves n into the exponent.
+        return gnomon_bit_cast<float>((gnomon_bit_cast<std::uint32_t>(n + 0x1.8p23f) << 23) +
+                                      (std::uint32_t{127} << 23));
+    } else if constexpr (std::is_same_v<T, double>) {
+        return gnomon_bit_cast<double>((gnomon_bit_cast<std::uint64_t>(n + 0x1.8p52) << 52) +
+                                       (std::uint64_t{1023} << 52));
+    } else if constexpr (requires { pack_operations<T>::power_of_two(n); }) {
+        return pack_operations<T>::power_of_two(n);
+    } else {
+        T power = T(lane_t<T>(1));
+        for (int k = std::numeric_limits<lane_t<T>>::max_exponent / 2; k > 0; k /= 2) {
+            const T step = T(static_cast<lane_t<T>>(k));
+            const T up = T(static_cast<lane_t<T>>(std::ldexp(1.0, k)));
+            const T down = T(static_cast<lane_t<T>>(std::ldexp(1.0, -k)));
+            power = gnomon_select(step <= n, power * up, gnomon_select(n <= -step, power * down, power));
+            n = gnomon_select(step <= n, n - step, gnomon_select(n <= -step, n + step, n));
+        }
+        return power;
+    }
+}
+
+// Contraction would fold a plain product into a later sum, and the error of the product, which two_product returns, would
+// be subtracted twice. A fused product cannot be folded, and adding -0 to the product changes no value; clang must not
+// know that. Where no fma is known for T, what a compiler folds is the product by 1, which rounds nothing.
+template <class T> GNOMON_INLINE constexpr T gnomon_product(T a, T b)
+{
+    GNOMON_UNFUSED
+#if defined(__CUDA_ARCH__)
+    if constexpr (std::is_same_v<T, float>) return __fmul_rn(a, b);
+    else if constexpr (std::is_same_v<T, double>) return __dmul_rn(a, b);
+#elif defined(__clang__)
+    if constexpr (is_fused<T>) return gnomon_fma(a, b, T(opaque(lane_t<T>(-0.0))));
+#else
+    if constexpr (is_fused<T>) return gnomon_fma(a, b, T(lane_t<T>(-0.0)));
+#endif
+    else if constexpr (GNOMON_HAS_FMA) return (a * b) * T(opaque(lane_t<T>(1)));
+    else return a * b;
+}
+
+// A float loses its low bits. Half of 53 bits is no whole number: a double, and whatever has no bits at hand, is rounded to 26
+// bits (Dekker 1971).
+template <class T> GNOMON_INLINE constexpr T gnomon_high_part(T a)
+{
+    if constexpr (requires { pack_operations<T>::high_part(a); }) return pack_operations<T>::high_part(a);
+    else if constexpr (std::is_same_v<T, float>) {
+        return gnomon_bit_cast<float>(gnomon_bit_cast<std::uint32_t>(a) & std::uint32_t{0xFFFFF000});
+    } else {
+        const T scaled = gnomon_product(literal<T>(splitter<lane_t<T>>), a); // contraction would leave no halves
+        return scaled - gnomon_difference(scaled, a);
+    }
+}
+
+} // namespace gnomon
+
+#endif
+
+// numerics/round.h ----------------------------------------------------------------------------------------------------
+// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
+// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
+#ifndef GNOMON_NUMERICS_ROUND_H
+#define GNOMON_NUMERICS_ROUND_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The whole number nearest to x, ties to even.
+/// Domain: |x| <= 2^22 in float, 2^51 in double.
+/// NaN: stays NaN.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real nearest_integer(Real x)
+{
+    Real rounder = Real(-12582912);
+    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
+        rounder = Real(-6755399441055744.0);
+    }
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
+}
+
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real nearest_natural(Real x)
+{
+    Real rounder = Real(8388608);
+    if (std::numeric_limits<lane_t<Real>>::digits > 24) {
+        rounder = Real(4503599627370496.0);
+    }
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// numerics/select.h ---------------------------------------------------------------------------------------------------
+// Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
+#ifndef GNOMON_NUMERICS_SELECT_H
+#define GNOMON_NUMERICS_SELECT_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// x clamped to [low, high].
+/// NaN: stays NaN, so that the last step of a kernel can answer it.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real clamp_or_nan(Real x, std::type_identity_t<Real> low, std::type_identity_t<Real> high)
+{
+    return gnomon_min(high, gnomon_max(low, x));
+}
+
+/// x clamped to [low, high].
+/// NaN: high.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real clamp_or_high(Real x, std::type_identity_t<Real> low, std::type_identity_t<Real> high)
+{
+    return gnomon_max(low, gnomon_min(x, high));
+}
+
+/// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
+/// NaN: 0, lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real saturate_or_zero(Real x) { return gnomon_saturate(x); }
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// numerics/texel_filter.h ---------------------------------------------------------------------------------------------
+// Texels of a shadow map along one axis: the texel that holds a position, and the weights of the K + 1 texels that K
+// adjacent bilinear look-ups read, which are those of a filter K texels wide with linear ends.
+#ifndef GNOMON_NUMERICS_TEXEL_FILTER_H
+#define GNOMON_NUMERICS_TEXEL_FILTER_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+inline constexpr double texel_limit = 65536.0; // no map is larger: all positions beyond share one texel
+
+/// The texel that holds position x: the largest whole number not above x, clamped to [-65536, 65536].
+/// NaN: 65536.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real texel_below(Real x)
+{
+    Real limit = literal<Real>(texel_limit);
+    Real inside = gnomon_max(gnomon_min(x, limit), Real(-1) * limit);
+    Real whole = nearest_integer(inside);
+    return whole - gnomon_select(inside < whole, Real(1), Real(0));
+}
+
+/// The weight of texel i, 0 to K, in the mean of K = look_ups adjacent bilinear look-ups along one axis. u is the
+/// distance of the first look-up from the centre of texel 0. In [0, 1].
+/// Domain: u in [0, 1], clamped; look_ups at least 1. Elsewhere a number in [0, 1].
+/// NaN: u counts as 0; 0 for look_ups.
+/// Error: the K + 1 weights sum to 1 within K + 2 roundings.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real texel_weight(Real u, std::type_identity_t<Real> i, std::type_identity_t<Real> look_ups)
+{
+    Real share = saturate_or_zero(u);
+    share = gnomon_select(i < Real(1), Real(1) - share, gnomon_select(i < look_ups, Real(1), share));
+    return saturate_or_zero(share / look_ups);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// motion/layers/stochastic_sample.h -----------------------------------------------------------------------------------
+// A sample of a stochastic shadow map (Akenine-Moller et al. 2007): what a texel sees at one place and at one time of
+// the shutter interval, and how the point that it sees moves (Andersson et al. 2015). Times are stratified: sample k of
+// n has a time of its own between k / n and (k + 1) / n. That is slice k of a time-dependent shadow map.
+#ifndef GNOMON_MOTION_LAYERS_STOCHASTIC_SAMPLE_H
+#define GNOMON_MOTION_LAYERS_STOCHASTIC_SAMPLE_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// Place (x, y) in texels of the map, time t in [0, 1], depth z, motion of the seen point from shutter open to shutter
+/// close in texels and in depth, and the id of the surface as in depth_time_range. The background has id
+/// stochastic_nothing, depth 1 and no motion.
+template <class Real, class = require_real<Real>> struct stochastic_sample { Real x, y, t, z, d_x, d_y, d_z, id; };
+
+inline constexpr double stochastic_nothing = -1.0;               // the id of the background
+// 1 + 2^-21: a time is so far from the ends of its stratum
+inline constexpr double stratum_begin = 1.000000476837158203125;
+inline constexpr double stratum_end = 0.999999523162841796875;   // 1 - 2^-21
+
+/// A sample of the background.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr stochastic_sample<Real> stochastic_background(Real x, Real y, Real t)
+{
+    stochastic_sample<Real> s;
+    s.x = x;
+    s.y = y;
+    s.t = t;
+    s.z = Real(1);
+    s.d_x = Real(0);
+    s.d_y = Real(0);
+    s.d_z = Real(0);
+    s.id = literal<Real>(stochastic_nothing);
+    return s;
+}
+
+/// The time of stratum number `stratum`, 0 to count - 1, of the shutter interval: its begin for jitter 0, its end for
+/// jitter 1. The ends themselves are avoided, so that slice_of returns the stratum, bit for bit.
+/// Domain: whole numbers stratum < count <= 65536; elsewhere a time in [0, 1]. jitter is clamped to [0, 1].
+/// NaN: jitter 0; 0 for the other two.
+/// Error: 2^-20, and 4 2^-p of the result.
+/// Source: Andersson 2015, Sec. 3
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real stratified_time(Real stratum, Real count, Real jitter)
+{
+    Real place = stratum + saturate_or_zero(jitter);
+    place = gnomon_min(place, (stratum + Real(1)) * literal<Real>(stratum_end));
+    place = gnomon_max(place, stratum * literal<Real>(stratum_begin));
+    return saturate_or_zero(place / count);
+}
+
+/// The stratum of `count` that holds time t: the whole number below t count, in [0, count - 1].
+/// Domain: t is clamped to [0, 1]; count is a whole number in [1, 65536].
+/// NaN: 0.
+/// Source: Andersson 2015, Sec. 3
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real slice_of(Real t, Real count)
+{
+    Real slice = texel_below(saturate_or_zero(t) * count);
+    return gnomon_max(gnomon_min(slice, count - Real(1)), Real(0));
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// motion/layers/layer_clusters.h --------------------------------------------------------------------------------------
+// Clusters of the samples around a tile of a stochastic shadow map: up to four layers, one behind the other (Andersson
+// et al. 2015, Sec. 4.1, Depth clustering). Depths are those in the middle of the shutter interval, by each sample's
+// own motion. 64 equal bins lie between the least and the greatest of them. Layers are cut in the middle of the longest
+// runs of empty bins that have occupied bins on either side. A level surface has no such run, hence no cut. Nothing is
+// sorted.
+//
+//     window = layer_window_begin(layer_middle_depth(s));
+//     window = layer_window_add(window, layer_middle_depth(s));                    for all samples s
+//     mark bin layer_bin_of(layer_middle_depth(s), window) of 64                   for all s whose bin is not -1
+//     state = layer_cuts_begin(window);
+//     state = layer_cuts_add(state, 1 or 0: occupied or not);                      for bins 0 to 63
+//     cuts = layer_cuts_end(state, 4);
+//     at = layer_of(layer_middle_depth(s), cuts);                                  for all samples: 0 is the nearest
+// layer
+//
+// Marks are the caller's, such as bits of its language's integers. The background is behind every layer and forms none.
+// A sample of NaN is no information: it is in front of every layer, so that none counts it.
+#ifndef GNOMON_MOTION_LAYERS_LAYER_CLUSTERS_H
+#define GNOMON_MOTION_LAYERS_LAYER_CLUSTERS_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+inline constexpr double layer_depth_limit = 2.0;      // middle depths of surfaces lie in [-2, 2]
+inline constexpr double layer_no_cut = 3.0;           // a cut behind all surfaces
+inline constexpr double layer_background_depth = 4.0; // the middle depth of the background
+inline constexpr double layer_unknown_depth = -4.0;   // the middle depth of a sample of NaN
+inline constexpr double layer_last_bin = 63.0;
+inline constexpr double layer_least_extent = 0.00006103515625; // 2^-14: depths that lie closer together are one layer
+
+/// The depth of a sample in the middle of the shutter interval by its own motion, z + (1/2 - t) d_z, limited to [-2,
+/// 2]; layer_background_depth for the background.
+/// Domain: any.
+/// NaN: layer_unknown_depth, also for infinite depths and motions.
+/// Error: 4 2^-p where |d_z| <= 2.
+/// Source: Andersson 2015, Sec. 4.1
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real layer_middle_depth(stochastic_sample<Real> s)
+{
+    Real z = s.z + (Real(0.5) - s.t) * s.d_z;
+    Real limit = literal<Real>(layer_depth_limit);
+    Real inside = gnomon_max(gnomon_min(z, limit), Real(-1) * limit);
+    mask_t<Real> known = gnomon_abs(z) <= literal<Real>(texel_limit);
+    Real middle = gnomon_select(known, inside, literal<Real>(layer_unknown_depth));
+    return gnomon_select(s.id < Real(0), literal<Real>(layer_background_depth), middle);
+}
+
+/// True for the middle depth of a surface, false for those of the background and of a sample of NaN.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr mask_t<Real> layer_is_surface(Real middle)
+{
+    return gnomon_abs(middle) <= literal<Real>(layer_depth_limit);
+}
+
+/// The least and the greatest middle depth of the surfaces in a window. least is above greatest if there is none.
+template <class Real, class = require_real<Real>> struct layer_window { Real least, greatest; };
+
+/// The window of one sample, by its middle depth.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr layer_window<Real> layer_window_begin(Real middle)
+{
+    mask_t<Real> surface = layer_is_surface(middle);
+    layer_window<Real> w;
+    w.least = gnomon_select(surface, middle, literal<Real>(layer_background_depth));
+    w.greatest = gnomon_select(surface, middle, literal<Real>(layer_unknown_depth));
+    return w;
+}
+
+/// The window with one more sample, by its middle depth.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr layer_window<Real> layer_window_add(layer_window<Real> window, Real middle)
+{
+    layer_window other = layer_window_begin(middle);
+    window.least = gnomon_min(window.least, other.least);
+    window.greatest = gnomon_max(window.greatest, other.greatest);
+    return window;
+}
+
+/// The bin of a middle depth, a whole number from 0 to 63; -1 for the background.
+/// Domain: depths beyond the window are in its first or last bin.
+/// NaN: -1.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real layer_bin_of(Real middle, layer_window<Real> window)
+{
+    Real share = saturate_or_zero((middle - window.least) / (window.greatest - window.least));
+    Real bin = gnomon_min(texel_below(Real(64) * share), literal<Real>(layer_last_bin));
+    return gnomon_select(layer_is_surface(middle), bin, Real(-1));
+}
+
+/// A fold over bins: the window, the number of bins so far, 1 if one of them is occupied, the number of empty ones
+/// since the last of these, and the lengths and centres of the three longest runs, in bins.
+template <class Real, class = require_real<Real>> struct layer_runs
+{
+    Real least, greatest, bins, begun, empty;
+    Real length0, length1, length2, centre0, centre1, centre2;
+};
+
+/// The state before bin 0.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr layer_runs<Real> layer_cuts_begin(layer_window<Real> window)
+{
+    layer_runs<Real> r;
+    r.least = window.least;
+    r.greatest = window.greatest;
+    r.bins = Real(0);
+    r.begun = Real(0);
+    r.empty = Real(0);
+    r.length0 = Real(0);
+    r.length1 = Real(0);
+    r.length2 = Real(0);
+    r.centre0 = Real(0);
+    r.centre1 = Real(0);
+    r.centre2 = Real(0);
+    return r;
+}
+
+/// The state after the next bin, from near to far. A bin is occupied if occupied is above 0. Of runs of the same length
+/// the nearer one counts as longer.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr layer_runs<Real> layer_cuts_add(layer_runs<Real> state, Real occupied)
+{
+    mask_t<Real> some = Real(0) < occupied;
+    Real centre = state.bins - Real(0.5) * state.empty;
+    mask_t<Real> third = some && state.length2 < state.empty;
+    mask_t<Real> second = some && state.length1 < state.empty;
+    mask_t<Real> first = some && state.length0 < state.empty;
+    state.length2 = gnomon_select(second, state.length1, gnomon_select(third, state.empty, state.length2));
+    state.centre2 = gnomon_select(second, state.centre1, gnomon_select(third, centre, state.centre2));
+    state.length1 = gnomon_select(first, state.length0, gnomon_select(second, state.empty, state.length1));
+    state.centre1 = gnomon_select(first, state.centre0, gnomon_select(second, centre, state.centre1));
+    state.length0 = gnomon_select(first, state.empty, state.length0);
+    state.centre0 = gnomon_select(first, centre, state.centre0);
+    state.begun = gnomon_select(some, Real(1), state.begun);
+    state.empty = gnomon_select(some, Real(0), state.empty + state.begun);
+    state.bins = state.bins + Real(1);
+    return state;
+}
+
+/// Depths that cut a window into layers, from near to far; layer_no_cut for those that are not needed.
+template <class Real, class = require_real<Real>> struct layer_cuts { Real c0, c1, c2; };
+
+/// The cuts at the longest runs of empty bins, one fewer than `layers`, in depths between the samples of the bins
+/// before and those of the bins behind. None if the window is shorter than 2^-14.
+/// Domain: layers from 1 to 4; a smaller number makes one layer, a larger one up to four.
+/// NaN: one layer.
+/// Error: half a bin, less 2^-22 in float.
+/// Source: Andersson 2015, Sec. 4.1
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr layer_cuts<Real> layer_cuts_end(layer_runs<Real> state, std::type_identity_t<Real> layers)
+{
+    Real none = literal<Real>(layer_no_cut);
+    Real extent = state.greatest - state.least;
+    mask_t<Real> surfaces = layer_is_surface(state.least) && layer_is_surface(state.greatest);
+    mask_t<Real> some = surfaces && literal<Real>(layer_least_extent) <= extent;
+    Real per_bin = Real(0.015625) * extent;
+    mask_t<Real> first = some && Real(0) < state.length0 && Real(1) < layers;
+    mask_t<Real> second = some && Real(0) < state.length1 && Real(2) < layers;
+    mask_t<Real> third = some && Real(0) < state.length2 && Real(3) < layers;
+    Real a = gnomon_select(first, state.least + per_bin * state.centre0, none);
+    Real b = gnomon_select(second, state.least + per_bin * state.centre1, none);
+    Real c = gnomon_select(third, state.least + per_bin * state.centre2, none);
+    Real near_ab = gnomon_min(a, b);
+    Real far_ab = gnomon_max(a, b);
+    Real middle = gnomon_min(far_ab, c);
+    layer_cuts<Real> r;
+    r.c0 = gnomon_min(near_ab, middle);
+    r.c1 = gnomon_max(near_ab, middle);
+    r.c2 = gnomon_max(far_ab, c);
+    return r;
+}
+
+/// The layer of a middle depth, 0 to 3 from near to far; 4 for the background, which is behind every layer.
+/// NaN: -1, in front of every layer.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real layer_of(Real middle, layer_cuts<Real> cuts)
+{
+    Real known = gnomon_select(Real(-1) * literal<Real>(layer_depth_limit) <= middle, Real(0), Real(-1));
+    Real first = gnomon_select(cuts.c0 <= middle, Real(1), Real(0));
+    Real second = gnomon_select(cuts.c1 <= middle, Real(1), Real(0));
+    Real third = gnomon_select(cuts.c2 <= middle, Real(1), Real(0));
+    Real behind = gnomon_select(literal<Real>(layer_background_depth) <= middle, Real(1), Real(0));
+    return (known + first) + ((second + third) + behind);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+#undef GNOMON_UNFUSED
+#undef GNOMON_HAS_FMA
+#undef GNOMON_SCALAR_FMA
+#undef GNOMON_INLINE
+#undef GNOMON_NO_MACRO
+#undef GNOMON_WARNINGS_OFF
+#undef GNOMON_WARNINGS_ON
+#endif

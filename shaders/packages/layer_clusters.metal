@@ -1,0 +1,394 @@
+// Gnomon 0.1.0, layer_clusters.metal: shadow filtering in Metal, this file alone.
+// Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
+// Written by shaders/package.py from the kernels in include/gnomon: change them there.
+#ifndef GNOMON_LAYER_CLUSTERS_METAL
+#define GNOMON_LAYER_CLUSTERS_METAL
+
+// the language --------------------------------------------------------------------------------------------------------
+// Metal: C++14 with address spaces. Kernels are not templates, as in the other shader languages: Real is float.
+// Compile with -fno-fast-math and -ffp-contract=off for the same bits as on the CPU.
+#if !defined(__METAL_VERSION__)
+#error "gnomon: layer_clusters.metal is Metal; another language's compiler reads it"
+#elif defined(GNOMON_PORTABLE_H)
+#error "gnomon: layer_clusters.metal and the headers of include/gnomon exclude one another"
+#elif defined(GNOMON_PACKAGE) && GNOMON_PACKAGE != 100
+#error "gnomon: layer_clusters.metal is not of the same version as a package before it"
+#endif
+#define GNOMON_PACKAGE 100 // major, minor and patch, two digits each
+
+#ifndef GNOMON_PORTABLE_MSL_H
+#define GNOMON_PORTABLE_MSL_H
+
+#if defined(__FAST_MATH__)
+#error "gnomon: fast mathematics voids the treatment of NaN: compile with -fno-fast-math, or mathMode = .safe"
+#endif
+
+#include <metal_stdlib>
+
+#if __METAL_VERSION__ >= 320 // to the end of the file
+#pragma METAL fp math_mode(safe)
+#endif
+
+namespace gnomon {
+
+constant constexpr float gnomon_pivot_floor = 9.31322574615478515625e-10f; // 2^-30
+
+inline float gnomon_select(bool mask, float a, float b) { return mask ? a : b; }
+inline bool gnomon_any(bool mask) { return mask; }
+inline float gnomon_abs(float a) { return metal::fabs(a); }
+inline float gnomon_sqrt(float a) { return metal::precise::sqrt(a); }
+// x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
+// bits of NaN are above the bound, which is one.
+inline float gnomon_kept(float x) { return as_type<float>(metal::min(as_type<int>(x), 0x7FC00000)); }
+inline float gnomon_apart(float x) { return as_type<float>(metal::min(as_type<uint>(x), 0xFFC00000u)); }
+// A compiler that knew both operands would write min() and max(), which lose a NaN. gnomon_kept would not hide an operand
+// that is kept already, since two minima of integers become one; gnomon_apart is another one.
+inline float gnomon_min(float a, float b) { return gnomon_select(a < b, a, gnomon_apart(b)); }
+inline float gnomon_max(float a, float b) { return gnomon_select(b < a, a, gnomon_apart(b)); }
+inline float gnomon_product(float a, float b) { return gnomon_kept(a * b); }
+inline float gnomon_sum(float a, float b) { return gnomon_kept(a + b); }
+inline float gnomon_difference(float a, float b) { return gnomon_kept(a - b); }
+inline float gnomon_fma(float a, float b, float c) { return gnomon_kept(metal::fma(a, b, c)); }
+// By integers, so that a NaN becomes 0 where a compiler assumes that there is none.
+inline float gnomon_saturate(float x)
+{
+    int bits = as_type<int>(x);
+    return gnomon_select(bits > 0x7F800000, 0.0f, as_type<float>(metal::min(metal::max(bits, 0), 0x3F800000)));
+}
+// a without the low half of its significand.
+inline float gnomon_high_part(float a) { return as_type<float>(as_type<uint>(a) & 0xFFFFF000u); }
+// The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
+inline float gnomon_power_of_two(float n) { return as_type<float>((as_type<uint>(n + 12582912.0f) << 23) + 0x3F800000u); }
+
+} // namespace gnomon
+
+#endif
+
+// numerics/round.h ----------------------------------------------------------------------------------------------------
+// Rounding to whole numbers by addition: floating-point numbers near 1.5 2^(p - 1) are one apart, where p is the number
+// of bits of the significand. The sum of x and that number rounds x to a whole number, and the difference is exact.
+#ifndef GNOMON_NUMERICS_ROUND_H
+#define GNOMON_NUMERICS_ROUND_H
+
+namespace gnomon {
+
+/// The whole number nearest to x, ties to even.
+/// Domain: |x| <= 2^22 in float, 2^51 in double.
+/// NaN: stays NaN.
+inline float nearest_integer(float x)
+{
+    float rounder = -12582912.0f;
+    return gnomon_sum(gnomon_difference(x, rounder), rounder);
+}
+
+/// The whole number nearest to x, ties to even.
+/// Domain: x >= 0, of any size.
+/// NaN: stays NaN.
+inline float nearest_natural(float x)
+{
+    float rounder = 8388608.0f;
+    return gnomon_select(x < rounder, gnomon_difference(gnomon_sum(x, rounder), rounder), x);
+}
+
+} // namespace gnomon
+
+#endif
+
+// numerics/select.h ---------------------------------------------------------------------------------------------------
+// Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
+#ifndef GNOMON_NUMERICS_SELECT_H
+#define GNOMON_NUMERICS_SELECT_H
+
+namespace gnomon {
+
+/// x clamped to [low, high].
+/// NaN: stays NaN, so that the last step of a kernel can answer it.
+inline float clamp_or_nan(float x, float low, float high) { return gnomon_min(high, gnomon_max(low, x)); }
+
+/// x clamped to [low, high].
+/// NaN: high.
+inline float clamp_or_high(float x, float low, float high) { return gnomon_max(low, gnomon_min(x, high)); }
+
+/// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
+/// NaN: 0, lit.
+inline float saturate_or_zero(float x) { return gnomon_saturate(x); }
+
+} // namespace gnomon
+
+#endif
+
+// numerics/texel_filter.h ---------------------------------------------------------------------------------------------
+// Texels of a shadow map along one axis: the texel that holds a position, and the weights of the K + 1 texels that K
+// adjacent bilinear look-ups read, which are those of a filter K texels wide with linear ends.
+#ifndef GNOMON_NUMERICS_TEXEL_FILTER_H
+#define GNOMON_NUMERICS_TEXEL_FILTER_H
+
+namespace gnomon {
+
+constant constexpr float texel_limit = 65536.0f; // no map is larger: all positions beyond share one texel
+
+/// The texel that holds position x: the largest whole number not above x, clamped to [-65536, 65536].
+/// NaN: 65536.
+inline float texel_below(float x)
+{
+    float limit = texel_limit;
+    float inside = gnomon_max(gnomon_min(x, limit), -1.0f * limit);
+    float whole = nearest_integer(inside);
+    return whole - gnomon_select(inside < whole, 1.0f, 0.0f);
+}
+
+/// The weight of texel i, 0 to K, in the mean of K = look_ups adjacent bilinear look-ups along one axis. u is the
+/// distance of the first look-up from the centre of texel 0. In [0, 1].
+/// Domain: u in [0, 1], clamped; look_ups at least 1. Elsewhere a number in [0, 1].
+/// NaN: u counts as 0; 0 for look_ups.
+/// Error: the K + 1 weights sum to 1 within K + 2 roundings.
+inline float texel_weight(float u, float i, float look_ups)
+{
+    float share = saturate_or_zero(u);
+    share = gnomon_select(i < 1.0f, 1.0f - share, gnomon_select(i < look_ups, 1.0f, share));
+    return saturate_or_zero(share / look_ups);
+}
+
+} // namespace gnomon
+
+#endif
+
+// motion/layers/stochastic_sample.h -----------------------------------------------------------------------------------
+// A sample of a stochastic shadow map (Akenine-Moller et al. 2007): what a texel sees at one place and at one time of
+// the shutter interval, and how the point that it sees moves (Andersson et al. 2015). Times are stratified: sample k of
+// n has a time of its own between k / n and (k + 1) / n. That is slice k of a time-dependent shadow map.
+#ifndef GNOMON_MOTION_LAYERS_STOCHASTIC_SAMPLE_H
+#define GNOMON_MOTION_LAYERS_STOCHASTIC_SAMPLE_H
+
+namespace gnomon {
+
+/// Place (x, y) in texels of the map, time t in [0, 1], depth z, motion of the seen point from shutter open to shutter
+/// close in texels and in depth, and the id of the surface as in depth_time_range. The background has id
+/// stochastic_nothing, depth 1 and no motion.
+struct stochastic_sample { float x, y, t, z, d_x, d_y, d_z, id; };
+
+constant constexpr float stochastic_nothing = -1.0f;               // the id of the background
+// 1 + 2^-21: a time is so far from the ends of its stratum
+constant constexpr float stratum_begin = 1.000000476837158203125f;
+constant constexpr float stratum_end = 0.999999523162841796875f;   // 1 - 2^-21
+
+/// A sample of the background.
+inline stochastic_sample stochastic_background(float x, float y, float t)
+{
+    stochastic_sample s;
+    s.x = x;
+    s.y = y;
+    s.t = t;
+    s.z = 1.0f;
+    s.d_x = 0.0f;
+    s.d_y = 0.0f;
+    s.d_z = 0.0f;
+    s.id = stochastic_nothing;
+    return s;
+}
+
+/// The time of stratum number `stratum`, 0 to count - 1, of the shutter interval: its begin for jitter 0, its end for
+/// jitter 1. The ends themselves are avoided, so that slice_of returns the stratum, bit for bit.
+/// Domain: whole numbers stratum < count <= 65536; elsewhere a time in [0, 1]. jitter is clamped to [0, 1].
+/// NaN: jitter 0; 0 for the other two.
+/// Error: 2^-20, and 4 2^-p of the result.
+/// Source: Andersson 2015, Sec. 3
+inline float stratified_time(float stratum, float count, float jitter)
+{
+    float place = stratum + saturate_or_zero(jitter);
+    place = gnomon_min(place, (stratum + 1.0f) * stratum_end);
+    place = gnomon_max(place, stratum * stratum_begin);
+    return saturate_or_zero(place / count);
+}
+
+/// The stratum of `count` that holds time t: the whole number below t count, in [0, count - 1].
+/// Domain: t is clamped to [0, 1]; count is a whole number in [1, 65536].
+/// NaN: 0.
+/// Source: Andersson 2015, Sec. 3
+inline float slice_of(float t, float count)
+{
+    float slice = texel_below(saturate_or_zero(t) * count);
+    return gnomon_max(gnomon_min(slice, count - 1.0f), 0.0f);
+}
+
+} // namespace gnomon
+
+#endif
+
+// motion/layers/layer_clusters.h --------------------------------------------------------------------------------------
+// Clusters of the samples around a tile of a stochastic shadow map: up to four layers, one behind the other (Andersson
+// et al. 2015, Sec. 4.1, Depth clustering). Depths are those in the middle of the shutter interval, by each sample's
+// own motion. 64 equal bins lie between the least and the greatest of them. Layers are cut in the middle of the longest
+// runs of empty bins that have occupied bins on either side. A level surface has no such run, hence no cut. Nothing is
+// sorted.
+//
+//     window = layer_window_begin(layer_middle_depth(s));
+//     window = layer_window_add(window, layer_middle_depth(s));                    for all samples s
+//     mark bin layer_bin_of(layer_middle_depth(s), window) of 64                   for all s whose bin is not -1
+//     state = layer_cuts_begin(window);
+//     state = layer_cuts_add(state, 1 or 0: occupied or not);                      for bins 0 to 63
+//     cuts = layer_cuts_end(state, 4);
+//     at = layer_of(layer_middle_depth(s), cuts);                                  for all samples: 0 is the nearest
+// layer
+//
+// Marks are the caller's, such as bits of its language's integers. The background is behind every layer and forms none.
+// A sample of NaN is no information: it is in front of every layer, so that none counts it.
+#ifndef GNOMON_MOTION_LAYERS_LAYER_CLUSTERS_H
+#define GNOMON_MOTION_LAYERS_LAYER_CLUSTERS_H
+
+namespace gnomon {
+
+constant constexpr float layer_depth_limit = 2.0f;      // middle depths of surfaces lie in [-2, 2]
+constant constexpr float layer_no_cut = 3.0f;           // a cut behind all surfaces
+constant constexpr float layer_background_depth = 4.0f; // the middle depth of the background
+constant constexpr float layer_unknown_depth = -4.0f;   // the middle depth of a sample of NaN
+constant constexpr float layer_last_bin = 63.0f;
+constant constexpr float layer_least_extent = 0.00006103515625f; // 2^-14: depths that lie closer together are one layer
+
+/// The depth of a sample in the middle of the shutter interval by its own motion, z + (1/2 - t) d_z, limited to [-2,
+/// 2]; layer_background_depth for the background.
+/// Domain: any.
+/// NaN: layer_unknown_depth, also for infinite depths and motions.
+/// Error: 4 2^-p where |d_z| <= 2.
+/// Source: Andersson 2015, Sec. 4.1
+inline float layer_middle_depth(stochastic_sample s)
+{
+    float z = s.z + (0.5f - s.t) * s.d_z;
+    float limit = layer_depth_limit;
+    float inside = gnomon_max(gnomon_min(z, limit), -1.0f * limit);
+    bool known = gnomon_abs(z) <= texel_limit;
+    float middle = gnomon_select(known, inside, layer_unknown_depth);
+    return gnomon_select(s.id < 0.0f, layer_background_depth, middle);
+}
+
+/// True for the middle depth of a surface, false for those of the background and of a sample of NaN.
+inline bool layer_is_surface(float middle) { return gnomon_abs(middle) <= layer_depth_limit; }
+
+/// The least and the greatest middle depth of the surfaces in a window. least is above greatest if there is none.
+struct layer_window { float least, greatest; };
+
+/// The window of one sample, by its middle depth.
+inline layer_window layer_window_begin(float middle)
+{
+    bool surface = layer_is_surface(middle);
+    layer_window w;
+    w.least = gnomon_select(surface, middle, layer_background_depth);
+    w.greatest = gnomon_select(surface, middle, layer_unknown_depth);
+    return w;
+}
+
+/// The window with one more sample, by its middle depth.
+inline layer_window layer_window_add(layer_window window, float middle)
+{
+    layer_window other = layer_window_begin(middle);
+    window.least = gnomon_min(window.least, other.least);
+    window.greatest = gnomon_max(window.greatest, other.greatest);
+    return window;
+}
+
+/// The bin of a middle depth, a whole number from 0 to 63; -1 for the background.
+/// Domain: depths beyond the window are in its first or last bin.
+/// NaN: -1.
+inline float layer_bin_of(float middle, layer_window window)
+{
+    float share = saturate_or_zero((middle - window.least) / (window.greatest - window.least));
+    float bin = gnomon_min(texel_below(64.0f * share), layer_last_bin);
+    return gnomon_select(layer_is_surface(middle), bin, -1.0f);
+}
+
+/// A fold over bins: the window, the number of bins so far, 1 if one of them is occupied, the number of empty ones
+/// since the last of these, and the lengths and centres of the three longest runs, in bins.
+struct layer_runs
+{
+    float least, greatest, bins, begun, empty;
+    float length0, length1, length2, centre0, centre1, centre2;
+};
+
+/// The state before bin 0.
+inline layer_runs layer_cuts_begin(layer_window window)
+{
+    layer_runs r;
+    r.least = window.least;
+    r.greatest = window.greatest;
+    r.bins = 0.0f;
+    r.begun = 0.0f;
+    r.empty = 0.0f;
+    r.length0 = 0.0f;
+    r.length1 = 0.0f;
+    r.length2 = 0.0f;
+    r.centre0 = 0.0f;
+    r.centre1 = 0.0f;
+    r.centre2 = 0.0f;
+    return r;
+}
+
+/// The state after the next bin, from near to far. A bin is occupied if occupied is above 0. Of runs of the same length
+/// the nearer one counts as longer.
+inline layer_runs layer_cuts_add(layer_runs state, float occupied)
+{
+    bool some = 0.0f < occupied;
+    float centre = state.bins - 0.5f * state.empty;
+    bool third = some && state.length2 < state.empty;
+    bool second = some && state.length1 < state.empty;
+    bool first = some && state.length0 < state.empty;
+    state.length2 = gnomon_select(second, state.length1, gnomon_select(third, state.empty, state.length2));
+    state.centre2 = gnomon_select(second, state.centre1, gnomon_select(third, centre, state.centre2));
+    state.length1 = gnomon_select(first, state.length0, gnomon_select(second, state.empty, state.length1));
+    state.centre1 = gnomon_select(first, state.centre0, gnomon_select(second, centre, state.centre1));
+    state.length0 = gnomon_select(first, state.empty, state.length0);
+    state.centre0 = gnomon_select(first, centre, state.centre0);
+    state.begun = gnomon_select(some, 1.0f, state.begun);
+    state.empty = gnomon_select(some, 0.0f, state.empty + state.begun);
+    state.bins = state.bins + 1.0f;
+    return state;
+}
+
+/// Depths that cut a window into layers, from near to far; layer_no_cut for those that are not needed.
+struct layer_cuts { float c0, c1, c2; };
+
+/// The cuts at the longest runs of empty bins, one fewer than `layers`, in depths between the samples of the bins
+/// before and those of the bins behind. None if the window is shorter than 2^-14.
+/// Domain: layers from 1 to 4; a smaller number makes one layer, a larger one up to four.
+/// NaN: one layer.
+/// Error: half a bin, less 2^-22 in float.
+/// Source: Andersson 2015, Sec. 4.1
+inline layer_cuts layer_cuts_end(layer_runs state, float layers)
+{
+    float none = layer_no_cut;
+    float extent = state.greatest - state.least;
+    bool surfaces = layer_is_surface(state.least) && layer_is_surface(state.greatest);
+    bool some = surfaces && layer_least_extent <= extent;
+    float per_bin = 0.015625f * extent;
+    bool first = some && 0.0f < state.length0 && 1.0f < layers;
+    bool second = some && 0.0f < state.length1 && 2.0f < layers;
+    bool third = some && 0.0f < state.length2 && 3.0f < layers;
+    float a = gnomon_select(first, state.least + per_bin * state.centre0, none);
+    float b = gnomon_select(second, state.least + per_bin * state.centre1, none);
+    float c = gnomon_select(third, state.least + per_bin * state.centre2, none);
+    float near_ab = gnomon_min(a, b);
+    float far_ab = gnomon_max(a, b);
+    float middle = gnomon_min(far_ab, c);
+    layer_cuts r;
+    r.c0 = gnomon_min(near_ab, middle);
+    r.c1 = gnomon_max(near_ab, middle);
+    r.c2 = gnomon_max(far_ab, c);
+    return r;
+}
+
+/// The layer of a middle depth, 0 to 3 from near to far; 4 for the background, which is behind every layer.
+/// NaN: -1, in front of every layer.
+inline float layer_of(float middle, layer_cuts cuts)
+{
+    float known = gnomon_select(-1.0f * layer_depth_limit <= middle, 0.0f, -1.0f);
+    float first = gnomon_select(cuts.c0 <= middle, 1.0f, 0.0f);
+    float second = gnomon_select(cuts.c1 <= middle, 1.0f, 0.0f);
+    float third = gnomon_select(cuts.c2 <= middle, 1.0f, 0.0f);
+    float behind = gnomon_select(layer_background_depth <= middle, 1.0f, 0.0f);
+    return (known + first) + ((second + third) + behind);
+}
+
+} // namespace gnomon
+
+#endif
+
+#endif
