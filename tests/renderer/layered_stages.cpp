@@ -36,9 +36,13 @@ moving_stage leaning_runner(double ratio)
 
 std::vector<moving_stage> all_stages()
 {
-    return {tentacles(aspect, false),     tentacles_from_above(aspect, false),
-            wrecking_ball(aspect),        chess(aspect),
-            tree_in_moving_light(aspect), leaning_runner(aspect)};
+    return {tentacles(aspect, false),
+            tentacles_from_above(aspect, false),
+            wrecking_ball(aspect),
+            chess(aspect),
+            tree_in_moving_light(aspect),
+            leaning_runner(aspect),
+            moving_eye(aspect)};
 }
 
 std::size_t triangles_of(const moving_stage& stage, std::string_view name)
@@ -135,6 +139,7 @@ TEST_CASE("nothing is below the ground or behind the light, and the light's map 
             const scene now = scene_at(stage.world, t);
             for (const mesh& part : now.meshes)
                 for (const glm::vec3& p : part.positions) {
+                    CHECK(std::abs(project(stage.eye.at(double(t)), p).z) <= 1);
                     const glm::dvec3 seen = project(stage.light.at(double(t)), p);
                     const bool between = std::abs(seen.z) <= 1;
                     const bool inside = part.name == "ground" || within_view(seen);
@@ -235,6 +240,15 @@ TEST_CASE("five pieces move, each straight and by 0.8 at most, and one king fall
     CHECK(moves.size() == 5);
     CHECK(falling == 3);               // the king and the two bars of its cross
     CHECK(standing == 26 + 2 * 2 + 2); // other pieces, heads of two knights, a cross
+}
+
+TEST_CASE("plates move one way, and the camera the other way")
+{
+    const moving_stage stage = moving_eye(aspect);
+    const std::size_t plates = mesh_of(stage, "plates"), boxes = mesh_of(stage, "boxes");
+    CHECK(stage.world.closing[plates][0].x - stage.world.open.meshes[plates].positions[0].x > 0.5f);
+    CHECK(!stage.world.moves(boxes));
+    CHECK(stage.eye.motion.x < -0.2);
 }
 
 TEST_CASE("each place of interest holds shade and penumbra")

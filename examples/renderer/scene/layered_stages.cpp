@@ -218,4 +218,27 @@ moving_stage runner(moving_scene model, double aspect)
                       {"column", "shadow of a column", {-0.8f, 0, 0.7f}, cyan}});
 }
 
+moving_stage moving_eye(double aspect)
+{
+    mesh plates = painted("plates", clay), boxes = painted("boxes", sand);
+    for (const glm::vec3& centre : {glm::vec3(-1.1f, 1.5f, -1.1f), {-0.3f, 0.9f, 0.5f}, {-0.8f, 1.2f, 1.6f}})
+        add_box(plates, upright(centre, {0.4f, 0.05f, 1.1f}));
+    for (const float x : {-1.5f, 0.f, 1.5f}) add_box(boxes, upright({x, 0.25f, -0.2f}, {0.3f, 0.5f, 0.3f}));
+    moving_scene casters{{"moving eye", {}}, {}};
+    add(casters, plates, {0.9f, 0, 0});
+    add(casters, boxes, glm::vec3(0));
+    moving_stage result = on_ground(
+        casters, {{0.5, 7, 1}, {0.5, 7, 1}}, {{0.2, 5, 6}, {0, 0.3, 0}, 38}, aspect,
+        {{"box", "static box", {0.1f, 0.2f, 0.1f}, green}, {"plate", "shadow of a plate", {-0.75f, 0, 1.5f}, cyan}});
+    result.eye.motion = {-0.4, 0, 0};
+    // Planes that enclose the world from the second place as well.
+    camera& open = result.eye.open;
+    const camera closing =
+        perspective_view_from(open.position + result.eye.motion, open.position + result.eye.motion + open.forward,
+                              bounds_of(result.world).corners(), glm::radians(45.0), aspect);
+    open.near_distance = glm::min(open.near_distance, closing.near_distance);
+    open.far_distance = glm::max(open.far_distance, closing.far_distance);
+    return result;
+}
+
 } // namespace gnomon::renderer

@@ -27,4 +27,7 @@ moving_stage tree_in_moving_light(double aspect);
 // columns.
 moving_stage runner(moving_scene model, double aspect);
 
+// Andersson et al. 2015, Figure 8 B: plates that move one way among static boxes, before a camera that moves the other way.
+moving_stage moving_eye(double aspect);
+
 } // namespace gnomon::renderer
