@@ -245,3 +245,38 @@ TEST_CASE("no pass over ranges allocates")
     CHECK(same > 0);
     CHECK(veiled > 0);
 }
+
+TEST_CASE_TEMPLATE("no pass over layers allocates", Format, gnomon::layer_variance_half, gnomon::layer_moments4_float)
+{
+    using namespace gnomon;
+    const layer_settings settings;
+    std::array<stochastic_sample<float>, 12 * 8> samples{};
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        samples[i] = {float(i % 12) + 0.5f, float(i / 12) + 0.5f, 0.5f, 0, i % 12 < 4 ? 3.0f : 0.0f, 0, 0, 1};
+    std::array<tile_clusters, 3 * 2> clusters{};
+    std::array<std::uint32_t, clusters.size() + 1> first{};
+    std::array<std::uint32_t, 1> blocks{};
+    std::array<layer_grid<float>, clusters.size()> grids{};
+    std::array<typename Format::texel, clusters.size() * 85> texels{};
+    std::array<typename Format::texel, layer_block * layer_block * 2> plain{};
+    const long before = allocations;
+    const sample_map<float> light{12, 8, 1, samples};
+    layer_cluster(light, settings, clusters, {0, 2});
+    const layer_counts counts = layer_allocate(settings, clusters, 12, 8, first, blocks);
+    const layer_map<typename Format::texel> map{12,
+                                                8,
+                                                settings,
+                                                first,
+                                                blocks,
+                                                std::span(grids).first(counts.layers),
+                                                std::span(texels).first(counts.layers * layer_texels(settings)),
+                                                std::span(plain).first(counts.blocks * block_texels(settings))};
+    layer_accumulate<Format>(light, clusters, map, {0, 2});
+    layer_mips<Format>(map, {0, 2});
+    const layer_receiver<float> receiver{3, 3, 0.5f, 0.5f, 3, 3, 0.4f, 3, 3, 0.6f, 1, 0, 0, 0, 0};
+    const float shadow = layer_intensity<Format>(map, receiver);
+    CHECK(allocations == before);
+    CHECK(counts.layers == 4);
+    CHECK(counts.blocks == 1);
+    CHECK(shadow == 1);
+}

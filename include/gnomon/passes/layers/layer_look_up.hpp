@@ -1,0 +1,204 @@
+// Shadow intensity of a receiver in a layered map (Andersson et al. 2015, Sec. 4.2 and 5): the product of visibilities
+// through all layers of its tile, each from sums over the receiver's footprint on the layer's grid, with up to 16 trilinear
+// probes. Where the sums have no weight, the level grows until there is some; without any the layer is transparent. Outside
+// of the map everything is lit.
+#ifndef GNOMON_PASSES_LAYER_LOOK_UP_HPP
+#define GNOMON_PASSES_LAYER_LOOK_UP_HPP
+
+#include "../../motion/layers/layer_look_up.h"
+#include "../look_up.hpp"
+#include "layer_map.hpp"
+
+GNOMON_NAMESPACE_BEGIN
+
+/// A receiver at time t: its place (x, y) on the light's map and its depth, without a bias; the ends of its footprint, where
+/// the light sees its world point, held in camera space, at times t0 and t1; the second axis of the footprint, the extent
+/// of a pixel on the map; the change of depth per texel of the map; and two random numbers from 0 to 1 that choose a tile.
+template <class T> struct layer_receiver {
+    T x, y, z, t, x0, y0, t0, x1, y1, t1, cross_x, cross_y, slope, random_x, random_y;
+};
+
+/// The tiles that a look-up reads.
+enum class layer_tiles {
+    own,    // the receiver's
+    random, // it or a neighbour, by the receiver's random numbers, as in Andersson 2015
+    blended // it and its neighbours, by weights that leave no border
+};
+
+struct layer_look_up {
+    layer_tiles tiles = layer_tiles::random;
+    bool widen = false;       // footprints, bias and least variance by the spread of motion in a layer
+    float reach = 1.5f;       // texels of a layer over which the bias follows the slope
+    float limit = 0.25f;      // the largest bias of a slope
+    float least_variance = 0; // of depth
+};
+
+namespace detail {
+
+/// Add weight times the bilinear sums of a level of extent columns x rows, of which at(i, j) gives the texel, or none.
+template <layer_format Format, border_mode mode>
+void add_bilinear(channel_array<Format>& sums, float weight, float x, float y, std::size_t columns, std::size_t rows,
+                  const auto& at)
+{
+    const neighbours nx = neighbours_of<mode>(x - 0.5f, columns);
+    const neighbours ny = neighbours_of<mode>(y - 0.5f, rows);
+    const auto add = [&](std::size_t i, std::size_t j, float part) {
+        const format_texel<Format>* const texel = at(i, j);
+        if (texel == nullptr) return;
+        const auto c = load_channels<Format>(*texel);
+        for (std::size_t k = 0; k < c.size(); ++k) sums[k] += part * c[k];
+    };
+    const float upper = weight * ny.fraction, lower = weight - upper;
+    add(nx.lower, ny.lower, lower * (1 - nx.fraction));
+    add(nx.upper, ny.lower, lower * nx.fraction);
+    add(nx.lower, ny.upper, upper * (1 - nx.fraction));
+    add(nx.upper, ny.upper, upper * nx.fraction);
+}
+
+/// The mips of a layer.
+template <class Texel> struct square_mips {
+    const Texel* texels;
+    std::size_t side;
+
+    std::size_t levels() const { return mip_levels(side, side); }
+    template <layer_format Format>
+    void add(channel_array<Format>& sums, float weight, float u, float v, std::size_t level) const
+    {
+        const std::size_t extent = side >> level;
+        const float scale = 1 / float(std::size_t(1) << level);
+        const Texel* const begin = texels + square_mip_begin(side, level);
+        add_bilinear<Format, border_mode::clamp>(
+            sums, weight, u * scale, v * scale, extent, extent,
+            [&](std::size_t i, std::size_t j) { return begin + (j * extent + i); });
+    }
+};
+
+/// The plain map, by places from a corner of a tile's window.
+template <class Texel> struct plain_mips {
+    const layer_map<const Texel>* map;
+    float x, y;
+
+    std::size_t levels() const { return block_levels(map->settings); }
+    template <layer_format Format>
+    void add(channel_array<Format>& sums, float weight, float u, float v, std::size_t level) const
+    {
+        const std::size_t side = layer_block >> level, unit = std::size_t(1) << level;
+        const std::size_t columns = tiles_along(map->width, unit), rows = tiles_along(map->height, unit);
+        const std::size_t each = block_texels(map->settings), begin = square_mip_begin(layer_block, level);
+        const std::size_t blocks = tiles_along(map->width, layer_block);
+        const auto at = [&](std::size_t i, std::size_t j) -> const Texel* {
+            if (!(i < columns && j < rows)) return nullptr; // beside the map
+            const std::uint32_t block = map->blocks[j / side * blocks + i / side];
+            return block == layer_no_block ? nullptr : &map->plain[block * each + begin + j % side * side + i % side];
+        };
+        const float scale = 1 / float(unit);
+        add_bilinear<Format, border_mode::lit>(sums, weight, (x + u) * scale, (y + v) * scale, columns, rows, at);
+    }
+};
+
+/// Sums over the probes of a footprint, at a level between two of the mips, or at the first one above at which there is
+/// any weight.
+template <layer_format Format>
+channel_array<Format> sums_over(const layer_footprint<float>& footprint, const auto& mips)
+{
+    const std::size_t last = mips.levels() - 1;
+    const neighbours nl = neighbours_of<border_mode::clamp>(footprint.level, mips.levels());
+    channel_array<Format> sums{};
+    const auto add = [&](float weight, std::size_t level) {
+        for (float k = 0; k < footprint.probes; ++k) {
+            const layer_place<float> place = layer_probe(footprint, k);
+            mips.template add<Format>(sums, weight, place.u, place.v, level);
+        }
+    };
+    const auto weight = [&] { return gnomon_bit_cast<format_channels<Format>>(sums).weight; };
+    add(1 - nl.fraction, nl.lower);
+    if (nl.fraction > 0) add(nl.fraction, nl.upper);
+    for (std::size_t level = nl.upper; !(weight() > 0) && level < last;) add(1, ++level);
+    return sums;
+}
+
+/// Visibility through one layer of a tile with centre (x, y).
+template <layer_format Format>
+float visibility_through(layer_grid<float> grid, const auto& mips, float x, float y, const layer_receiver<float>& r,
+                         const layer_look_up& look_up)
+{
+    if (!look_up.widen) grid.spread = grid.spread_z = 0;
+    const float bias = layer_bias(grid, r.slope, r.slope, r.t, look_up.reach, look_up.limit);
+    const float z = layer_grid_own_depth(grid, r.z - bias, r.t);
+    if (!(z > -1)) return 1; // before all of it
+    const auto footprint = layer_footprint_make(grid, r.x0 - x, r.y0 - y, r.t0, r.x1 - x, r.y1 - y, r.t1, r.cross_x,
+                                                r.cross_y, layer_widening(grid, r.t));
+    const float least = layer_minimum_variance(grid, r.slope, look_up.least_variance);
+    const auto sums = gnomon_bit_cast<format_channels<Format>>(sums_over<Format>(footprint, mips));
+    return Format::visibility(sums, z, gnomon_max(least, float(Format::least_variance)));
+}
+
+/// The grid by which a receiver sees the plain map: that of a window without motion, of a texel per texel.
+inline layer_grid<float> plain_grid(float guard)
+{
+    layer_motion<float> still{};
+    still.least = -1, still.greatest = 1;
+    return layer_grid_make(still, guard, guard);
+}
+
+/// Visibility in tile (column, row).
+template <layer_format Format>
+float visibility_in(const layer_map<const format_texel<Format>>& map, std::size_t column, std::size_t row,
+                    const layer_receiver<float>& r, const layer_look_up& look_up)
+{
+    const layer_settings& s = map.settings;
+    const float x = (float(column) + 0.5f) * float(s.tile), y = (float(row) + 0.5f) * float(s.tile);
+    const std::size_t i = row * map.columns() + column;
+    if (map.first[i] == map.first[i + 1]) {
+        if (map.plain.empty()) return 1;
+        const layer_grid<float> grid = plain_grid(float(s.guard));
+        const plain_mips<format_texel<Format>> mips{&map, x - grid.middle, y - grid.middle};
+        return visibility_through<Format>(grid, mips, x, y, r, look_up);
+    }
+    float visibility = 1;
+    for (std::size_t n = map.first[i]; n < map.first[i + 1] && visibility > 0; ++n) {
+        const square_mips<format_texel<Format>> mips{&map.texels[n * layer_texels(s)], s.texels};
+        visibility *= visibility_through<Format>(map.grids[n], mips, x, y, r, look_up);
+    }
+    return visibility;
+}
+
+} // namespace detail
+
+/// Shadow intensity in [0, 1] of a receiver.
+/// Domain: any receiver; outside of the map lit.
+/// NaN: 0, lit.
+/// Source: Andersson 2015, Sec. 4.2
+template <layer_format Format>
+float layer_intensity(const layer_map<const format_texel<Format>>& map, const layer_receiver<float>& r,
+                      const layer_look_up& look_up = {})
+{
+    if (!(0 <= r.x && r.x < float(map.width) && 0 <= r.y && r.y < float(map.height))) return 0;
+    const float tile = float(map.settings.tile);
+    const std::size_t column = (std::min)(std::size_t(r.x / tile), map.columns() - 1);
+    const std::size_t row = (std::min)(std::size_t(r.y / tile), map.rows() - 1);
+    if (look_up.tiles == layer_tiles::own)
+        return saturate_or_zero(1 - detail::visibility_in<Format>(map, column, row, r, look_up));
+    const auto neighbour = [&](std::size_t at, float place, std::size_t count) {
+        layer_neighbour<float> n = layer_neighbour_at(place - (float(at) + 0.5f) * tile, tile);
+        const std::size_t other = n.towards < 0 ? at - 1 : at + 1;
+        return std::pair(other < count ? other : at, other < count ? n.weight : 0.0f);
+    };
+    const auto [beside, x_weight] = neighbour(column, r.x, map.columns());
+    const auto [beyond, y_weight] = neighbour(row, r.y, map.rows());
+    if (look_up.tiles == layer_tiles::random)
+        return saturate_or_zero(1 - detail::visibility_in<Format>(map, r.random_x < x_weight ? beside : column,
+                                                                  r.random_y < y_weight ? beyond : row, r, look_up));
+    float shadow = 0;
+    const auto add = [&](std::size_t at_column, std::size_t at_row, float weight) {
+        if (weight > 0) shadow += weight * (1 - detail::visibility_in<Format>(map, at_column, at_row, r, look_up));
+    };
+    add(column, row, (1 - x_weight) * (1 - y_weight));
+    add(beside, row, x_weight * (1 - y_weight));
+    add(column, beyond, (1 - x_weight) * y_weight);
+    add(beside, beyond, x_weight * y_weight);
+    return saturate_or_zero(shadow);
+}
+
+GNOMON_NAMESPACE_END
+#endif

@@ -1,0 +1,188 @@
+// Layered maps of any samples whatsoever: intensities from 0 to 1, lit where nothing is known, and shapes that do not fit.
+#include "layered_quads.hpp"
+#include "support/effort.hpp"
+
+#include <doctest/doctest.h>
+#include <rapidcheck.h>
+
+#include <limits>
+#include <stdexcept>
+
+using namespace gnomon;
+using namespace gnomon::test;
+
+namespace {
+
+constexpr float none = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+const std::array<layer_settings, 4> all_settings{{{}, {8, 16, 16}, {4, 4, 1, 4}, {5, 11, 2, 3, false, false}}};
+
+layer_receiver<float> any_receiver(hostile_source<float>& source, bit_source& bits)
+{
+    layer_receiver<float> r = still_receiver(float(bits.uniform(-2, 22)), float(bits.uniform(-2, 20)),
+                                             float(bits.uniform(-1, 1)), float(bits.uniform(0, 1)), bits);
+    const auto a = source.draw();
+    for (std::size_t k = 0; k < 3; ++k) // a few numbers of any kind
+        if (bits.chance(0.6))
+            std::memcpy(reinterpret_cast<char*>(&r) + bits.below(15) * sizeof(float), &a[k], sizeof(float));
+    return r;
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("any numbers give intensities from 0 to 1", Format, layer_variance_float, layer_variance_half,
+                   layer_moments4_float, layer_exponential_float)
+{
+    hostile_source<float> source(1);
+    bit_source bits(1);
+    const quad_scene scene{{0.8f, 0}, {{10, 9, 5, 4, -0.2f, 9, 3, 0.1f}}};
+    for (std::int64_t i = 0; i < effort(400); ++i) {
+        auto samples = sample_quads(scene, 20, 18, 3, bits);
+        const double share = bits.uniform(0, 1);
+        for (auto& s : samples.of)
+            if (bits.chance(share * share)) {
+                const auto a = source.draw(), b = source.draw();
+                const std::array<float, 8> any{a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]};
+                std::memcpy(reinterpret_cast<char*>(&s) + bits.below(8) * sizeof(float), &any, sizeof(float));
+                if (bits.chance(0.2)) std::memcpy(&s, &any, sizeof s);
+            }
+        const layers_of<Format> layers(samples, all_settings[bits.below(4)]);
+        for (int k = 0; k < 40; ++k) {
+            const layer_look_up look_up{layer_tiles(bits.below(3)), bits.chance(0.5)};
+            const float shadow = layers.intensity(any_receiver(source, bits), look_up);
+            REQUIRE((0 <= shadow && shadow <= 1));
+        }
+    }
+}
+
+TEST_CASE("samples that tell nothing shadow nothing")
+{
+    bit_source bits(2);
+    hostile_source<float> source(2);
+    const auto lit_everywhere = [&](const sampled_quads& samples) {
+        for (const layer_settings& settings : all_settings) {
+            const layers_of<layer_variance_float> layers(samples, settings);
+            for (int k = 0; k < 200; ++k) {
+                layer_receiver<float> r = still_receiver(float(bits.uniform(0, 20)), float(bits.uniform(0, 18)), 0.7f,
+                                                         float(bits.uniform(0, 1)), bits);
+                REQUIRE(layers.intensity(r, {layer_tiles(k % 3)}) == 0);
+            }
+        }
+    };
+    const auto every = [&](auto change) {
+        auto samples = sample_quads({{-0.5f, 0}, {}}, 20, 18, 2, bits);
+        for (auto& s : samples.of) change(s);
+        return samples;
+    };
+    lit_everywhere(every([](auto& s) { s.id = -1; }));
+    lit_everywhere(every([](auto& s) { s.z = none; }));
+    lit_everywhere(every([](auto& s) { s.d_z = none; }));
+    lit_everywhere(every([](auto& s) { s.x = inf, s.d_x = 3; })); // beside every window
+    lit_everywhere(every([](auto& s) { s.t = none, s.d_x = 3; }));
+    lit_everywhere(every([](auto& s) { s = {none, none, none, none, none, none, none, none}; }));
+}
+
+TEST_CASE("one sample is found from everywhere in its tile")
+{
+    bit_source bits(3);
+    auto samples = sample_quads({{0, 0}, {}}, 12, 12, 1, bits);
+    for (auto& s : samples.of) s.z = none;
+    samples.of[6 * 12 + 6] = {6.5f, 6.5f, 0.5f, -0.5f, 3, 0, 0, 1};
+    const layers_of<layer_variance_float> layers(samples, layer_settings{});
+    CHECK(layers.counts.layers == 9); // one in each window that holds the sample
+    for (int k = 0; k < 1000; ++k)    // holes take the next level that has a sample
+        REQUIRE(layers.intensity(still_receiver(float(bits.uniform(0, 12)), float(bits.uniform(0, 12)), 0.5f,
+                                                float(bits.uniform(0, 1)), bits)) == 1);
+}
+
+TEST_CASE("motions that cancel, or are far longer than the window, keep the shadow of what covers all")
+{
+    bit_source bits(4);
+    for (const float length : {1.0f, 30.0f, 4000.0f, 1e9f})
+        for (const bool cancel : {false, true}) {
+            auto samples = sample_quads({{-0.5f, 0}, {}}, 24, 24, 4, bits);
+            for (auto& s : samples.of) s.d_x = cancel && bits.chance(0.5) ? -length : length;
+            for (const layer_settings& settings : all_settings) {
+                const layers_of<layer_variance_float> layers(samples, settings);
+                for (int k = 0; k < 300; ++k) {
+                    const auto r = still_receiver(float(bits.uniform(0, 24)), float(bits.uniform(0, 24)), 0.5f,
+                                                  float(bits.uniform(0, 1)), bits);
+                    REQUIRE(layers.intensity(r, {layer_tiles(k % 3), k % 2 == 0}) > 0.9999f);
+                }
+            }
+        }
+}
+
+TEST_CASE("clusters are those of the kernels")
+{
+    CHECK(rc::check("cuts, and counts of layers", [](std::uint32_t seed) {
+        bit_source bits(seed);
+        hostile_source<float> source(seed);
+        auto samples = sample_quads({{0.8f, 0}, {}}, 9, 7, 3, bits);
+        const std::size_t depths = 1 + bits.below(7);
+        for (auto& s : samples.of) {
+            s.z = float(bits.below(depths)) / 7 - float(bits.uniform(0, 0.1)), s.d_z = float(bits.uniform(-0.1, 0.1));
+            if (bits.chance(0.1)) s.id = -1;
+            if (bits.chance(0.05)) s.z = source.draw()[0];
+        }
+        const layer_settings settings{9, 9, 4, 1 + bits.below(4)};
+        std::array<tile_clusters, 1> clusters;
+        layer_cluster(samples, settings, clusters, {0, 1});
+        layer_window<float> window = layer_window_begin(layer_middle_depth(samples.of[0]));
+        for (const auto& s : samples.of) window = layer_window_add(window, layer_middle_depth(s));
+        std::array<float, 64> occupied{};
+        for (const auto& s : samples.of) {
+            const float bin = layer_bin_of(layer_middle_depth(s), window);
+            if (bin >= 0) occupied[std::size_t(bin)] = 1;
+        }
+        layer_runs<float> runs = layer_cuts_begin(window);
+        for (const float o : occupied) runs = layer_cuts_add(runs, o);
+        const layer_cuts<float> cuts = layer_cuts_end(runs, float(settings.layers));
+        RC_ASSERT(std::memcmp(&cuts, &clusters[0].cuts, sizeof cuts) == 0);
+        float most = -1;
+        for (const auto& s : samples.of) {
+            const float at = layer_of(layer_middle_depth(s), cuts);
+            if (at < 4) most = std::max(most, at);
+        }
+        RC_ASSERT(clusters[0].layers == std::uint32_t(most + 1));
+    }));
+}
+
+#if defined(__cpp_exceptions)
+TEST_CASE("shapes that do not fit are refused before anything is written")
+{
+    bit_source bits(5);
+    using format = layer_variance_float;
+    const auto samples = sample_quads({{0.8f, 0}, {{9, 9, 4, 4, 0, 3, 0, 0}}}, 20, 18, 2, bits);
+    layers_of<format> layers(samples, layer_settings{});
+    const auto before = layers.texels;
+    const auto refused = [&](auto change) {
+        auto map = layers.map();
+        row_range rows{0, 5};
+        std::span<const tile_clusters> clusters = layers.clusters;
+        sample_map<float> from = samples;
+        change(map, rows, clusters, from);
+        CHECK_THROWS_AS(layer_accumulate<format>(from, clusters, map, rows), std::invalid_argument);
+        CHECK(layers.texels == before);
+    };
+    refused([](auto& map, auto&, auto&, auto&) { map.width = 24; });
+    refused([](auto& map, auto&, auto&, auto&) { map.settings.texels = 6; });
+    refused([](auto& map, auto&, auto&, auto&) { map.settings.guard = 3; });
+    refused([](auto& map, auto&, auto&, auto&) { map.settings.guard = 13; });
+    refused([](auto& map, auto&, auto&, auto&) { map.settings.layers = 5; });
+    refused([](auto& map, auto&, auto&, auto&) { map.first = map.first.first(7); });
+    refused([](auto& map, auto&, auto&, auto&) { map.grids = map.grids.first(1); });
+    refused([](auto& map, auto&, auto&, auto&) { map.texels = map.texels.first(100); });
+    refused([](auto&, auto& rows, auto&, auto&) { rows.last = 6; });
+    refused([](auto&, auto& rows, auto&, auto&) { rows.first = 6; });
+    refused([](auto&, auto&, auto& clusters, auto&) { clusters = clusters.first(4); });
+    refused([](auto&, auto&, auto&, auto& from) { from.samples = 3; });
+    refused([](auto&, auto&, auto&, auto& from) { from.of = from.of.first(5); });
+    auto others = layers.clusters;
+    others[12].layers = 4;
+    refused([&](auto&, auto&, auto& clusters, auto&) { clusters = others; });
+    CHECK_THROWS_AS(layer_mips<format>(layers.map(), {0, 6}), std::invalid_argument);
+    CHECK_THROWS_AS(layer_cluster(samples, layer_settings{}, layers.clusters, {0, 6}), std::invalid_argument);
+    CHECK_THROWS_AS(layer_allocate(layer_settings{}, layers.clusters, 20, 18, layers.blocks, layers.blocks),
+                    std::invalid_argument);
+}
+#endif
