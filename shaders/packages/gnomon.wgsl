@@ -4808,7 +4808,7 @@ fn stratified_time(stratum: f32, count: f32, jitter: f32) -> f32
 }
 
 /// The stratum of `count` that holds time t: the whole number below t count, in [0, count - 1].
-/// Domain: t is clamped to [0, 1]; count is a whole number in [1, 65536].
+/// Domain: t is clamped to [0, 1]; count is a whole number in [1, 65536]; elsewhere a number in [0, 65535].
 /// NaN: 0.
 /// Source: Andersson 2015, Sec. 3
 fn slice_of(t: f32, count: f32) -> f32

@@ -569,7 +569,7 @@ GNOMON_INLINE constexpr Real stratified_time(Real stratum, Real count, Real jitt
 }
 
 /// The stratum of `count` that holds time t: the whole number below t count, in [0, count - 1].
-/// Domain: t is clamped to [0, 1]; count is a whole number in [1, 65536].
+/// Domain: t is clamped to [0, 1]; count is a whole number in [1, 65536]; elsewhere a number in [0, 65535].
 /// NaN: 0.
 /// Source: Andersson 2015, Sec. 3
 template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real slice_of(Real t, Real count)

@@ -174,7 +174,7 @@ float stratified_time(float stratum, float count, float jitter)
 }
 
 /// The stratum of `count` that holds time t: the whole number below t count, in [0, count - 1].
-/// Domain: t is clamped to [0, 1]; count is a whole number in [1, 65536].
+/// Domain: t is clamped to [0, 1]; count is a whole number in [1, 65536]; elsewhere a number in [0, 65535].
 /// NaN: 0.
 /// Source: Andersson 2015, Sec. 3
 float slice_of(float t, float count)

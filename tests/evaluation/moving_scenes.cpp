@@ -57,7 +57,8 @@ TEST_CASE("each scene in motion is whole: finite corners, valid triangles, a pla
             }));
         }
         CHECK(!stage.interests.empty());
-        for (const point_of_interest& place : stage.interests) CHECK(within_view(project(stage.eye.open, place.position)));
+        for (const point_of_interest& place : stage.interests)
+            CHECK(within_view(project(stage.eye.open, place.position)));
     }
     CHECK(scenes().size() >= 11);
 }

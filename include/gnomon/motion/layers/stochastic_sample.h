@@ -45,7 +45,7 @@ GNOMON_KERNEL Real stratified_time(Real stratum, Real count, Real jitter)
 }
 
 /// The stratum of `count` that holds time t: the whole number below t count, in [0, count - 1].
-/// Domain: t is clamped to [0, 1]; count is a whole number in [1, 65536].
+/// Domain: t is clamped to [0, 1]; count is a whole number in [1, 65536]; elsewhere a number in [0, 65535].
 /// NaN: 0.
 /// Source: Andersson 2015, Sec. 3
 GNOMON_KERNEL Real slice_of(Real t, Real count)
