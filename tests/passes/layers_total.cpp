@@ -147,6 +147,29 @@ TEST_CASE("clusters are those of the kernels")
     }));
 }
 
+TEST_CASE("grids are those of the kernels, but for the order of sums")
+{
+    CHECK(rc::check("motion, spread and depths", [](std::uint32_t seed) {
+        bit_source bits(seed);
+        const std::size_t each = 1 + bits.below(20); // windows of one batch, and of several
+        auto samples = sample_quads({{0, 0}, {}}, 9, 9, each, bits);
+        for (auto& s : samples.of) {
+            s.d_x = float(bits.uniform(-9, 40)), s.d_y = float(bits.uniform(-9, 9));
+            s.z = float(bits.uniform(-0.5, 0.5)), s.d_z = float(bits.uniform(-0.2, 0.3));
+            if (bits.chance(0.1)) s.id = -1;
+            if (bits.chance(0.05)) s.d_y = none;
+        }
+        const layer_settings settings{9, 9, 4, 1};
+        const layers_of<layer_variance_float> layers(samples, settings);
+        layer_motion_sums<float> sums = layer_motion_begin(samples.of[0]);
+        for (const auto& s : samples.of) sums = layer_motion_add(sums, s, layer_middle_depth(s));
+        const layer_grid<float> expected = layer_grid_make(layer_motion_end(sums), 9.0f, 4.0f);
+        const auto a = gnomon_bit_cast<std::array<float, 11>>(expected);
+        const auto b = gnomon_bit_cast<std::array<float, 11>>(layers.grids.at(0));
+        for (std::size_t k = 0; k < a.size(); ++k) RC_ASSERT(std::abs(a[k] - b[k]) < 2e-4f * (1 + std::abs(a[k])));
+    }));
+}
+
 #if defined(__cpp_exceptions)
 TEST_CASE("shapes that do not fit are refused before anything is written")
 {

@@ -11,33 +11,76 @@ GNOMON_NAMESPACE_BEGIN
 namespace detail {
 
 template <layer_format Format>
-using square_sums = std::array<format_channels<Format>, layer_most_texels * layer_most_texels>;
+using square_sums = std::array<format_channels<Format>, layer_most_texels * layer_most_texels + 1>;
 
-/// The grids of a tile's layers, from the motions of its samples.
-inline void make_grids(const sample_map<float>& samples, const layer_settings& settings, const tile_window& w,
-                       const tile_clusters& tile, std::span<layer_grid<float>> grids)
-{
-    std::array<layer_motion_sums<float>, 4> motions{};
-    std::array<bool, 4> begun{};
-    for_each_chunk(samples, w, [&](const sample_chunk& chunk) {
-        for (std::size_t n = 0; n < chunk.of.size(); ++n) {
-            const stochastic_sample<float>& s = chunk.of[n];
-            const float middle = chunk.middle[n], at = layer_of(middle, tile.cuts);
-            if (!(0 <= at && at < float(grids.size()))) continue;
-            const auto k = std::size_t(at);
-            if (!begun[k]) motions[k] = layer_motion_begin(s);
-            begun[k] = true;
-            motions[k] = layer_motion_add(motions[k], s, middle);
+/// The motions of one layer in lanes, as of layer_motion_sums.
+struct motion_lanes {
+    static constexpr std::size_t count = sample_batch::lanes;
+    using lanes = std::array<float, count>;
+    layer_motion_sums<float> sums; // first
+    lanes x{}, y{}, z{}, square{}, square_z{}, known{}, least, greatest, least_d, greatest_d;
+
+    explicit motion_lanes(const stochastic_sample<float>& first) : sums(layer_motion_begin(first))
+    {
+        least.fill(sums.least), greatest.fill(sums.greatest);
+        least_d.fill(sums.least_d), greatest_d.fill(sums.greatest_d);
+    }
+    /// Add samples n to n + count - 1 of a batch that are in the layer, as of layer_motion_add.
+    void add(const sample_batch& s, std::size_t n, const layer_cuts<float>& cuts, float layer)
+    {
+        const float limit = float(texel_limit);
+        for (std::size_t k = 0; k < count; ++k) {
+            const float middle = s.middle[n + k], d_x = s.d_x[n + k], d_y = s.d_y[n + k], d_z = s.d_z[n + k];
+            const unsigned moves = unsigned(gnomon_abs(d_x) <= limit) & unsigned(gnomon_abs(d_y) <= limit) &
+                                   unsigned(gnomon_abs(d_z) <= limit);
+            const bool counts = (moves & unsigned(layer_of(middle, cuts) == layer)) != 0;
+            const float dx = counts ? d_x - sums.first_x : 0;
+            const float dy = counts ? d_y - sums.first_y : 0;
+            const float dz = counts ? d_z - sums.first_z : 0;
+            x[k] += dx, y[k] += dy, z[k] += dz;
+            square[k] += dx * dx + dy * dy, square_z[k] += dz * dz;
+            known[k] += counts ? 1.0f : 0.0f;
+            const float near_z = counts ? middle : least[k], far_z = counts ? middle : greatest[k];
+            const float near_d = counts ? d_z : least_d[k], far_d = counts ? d_z : greatest_d[k];
+            least[k] = near_z < least[k] ? near_z : least[k], greatest[k] = greatest[k] < far_z ? far_z : greatest[k];
+            least_d[k] = near_d < least_d[k] ? near_d : least_d[k];
+            greatest_d[k] = greatest_d[k] < far_d ? far_d : greatest_d[k];
         }
+    }
+    layer_motion<float> motion() const
+    {
+        layer_motion_sums<float> all = sums;
+        for (std::size_t k = 0; k < count; ++k) {
+            all.x += x[k], all.y += y[k], all.z += z[k], all.square += square[k], all.square_z += square_z[k];
+            all.count += known[k];
+            all.least = (std::min)(all.least, least[k]), all.greatest = (std::max)(all.greatest, greatest[k]);
+            all.least_d = (std::min)(all.least_d, least_d[k]);
+            all.greatest_d = (std::max)(all.greatest_d, greatest_d[k]);
+        }
+        return layer_motion_end(all);
+    }
+};
+
+/// The motion of one layer of a tile.
+inline layer_motion<float> motion_of(window_samples& samples, const layer_cuts<float>& cuts, float layer)
+{
+    stochastic_sample<float> first{};
+    bool found = false;
+    samples.for_each_batch([&](const sample_batch& s) {
+        for (std::size_t k = 0; k < s.count && !found; ++k)
+            if (layer_of(s.middle[k], cuts) == layer)
+                found = true, first.d_x = s.d_x[k], first.d_y = s.d_y[k], first.d_z = s.d_z[k];
     });
-    for (std::size_t k = 0; k < grids.size(); ++k)
-        grids[k] = layer_grid_make(layer_motion_end(motions[k]), float(settings.guard), float(settings.texels));
+    motion_lanes lanes(first);
+    samples.for_each_batch([&](const sample_batch& s) {
+        for (std::size_t n = 0; n < s.rounded(); n += lanes.count) lanes.add(s, n, cuts, layer);
+    });
+    return lanes.motion();
 }
 
 /// Divide sums by the share of the shutter interval in which the samples of a texel are in the window, at least 1/8.
 template <layer_format Format>
-void even_out(square_sums<Format>& sums, std::size_t side, const layer_grid<float>& g, const tile_window& w, float x,
-              float y)
+void even_out(square_sums<Format>& sums, std::size_t side, const layer_grid<float>& g, const tile_window& w)
 {
     const float reach = 0.5f * (g.motion + 1 / g.scale_u);
     for (std::size_t j = 0; j < side; ++j) {
@@ -51,8 +94,8 @@ void even_out(square_sums<Format>& sums, std::size_t side, const layer_grid<floa
             const float a = (low - place) / axis, b = (high - place) / axis;
             from = std::fmax(from, std::fmin(a, b)), to = std::fmin(to, std::fmax(a, b));
         };
-        clip(g.axis_x, -g.axis_y * across, float(w.x0) - x, float(w.x1) - x);
-        clip(g.axis_y, g.axis_x * across, float(w.y0) - y, float(w.y1) - y);
+        clip(g.axis_x, -g.axis_y * across, float(w.x0) - w.x, float(w.x1) - w.x);
+        clip(g.axis_y, g.axis_x * across, float(w.y0) - w.y, float(w.y1) - w.y);
         for (std::size_t i = 0; i < side; ++i) {
             const float along = (float(i) + 0.5f - g.middle) / g.scale_u;
             const float seen = std::fmin(to, along + reach) - std::fmax(from, along - reach);
@@ -89,25 +132,33 @@ template <layer_format Format> void blur_across(square_sums<Format>& sums, std::
 
 /// Fill the largest level of one layer.
 template <layer_format Format>
-void accumulate_layer(const sample_map<float>& samples, const layer_settings& settings, const tile_window& w, float x,
-                      float y, const tile_clusters& tile, float layer, const layer_grid<float>& grid,
+void accumulate_layer(window_samples& samples, const layer_settings& settings, const tile_window& w,
+                      const layer_cuts<float>& cuts, float layer, const layer_grid<float>& grid,
                       format_texel<Format>* texels)
 {
-    square_sums<Format> sums;
     const std::size_t side = settings.texels;
-    std::fill_n(sums.begin(), side * side, format_channels<Format>{});
-    for_each_chunk(samples, w, [&](const sample_chunk& chunk) {
-        for (std::size_t n = 0; n < chunk.of.size(); ++n) {
-            const stochastic_sample<float>& s = chunk.of[n];
-            const layer_share<float> share = layer_share_of(layer_of(chunk.middle[n], tile.cuts), layer);
-            if (!(share.weight > 0)) continue;
-            const layer_place<float> place = layer_grid_place(grid, s.x - x, s.y - y, s.t);
-            if (!(layer_place_is_inside(grid, place) > 0)) continue;
-            format_channels<Format>& to = sums[std::size_t(place.v) * side + std::size_t(place.u)];
-            to = Format::add(to, layer_grid_own_depth(grid, s.z, s.t), share);
+    square_sums<Format> sums;
+    std::fill_n(sums.begin(), side * side + 1, format_channels<Format>{}); // the last for samples that do not count
+    samples.for_each_batch([&](const sample_batch& s) {
+        std::array<std::int32_t, sample_batch::most> texel;
+        std::array<float, sample_batch::most> depth, opacity;
+        for (std::size_t k = 0; k < s.rounded(); ++k) {
+            const layer_place<float> place = layer_grid_place(grid, s.x[k], s.y[k], s.t[k]);
+            const float at = layer_of(s.middle[k], cuts), extent = float(side);
+            const unsigned u_inside = unsigned(0 <= place.u) & unsigned(place.u < extent);
+            const unsigned v_inside = unsigned(0 <= place.v) & unsigned(place.v < extent);
+            const bool counts = (u_inside & v_inside & unsigned(layer <= at)) != 0;
+            const auto u = std::int32_t(counts ? place.u : 0), v = std::int32_t(counts ? place.v : extent);
+            texel[k] = v * std::int32_t(side) + u;
+            depth[k] = layer_grid_own_depth(grid, s.z[k], s.t[k]);
+            opacity[k] = at == layer ? 1.0f : 0.0f;
+        }
+        for (std::size_t k = 0; k < s.count; ++k) {
+            format_channels<Format>& to = sums[std::size_t(texel[k])];
+            to = Format::add(to, depth[k], {opacity[k], 1});
         }
     });
-    if (settings.even) even_out<Format>(sums, side, grid, w, x, y);
+    if (settings.even) even_out<Format>(sums, side, grid, w);
     if (settings.smooth_streaks) {
         const float radius = layer_tent_radius(grid, float(settings.guard), float(settings.tile));
         if (radius > 1) blur_across<Format>(sums, side, radius);
@@ -172,19 +223,22 @@ void layer_accumulate(const sample_map<float>& samples, std::span<const tile_clu
         const std::size_t layers = is_plain(clusters[i]) ? 0 : clusters[i].layers;
         GNOMON_EXPECTS(count == layers, mismatch(pass, "layers of a tile in map", count, "in clusters", layers));
     }
-    const std::size_t each = layer_texels(map.settings), tile = map.settings.tile;
-    for (std::size_t row = rows.first; row < rows.last; ++row)
-        for (std::size_t column = 0; column < map.columns(); ++column) {
-            const std::size_t i = row * map.columns() + column, first = map.first[i], count = map.first[i + 1] - first;
-            if (count == 0) continue;
-            const detail::tile_window w = detail::window_around(samples, map.settings, column, row);
-            const auto grids = map.grids.subspan(first, count);
-            detail::make_grids(samples, map.settings, w, clusters[i], grids);
-            const auto centre = [&](std::size_t at) { return float(at * tile) + 0.5f * float(tile); };
-            for (std::size_t k = 0; k < count; ++k)
-                detail::accumulate_layer<Format>(samples, map.settings, w, centre(column), centre(row), clusters[i],
-                                                 float(k), grids[k], map.texels.data() + (first + k) * each);
+    const std::size_t each = layer_texels(map.settings);
+    for (std::size_t i = rows.first * map.columns(); i < rows.last * map.columns(); ++i) {
+        const std::size_t first = map.first[i], count = map.first[i + 1] - first;
+        if (count == 0) continue;
+        const detail::tile_window w =
+            detail::window_around(samples, map.settings, i % map.columns(), i / map.columns());
+        detail::window_samples in(samples, w);
+        for (std::size_t k = 0; k < count; ++k) {
+            const layer_cuts<float>& cuts = clusters[i].cuts;
+            const layer_grid<float> grid = layer_grid_make(detail::motion_of(in, cuts, float(k)),
+                                                           float(map.settings.guard), float(map.settings.texels));
+            map.grids[first + k] = grid;
+            detail::accumulate_layer<Format>(in, map.settings, w, cuts, float(k), grid,
+                                             map.texels.data() + (first + k) * each);
         }
+    }
     detail::for_each_block(map, rows, [&](std::size_t x, std::size_t y, format_texel<Format>* texels) {
         detail::accumulate_block<Format>(samples, x, y, texels);
     });

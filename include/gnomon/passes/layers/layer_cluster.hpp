@@ -3,94 +3,56 @@
 #ifndef GNOMON_PASSES_LAYER_CLUSTER_HPP
 #define GNOMON_PASSES_LAYER_CLUSTER_HPP
 
-#include "layer_map.hpp"
+#include "layer_window.hpp"
 
 GNOMON_NAMESPACE_BEGIN
 
 namespace detail {
 
-/// The texels of the light's map in the window around a tile: columns x0 to x1 - 1, rows y0 to y1 - 1.
-struct tile_window {
-    std::size_t x0, x1, y0, y1;
+/// The least and the greatest middle depth in a window, with the bits of layer_window_add, and whether anything moves.
+struct window_extremes {
+    layer_window<float> depths;
+    bool moves;
 };
 
-inline tile_window window_around(const sample_map<float>& samples, const layer_settings& s, std::size_t column,
-                                 std::size_t row)
+inline window_extremes extremes_of(window_samples& samples)
 {
-    const std::size_t margin = (s.guard - s.tile) / 2;
-    const auto from = [&](std::size_t tile) { return tile * s.tile - (std::min)(tile * s.tile, margin); };
-    const auto to = [&](std::size_t tile, std::size_t extent) {
-        return (std::min)((tile + 1) * s.tile + margin, extent);
-    };
-    return {from(column), to(column, samples.width), from(row), to(row, samples.height)};
-}
-
-/// Up to 64 samples of a window, with their middle depths; those of the background fill the rest.
-struct sample_chunk {
-    static constexpr std::size_t most = 64, lanes = 16;
-    std::span<const stochastic_sample<float>> of;
-    std::array<float, most> middle;
-
-    explicit sample_chunk(std::span<const stochastic_sample<float>> samples) : of(samples)
-    {
-        for (std::size_t k = 0; k < of.size(); ++k) middle[k] = layer_middle_depth(of[k]);
-        for (std::size_t k = of.size(); k < rounded(); ++k) middle[k] = float(layer_background_depth);
-    }
-    std::size_t rounded() const { return (of.size() + lanes - 1) / lanes * lanes; }
-};
-
-/// Call f(sample_chunk) for all samples of a window.
-void for_each_chunk(const sample_map<float>& samples, const tile_window& w, const auto& f)
-{
-    for (std::size_t y = w.y0; y < w.y1; ++y) {
-        auto row = samples.of.subspan((y * samples.width + w.x0) * samples.samples, (w.x1 - w.x0) * samples.samples);
-        for (; row.size() > sample_chunk::most; row = row.subspan(sample_chunk::most))
-            f(sample_chunk(row.first(sample_chunk::most)));
-        f(sample_chunk(row));
-    }
-}
-
-/// The least and the greatest middle depth in a window, with the bits of layer_window_add.
-inline layer_window<float> window_of(const sample_map<float>& samples, const tile_window& w, bool& moves)
-{
-    constexpr std::size_t lanes = sample_chunk::lanes;
+    constexpr std::size_t lanes = sample_batch::lanes;
     const layer_window<float> none = layer_window_begin(float(layer_background_depth));
     std::array<float, lanes> least, greatest;
     least.fill(none.least), greatest.fill(none.greatest);
-    unsigned moving = 0;
-    for_each_chunk(samples, w, [&](const sample_chunk& chunk) {
-        for (std::size_t first = 0; first < chunk.rounded(); first += lanes)
+    unsigned moves = 0;
+    samples.for_each_batch([&](const sample_batch& s) {
+        for (std::size_t first = 0; first < s.rounded(); first += lanes)
             for (std::size_t k = 0; k < lanes; ++k) {
-                const float z = chunk.middle[first + k];
+                const float z = s.middle[first + k];
                 const bool surface = gnomon_abs(z) <= float(layer_depth_limit);
                 least[k] = surface && z < least[k] ? z : least[k];
                 greatest[k] = surface && greatest[k] < z ? z : greatest[k];
             }
-        for (const stochastic_sample<float>& s : chunk.of)
-            moving |= unsigned(!(s.d_x == 0)) | unsigned(!(s.d_y == 0)) | unsigned(!(s.d_z == 0));
+        for (std::size_t k = 0; k < s.rounded(); ++k)
+            moves |= unsigned(!(s.d_x[k] == 0)) | unsigned(!(s.d_y[k] == 0)) | unsigned(!(s.d_z[k] == 0));
     });
-    moves = moving != 0;
-    layer_window<float> window = none;
+    layer_window<float> depths = none;
     for (std::size_t k = 0; k < lanes; ++k)
-        window = {(std::min)(window.least, least[k]), (std::max)(window.greatest, greatest[k])};
-    return window;
+        depths = {(std::min)(depths.least, least[k]), (std::max)(depths.greatest, greatest[k])};
+    return {depths, moves != 0};
 }
 
 /// The bins of a window, as bits, that hold a sample.
-inline std::uint64_t occupied_bins(const sample_map<float>& samples, const tile_window& w,
-                                   const layer_window<float>& window)
+inline std::uint64_t occupied_bins(window_samples& samples, const layer_window<float>& window)
 {
-    std::array<std::uint64_t, sample_chunk::lanes> bits{};
+    std::array<std::uint64_t, sample_batch::lanes> bits{};
     const float extent = window.greatest - window.least;
-    for_each_chunk(samples, w, [&](const sample_chunk& chunk) {
-        std::array<std::int32_t, sample_chunk::most> bins; // as of layer_bin_of
-        for (std::size_t k = 0; k < chunk.rounded(); ++k) {
-            const float z = chunk.middle[k];
+    samples.for_each_batch([&](const sample_batch& s) {
+        std::array<std::int32_t, sample_batch::most> bins; // as of layer_bin_of
+        for (std::size_t k = 0; k < s.rounded(); ++k) {
+            const float z = s.middle[k];
             const bool surface = gnomon_abs(z) <= float(layer_depth_limit);
             const auto bin = std::int32_t(64 * ((surface ? z - window.least : 0) / extent));
             bins[k] = surface ? (std::min)(bin, 63) : 64;
         }
-        for (std::size_t first = 0; first < chunk.rounded(); first += bits.size())
+        for (std::size_t first = 0; first < s.rounded(); first += bits.size())
             for (std::size_t k = 0; k < bits.size(); ++k) {
                 const std::int32_t bin = bins[first + k];
                 bits[k] |= std::uint64_t(bin < 64) << (bin & 63);
@@ -119,13 +81,12 @@ inline layer_cuts<float> cuts_of(const layer_window<float>& window, std::uint64_
 /// The cuts of a window of one layer.
 inline layer_cuts<float> no_cuts() { return cuts_of(layer_window_begin(0.0f), 0, 1); }
 
-inline tile_clusters clusters_of(const sample_map<float>& samples, const layer_settings& settings, const tile_window& w)
+inline tile_clusters clusters_of(window_samples samples, std::size_t layers)
 {
-    bool moves = false;
-    const layer_window<float> window = window_of(samples, w, moves);
+    const auto [window, moves] = extremes_of(samples);
     tile_clusters tile{no_cuts(), window.least <= window.greatest, !moves};
-    if (settings.layers == 1 || !(window.greatest - window.least >= float(layer_least_extent))) return tile;
-    tile.cuts = cuts_of(window, occupied_bins(samples, w, window), settings.layers);
+    if (layers == 1 || !(window.greatest - window.least >= float(layer_least_extent))) return tile;
+    tile.cuts = cuts_of(window, occupied_bins(samples, window), layers);
     const auto cut = [](float c) { return c < float(layer_no_cut) ? 1u : 0u; };
     tile.layers = 1 + cut(tile.cuts.c0) + cut(tile.cuts.c1) + cut(tile.cuts.c2);
     return tile;
@@ -156,7 +117,7 @@ inline void layer_cluster(const sample_map<float>& samples, const layer_settings
     for (std::size_t row = rows.first; row < rows.last; ++row)
         for (std::size_t column = 0; column < across; ++column)
             clusters[row * across + column] =
-                detail::clusters_of(samples, settings, detail::window_around(samples, settings, column, row));
+                detail::clusters_of({samples, detail::window_around(samples, settings, column, row)}, settings.layers);
 }
 
 /// True if the texels of a tile are those of the plain map: one layer in which nothing moves.
