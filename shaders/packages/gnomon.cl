@@ -5854,6 +5854,457 @@ static inline float layer_exponential_visibility(gnomon_layer_exponential_sums s
 
 #endif
 
+// motion/receiver/receiver_path.h -------------------------------------------------------------------------------------
+// The path of a receiver through the light's clip space while a pixel sees it, and its shadow by samples in time
+// (Palmer 2011, 2.3.2 and 4.1).
+//
+// The receiver's point and the light move along straight lines, and the light does not turn, so x, y and w are linear
+// in time. The point on the map, (x / w, y / w), moves along a straight line, too; w is 1 for an orthographic light.
+// Depth is linear in view distance, hence linear in time: depth and time are those of a range.
+//
+//     n = receiver_sample_count(path, most);
+//     state = sampled_receiver_begin(n);
+//     for k from 0 to n - 1: t = receiver_sample_time(path, k, n, jitter); in the texel at receiver_path_at(path, t),
+//     the largest range_intensity(range, t, range_depth(path.depth, t), path.depth.id, bias) of all ranges, then
+//         state = sampled_receiver_add(state, largest);     or the mean of several texels by their weights
+//     intensity = sampled_receiver_end(state);
+#ifndef GNOMON_MOTION_RECEIVER_RECEIVER_PATH_H
+#define GNOMON_MOTION_RECEIVER_RECEIVER_PATH_H
+
+/// Times, depths and id as a range; homogeneous positions at the times t0 and t1, where x / w and y / w are in texels,
+/// texel centres at +0.5.
+typedef struct receiver_path receiver_path;
+struct receiver_path
+{
+    depth_time_range depth;
+    float x0, y0, w0, x1, y1, w1;
+};
+
+/// A position in texels, texel centres at +0.5.
+typedef struct gnomon_texel_position gnomon_texel_position;
+struct gnomon_texel_position { float x, y; };
+
+__constant float gnomon_receiver_sample_limit = 1048576.0f; // 2^20
+
+/// Position on the map at time t, held constant before the path begins and after it ends.
+/// Domain: w > 0 at both ends.
+/// Error: 8 2^-p times the largest |x| where w is 1; in perspective that times (1 + the larger w over the smaller w).
+static inline gnomon_texel_position receiver_path_at(receiver_path path, float t)
+{
+    float passed = range_elapsed(path.depth, t);
+    float left = 1.0f - passed;
+    float w = path.w0 * left + path.w1 * passed;
+    gnomon_texel_position r;
+    r.x = (path.x0 * left + path.x1 * passed) / w;
+    r.y = (path.y0 * left + path.y1 * passed) / w;
+    return r;
+}
+
+/// The path shifted by dx and dy texels on the map.
+static inline receiver_path receiver_path_shift(receiver_path path, float dx, float dy)
+{
+    path.x0 = path.x0 + dx * path.w0;
+    path.y0 = path.y0 + dy * path.w0;
+    path.x1 = path.x1 + dx * path.w1;
+    path.y1 = path.y1 + dy * path.w1;
+    return path;
+}
+
+/// The part of the path between the times begin and end, such as those at which the receiver faces the light
+/// (facing.h).
+static inline receiver_path receiver_path_clip(receiver_path path, float begin, float end)
+{
+    float passed0 = range_elapsed(path.depth, begin);
+    float passed1 = range_elapsed(path.depth, end);
+    float left0 = 1.0f - passed0;
+    float left1 = 1.0f - passed1;
+    receiver_path c;
+    c.depth = range_clip(path.depth, begin, end);
+    c.x0 = path.x0 * left0 + path.x1 * passed0;
+    c.y0 = path.y0 * left0 + path.y1 * passed0;
+    c.w0 = path.w0 * left0 + path.w1 * passed0;
+    c.x1 = path.x0 * left1 + path.x1 * passed1;
+    c.y1 = path.y0 * left1 + path.y1 * passed1;
+    c.w1 = path.w0 * left1 + path.w1 * passed1;
+    return c;
+}
+
+/// Length of the path on the map, in texels.
+/// Domain: w > 0 at both ends.
+/// Error: 4 2^-p times the largest |x| + |y|.
+static inline float receiver_path_length(receiver_path path)
+{
+    float dx = path.x1 / path.w1 - path.x0 / path.w0;
+    float dy = path.y1 / path.w1 - path.y0 / path.w0;
+    return gnomon_sqrt(dx * dx + dy * dy);
+}
+
+/// Number of samples for a path: max(2 length, 5), rounded up, at most `most`. A whole number.
+/// Domain: most is a whole number from 5 to 2^20, and is clamped to that.
+/// NaN: a NaN counts as 5.
+/// Source: Palmer 2011, Sec. 4.1
+static inline float receiver_sample_count(receiver_path path, float most)
+{
+    float wanted = gnomon_max(2.0f * receiver_path_length(path), 5.0f); // a NaN becomes 5
+    float limit = gnomon_min(gnomon_max(most, 5.0f), gnomon_receiver_sample_limit);
+    float count = gnomon_min(wanted, limit);
+    float whole = nearest_integer(count);
+    return whole + gnomon_select(whole < count, 1.0f, 0.0f);
+}
+
+/// Time of sample k of n, k from 0, stratified: at `jitter`, in [0, 1), of the k-th of n equal parts of the time. A
+/// jitter of 0.5 is the middle of the part.
+static inline float receiver_sample_time(receiver_path path, float k, float n, float jitter)
+{
+    float passed = saturate_or_zero((k + jitter) / n);
+    return path.depth.t0 * (1.0f - passed) + path.depth.t1 * passed;
+}
+
+/// Number of samples, and the sum of their shadow intensities so far.
+typedef struct gnomon_sampled_receiver gnomon_sampled_receiver;
+struct gnomon_sampled_receiver { float samples, shadowed; };
+
+/// Begin with the number of samples to come.
+static inline gnomon_sampled_receiver sampled_receiver_begin(float samples)
+{
+    gnomon_sampled_receiver r;
+    r.samples = samples;
+    r.shadowed = 0.0f;
+    return r;
+}
+
+/// Add one sample by its shadow intensity in [0, 1].
+/// NaN: the sample is lit.
+static inline gnomon_sampled_receiver sampled_receiver_add(gnomon_sampled_receiver state, float intensity)
+{
+    state.shadowed = state.shadowed + saturate_or_zero(intensity);
+    return state;
+}
+
+/// Shadow intensity in [0, 1]: the mean of all samples.
+/// Error: that of sampling: up to 1 / n for each time at which the shadow comes or goes, half of that with samples in
+/// the middle.
+/// Source: Palmer 2011, Sec. 4.1
+static inline float sampled_receiver_end(gnomon_sampled_receiver state)
+{
+    return saturate_or_zero(state.shadowed / state.samples);
+}
+
+#endif
+
+// motion/receiver/shutter.h -------------------------------------------------------------------------------------------
+// Shutter responses: the share of the exposure's light that a shutter has let in by time t. The light that a receiver
+// loses between two times is the difference of the shares (Palmer 2011, (2.1), with the response w(t) integrated in
+// advance).
+//
+// Three responses: a box, which opens and closes at once; a tent, which is wide open halfway; and eight equal parts of
+// the exposure with any weights, such as those of a camera's measured shutter.
+//
+// The ends of an exposure may be given in either order. An exposure of no length shows a single time (see
+// gnomon_shutter_exposure_make, which receivers begin with).
+#ifndef GNOMON_MOTION_RECEIVER_SHUTTER_H
+#define GNOMON_MOTION_RECEIVER_SHUTTER_H
+
+/// Fraction of the exposure's light in each eighth, in order; the sum is 1 (see shutter_weights_make).
+typedef struct shutter_weights shutter_weights;
+struct shutter_weights { float w0, w1, w2, w3, w4, w5, w6, w7; };
+
+/// Times at which a shutter opens and closes.
+typedef struct shutter_exposure shutter_exposure;
+struct shutter_exposure { float begin, end; };
+
+__constant float gnomon_shutter_weight_limit = 1152921504606846976.0f; // 2^60: eight of them have a sum in float
+
+/// The exposure between two times, given in either order. An exposure shorter than 2^-20 lasts 2^-20 from its begin on,
+/// or until shutter close if it would end later: a range that covers that time shadows the receiver entirely.
+/// NaN: a NaN stays NaN.
+static inline shutter_exposure gnomon_shutter_exposure_make(float a, float b)
+{
+    float least = 0.00000095367431640625f;
+    bool swapped = b < a;
+    float open = gnomon_select(swapped, b, a);
+    float close = gnomon_select(swapped, a, b);
+    bool brief = close - open < least;
+    float early = gnomon_select(open <= 1.0f, gnomon_min(open, 1.0f - least), open);
+    shutter_exposure r;
+    r.begin = gnomon_select(brief, early, open);
+    r.end = gnomon_select(brief, early + least, close);
+    return r;
+}
+
+/// Time at which the given share of the time from begin to end has passed. The share must lie between 0 and 1,
+/// exclusively: llvmpipe makes 0 of a product with 0, of NaN * 0, too.
+/// Domain: 0 < share < 1.
+/// Error: 3 2^-p max(|begin|, |end|).
+static inline float shutter_time(float begin, float end, float share) { return begin * (1.0f - share) + end * share; }
+
+/// Share of the exposure's light that a shutter which opens and closes at once has let in by time t, in [0, 1]. If
+/// begin == end the share is 0 up to that time and 1 after it.
+/// Domain: begin <= end.
+/// NaN: 0.
+/// Source: Palmer 2011, Eq. 2.1
+static inline float shutter_box(float t, float begin, float end)
+{
+    return saturate_or_zero((t - begin) / (end - begin));
+}
+
+/// Share of the exposure's light that a shutter which opens and closes evenly, wide open halfway, has let in by time t,
+/// in [0, 1].
+/// Domain: begin <= end.
+/// NaN: 0.
+/// Source: Palmer 2011, Eq. 2.1
+static inline float shutter_tent(float t, float begin, float end)
+{
+    float x = shutter_box(t, begin, end);
+    float left = 1.0f - x;
+    return gnomon_select(x < 0.5f, 2.0f * (x * x), 1.0f - 2.0f * (left * left));
+}
+
+/// A weight limited to [0, 2^60].
+/// NaN: 0.
+static inline float gnomon_shutter_weight(float w)
+{
+    return gnomon_select(0.0f < w, gnomon_min(w, gnomon_shutter_weight_limit), 0.0f);
+}
+
+/// Fraction of the sum that is this weight, 1/8 if the sum is 0. In [0, 1], also where division is not correctly
+/// rounded.
+static inline float gnomon_shutter_share(float weight, float sum)
+{
+    return gnomon_select(0.0f < sum, saturate_or_zero(weight / sum), 0.125f);
+}
+
+/// Eight weights scaled to sum to 1. Negative weights count as 0; if no weight is left, all are equal, as for a box.
+/// Call once for a shutter, not for each range.
+/// NaN: a NaN weight counts as 0.
+static inline shutter_weights shutter_weights_make(shutter_weights weights)
+{
+    shutter_weights w;
+    w.w0 = gnomon_shutter_weight(weights.w0);
+    w.w1 = gnomon_shutter_weight(weights.w1);
+    w.w2 = gnomon_shutter_weight(weights.w2);
+    w.w3 = gnomon_shutter_weight(weights.w3);
+    w.w4 = gnomon_shutter_weight(weights.w4);
+    w.w5 = gnomon_shutter_weight(weights.w5);
+    w.w6 = gnomon_shutter_weight(weights.w6);
+    w.w7 = gnomon_shutter_weight(weights.w7);
+    float sum = ((w.w0 + w.w1) + (w.w2 + w.w3)) + ((w.w4 + w.w5) + (w.w6 + w.w7));
+    w.w0 = gnomon_shutter_share(w.w0, sum);
+    w.w1 = gnomon_shutter_share(w.w1, sum);
+    w.w2 = gnomon_shutter_share(w.w2, sum);
+    w.w3 = gnomon_shutter_share(w.w3, sum);
+    w.w4 = gnomon_shutter_share(w.w4, sum);
+    w.w5 = gnomon_shutter_share(w.w5, sum);
+    w.w6 = gnomon_shutter_share(w.w6, sum);
+    w.w7 = gnomon_shutter_share(w.w7, sum);
+    return w;
+}
+
+/// Share of the exposure's light that a shutter with the weights w has let in by time t. Each eighth lets in its weight
+/// evenly. In [0, 1] for any weights, from shutter_weights_make or not, and exactly 1 from the end of the exposure on.
+/// Domain: begin <= end.
+/// Error: 16 2^-p.
+/// Source: Palmer 2011, Eq. 2.1
+static inline float shutter_piecewise(float t, float begin, float end, shutter_weights w)
+{
+    float x = 8.0f * shutter_box(t, begin, end);
+    float early = (w.w0 * saturate_or_zero(x) + w.w1 * saturate_or_zero(x - 1.0f)) +
+                  (w.w2 * saturate_or_zero(x - 2.0f) + w.w3 * saturate_or_zero(x - 3.0f));
+    float late = (w.w4 * saturate_or_zero(x - 4.0f) + w.w5 * saturate_or_zero(x - 5.0f)) +
+                 (w.w6 * saturate_or_zero(x - 6.0f) + w.w7 * saturate_or_zero(x - 7.0f));
+    return gnomon_select(x < 8.0f, saturate_or_zero(early + late), 1.0f);
+}
+
+#endif
+
+// motion/layers/receiver_footprint.h ----------------------------------------------------------------------------------
+// The time that one sample of a stochastic camera stands for. The camera takes N samples for each pixel, one in each
+// stratum of the shutter interval. A look-up at the sample's own time is as noisy as the camera; the mean over the time
+// that the sample stands for is not.
+//
+// The point has to follow its surface meanwhile (receiver_path.h). Held in place it would leave the surface, which then
+// shadows it. With the path of the point and ranges, the mean is known in closed form:
+//     exposure = footprint_stratum(t, N);
+//     path = receiver_path_clip(path, exposure.begin, exposure.end);
+//     moving_receiver_begin(path, exposure.begin, exposure.end), and so on (moving_receiver.h)
+// The strata of a pixel's samples fill the shutter interval, so a point that its pixel sees all the time gets the mean
+// over the whole interval, without noise and without bias.
+#ifndef GNOMON_MOTION_LAYERS_RECEIVER_FOOTPRINT_H
+#define GNOMON_MOTION_LAYERS_RECEIVER_FOOTPRINT_H
+
+/// The stratum of `count` that holds time t, from begin to end.
+/// Domain: t is clamped to [0, 1]; count is a whole number in [1, 65536].
+/// NaN: the first stratum for t.
+/// Error: 2^-p for each time.
+static inline shutter_exposure footprint_stratum(float t, float count)
+{
+    float slice = slice_of(t, count);
+    shutter_exposure r;
+    r.begin = saturate_or_zero(slice / count);
+    r.end = saturate_or_zero((slice + 1.0f) / count);
+    return r;
+}
+
+#endif
+
+// motion/range/deep_shadow.h ------------------------------------------------------------------------------------------
+// Deep shadow maps (Lokovic & Veach 2000): transmittance over depth for each texel, from 1 in front of all occluders to
+// that behind them. What moves covers a texel for a part of the time, so motion counts as translucency: time is
+// collapsed, which is right for static receivers under a static light and for no others.
+//
+// A deep layer takes away a share of the light, its opacity, evenly from depth z0 to depth z1, or at once if both are
+// equal. Layers multiply, in any order:
+//     transmittance = 1;   for every layer of the texel: transmittance = deep_shadow_add(transmittance, layer, z_f)
+//     intensity = deep_shadow_end(transmittance);
+//
+// The layers of a texel come from its transmittance as a polyline over depth, which is compressed to a tolerance by a
+// greedy window of slopes: one line goes on for as long as it passes all vertices within the tolerance.
+//     window = deep_window_begin(tolerance);
+//     for each vertex from near to far: window = deep_window_add(window, z, v), and keep window.layer if it is opaque
+//     layer = deep_window_end(window), kept if it is opaque
+// The n sorted depths of samples have two vertices each: (z_k, 1 - k / n) and (z_k, 1 - (k + 1) / n), k from 0.
+//
+// With ever more samples the polyline becomes the one of a resolved list, in closed form: each range that covers the
+// texel for a time takes that time's share of the light, evenly over its depths (deep_shadow_share). So lists of ranges
+// give the deep map that samples converge to.
+#ifndef GNOMON_MOTION_RANGE_DEEP_SHADOW_H
+#define GNOMON_MOTION_RANGE_DEEP_SHADOW_H
+
+/// A layer that takes the share `opacity` of the light that reaches it, evenly from depth z0 to z1 >= z0.
+typedef struct gnomon_deep_layer gnomon_deep_layer;
+struct gnomon_deep_layer { float z0, z1, opacity; };
+
+/// Transmittance behind one more layer, for a receiver at depth z_f, from the transmittance so far; 1 before the first.
+/// A layer of one depth takes its light from receivers behind that depth.
+/// NaN: a layer with a NaN takes nothing.
+/// Error: 4 2^-p for each layer.
+/// Source: Lokovic & Veach 2000
+static inline float deep_shadow_add(float transmittance, gnomon_deep_layer layer, float z_f)
+{
+    float passed = saturate_or_zero((z_f - layer.z0) / (layer.z1 - layer.z0));
+    return transmittance * (1.0f - saturate_or_zero(layer.opacity * passed));
+}
+
+/// Shadow intensity in [0, 1] of the transmittance in front of a receiver.
+/// NaN: 0, lit.
+/// Error: that of deep_shadow_add.
+static inline float deep_shadow_end(float transmittance) { return saturate_or_zero(1.0f - transmittance); }
+
+/// Share of the shutter interval for which a range is in front of depth z_f, in [0, 1]. 1 minus the sum over a resolved
+/// list is the transmittance at z_f.
+/// NaN: 0.
+/// Error: 4 2^-p of the duration.
+static inline float deep_shadow_share(depth_time_range r, float z_f)
+{
+    depth_time_range c = range_clip(r, 0.0f, 1.0f);
+    float nearest = gnomon_min(c.z0, c.z1);
+    float passed = saturate_or_zero((z_f - nearest) / (gnomon_max(c.z0, c.z1) - nearest));
+    bool known = c.z0 == c.z0 && c.z1 == c.z1;
+    return saturate_or_zero(gnomon_select(known, range_duration(c) * passed, 0.0f));
+}
+
+/// The tolerance; the line from depth z0 and transmittance v0 to depth z1 and transmittance v1, and the slopes between
+/// which it passes its vertices, least above most if it ends here; the last vertex's transmittance, v; touched, 1 if
+/// the line has a vertex besides its begin; and the layer that the last vertex has completed, of opacity 0 if none.
+typedef struct gnomon_deep_window gnomon_deep_window;
+struct gnomon_deep_window
+{
+    float tolerance, z0, v0, z1, v1, least, most, v, touched;
+    gnomon_deep_layer layer;
+};
+
+__constant float gnomon_deep_window_steepest = 1099511627776.0f; // 2^40: depths closer than its inverse count as equal
+
+/// The layer of the line so far, of opacity 0 if transmittance does not change.
+static inline gnomon_deep_layer deep_window_end(gnomon_deep_window window)
+{
+    gnomon_deep_layer r;
+    r.z0 = window.z0;
+    r.z1 = window.z1;
+    r.opacity = saturate_or_zero((window.v0 - window.v1) / window.v0);
+    return r;
+}
+
+/// A line that begins where the last one ends, without a vertex besides.
+static inline gnomon_deep_window gnomon_deep_window_next(gnomon_deep_window window)
+{
+    window.layer = deep_window_end(window);
+    window.z0 = window.z1;
+    window.v0 = window.v1;
+    window.least = -1.0f * gnomon_deep_window_steepest;
+    window.most = 0.0f;
+    window.touched = 0.0f;
+    return window;
+}
+
+/// Begin at the near plane, -1, with transmittance 1. Tolerance is the most by which lines may
+/// depart from the polyline. With 0 every step and every slope of the polyline becomes a layer.
+/// NaN: a tolerance of 0.
+static inline gnomon_deep_window deep_window_begin(float tolerance)
+{
+    gnomon_deep_window r;
+    r.tolerance = gnomon_max(tolerance, 0.0f);
+    r.z0 = -1.0f;
+    r.v0 = 1.0f;
+    r.z1 = -1.0f;
+    r.v1 = 1.0f;
+    r.v = 1.0f;
+    return gnomon_deep_window_next(r);
+}
+
+/// The line led to one more vertex, z >= window.z1 and v <= window.v. Where it cannot pass all of its vertices it ends.
+static inline gnomon_deep_window gnomon_deep_window_lead(gnomon_deep_window window, float z, float v)
+{
+    float length = z - window.z0;
+    float lowest = (gnomon_max(v - window.tolerance, 0.0f) - window.v0) / length;
+    float highest = (v + window.tolerance - window.v0) / length;
+    float least = gnomon_max(window.least, lowest);
+    float most = gnomon_min(window.most, highest);
+    float nearest = saturate_or_zero(clamp_or_high(v, window.v0 + least * length, window.v0 + most * length));
+    bool level = window.touched < 1.0f && v == window.v && window.z1 < z; // no line begins before a drop
+    bool step = length * gnomon_deep_window_steepest <= 1.0f;
+    bool kept = level || (step && window.v0 <= v + window.tolerance);
+    window.least = gnomon_select(kept, window.least, gnomon_select(step, 1.0f, least));
+    window.most = gnomon_select(kept, window.most, gnomon_select(step, 0.0f, most));
+    window.v1 = gnomon_select(kept, window.v0, gnomon_select(step, v, nearest));
+    window.z0 = gnomon_select(level, z, window.z0);
+    window.touched = gnomon_select(level, 0.0f, 1.0f);
+    window.z1 = z;
+    window.v = v;
+    return window;
+}
+
+/// Add a vertex of the polyline, transmittance v at depth z; two at one depth are a step. If the layer of the result
+/// has an opacity above 0 it is complete, and the caller keeps it.
+/// Domain: vertices from near to far, transmittance in [0, 1] and never growing; others are moved to the nearest such.
+/// Depths closer than 2^-40 count as equal.
+/// NaN: the vertex is left out, as is one beyond 2^60.
+/// Error: with all layers kept, the tolerance and 4 2^-p for each of them.
+/// Source: Lokovic & Veach 2000
+static inline gnomon_deep_window deep_window_add(gnomon_deep_window window, float z, float v)
+{
+    bool known = gnomon_abs(z) < range_far && v == v;
+    float touched = window.touched;
+    z = gnomon_select(known, gnomon_max(z, window.z1), window.z1);
+    v = gnomon_select(known, gnomon_min(saturate_or_zero(v), window.v), window.v);
+    gnomon_deep_window led = gnomon_deep_window_lead(window, z, v);
+    gnomon_deep_window next = gnomon_deep_window_next(window);
+    bool deeper = window.most < window.least && (z - window.z0) * gnomon_deep_window_steepest <= 1.0f;
+    bool done = known && !(deeper || (window.least <= window.most && led.least <= led.most));
+    window.layer = next.layer;
+    window.layer.opacity = gnomon_select(done, next.layer.opacity, 0.0f);
+    window.z0 = gnomon_select(done, next.z0, window.z0);
+    window.v0 = gnomon_select(done, next.v0, window.v0);
+    window.least = gnomon_select(done, next.least, window.least);
+    window.most = gnomon_select(done, next.most, window.most);
+    window.touched = gnomon_select(done, next.touched, window.touched);
+    led = gnomon_deep_window_lead(window, z, v);
+    led.touched = gnomon_select(known, led.touched, touched);
+    return led;
+}
+
+#endif
+
 // motion/range/range_cover.h ------------------------------------------------------------------------------------------
 // Texels that one surface covers for the whole shutter, in front of everything else: the coverage map of Hong & Oh
 // ("Efficient motion blurred shadows using a temporal shadow map", 2017). All other ranges of such a texel are occluded
@@ -6364,6 +6815,89 @@ static inline float range_list_intensity(range_list list, float t, float z, floa
 
 #endif
 
+// motion/range/range_moments.h ----------------------------------------------------------------------------------------
+// Moments over time of what a texel of the light sees while the shutter is open, in closed form from its resolved
+// ranges: the filterable shadow map of motion that Palmer 2011 leaves as future work. The depth of a range is a line
+// over time, so the mean of its power z^j is (z0^j + z0^(j-1) z1 + ... + z1^j) / (j + 1), and nothing cancels for
+// depths of one sign. There is no noise: the moments are those that stochastic samples converge to.
+//
+// The result is a texel of a moment shadow map. It goes through any storage format and any linear filter, and gives the
+// bounds on the shadow of a static receiver (moments/hamburger4.h). Time is collapsed: a receiver that moves with its
+// caster gets the shadow of all times.
+//
+//     state = range_moments4_begin(1);
+//     state = range_moments4_add(state, range);    for every range of the resolved list
+//     b = range_moments4_end(state);
+#ifndef GNOMON_MOTION_RANGE_RANGE_MOMENTS_H
+#define GNOMON_MOTION_RANGE_RANGE_MOMENTS_H
+
+/// The sum of moments weighted by time, the time that is covered, and the depth of the times that are not.
+typedef struct range_moments4 range_moments4;
+struct range_moments4
+{
+    moments4 sum;
+    float covered, background;
+};
+
+__constant float range_moments_third = 0.33333333333333333333f;
+__constant float range_moments_fifth = 0.2f;
+
+/// The means of the first four powers of depth over the time of a range.
+/// Domain: depths in [-1, 1].
+/// NaN: NaN.
+/// Error: 4 2^-p.
+static inline moments4 range_mean_moments4(depth_time_range r)
+{
+    float product = r.z0 * r.z1;
+    float squares = r.z0 * r.z0 + r.z1 * r.z1;
+    moments4 m;
+    m.b1 = 0.5f * (r.z0 + r.z1);
+    m.b2 = range_moments_third * (squares + product);
+    m.b3 = 0.5f * (squares * m.b1);
+    m.b4 = range_moments_fifth * ((squares * squares - product * product) + squares * product);
+    return m;
+}
+
+/// Begin without a range. Times that no range covers have the depth `background`, 1 for a cleared map.
+static inline range_moments4 range_moments4_begin(float background)
+{
+    range_moments4 state;
+    state.sum.b1 = 0.0f;
+    state.sum.b2 = 0.0f;
+    state.sum.b3 = 0.0f;
+    state.sum.b4 = 0.0f;
+    state.covered = 0.0f;
+    state.background = background;
+    return state;
+}
+
+/// Add one range that is disjoint in time from those before.
+/// NaN: a range with a NaN adds nothing.
+static inline range_moments4 range_moments4_add(range_moments4 state, depth_time_range r)
+{
+    depth_time_range c = range_clip(r, 0.0f, 1.0f);
+    float duration = gnomon_select(c.z0 == c.z0 && c.z1 == c.z1, range_duration(c), 0.0f);
+    bool some = 0.0f < duration;
+    moments4 sum = moments4_add(state.sum, range_mean_moments4(c), duration);
+    state.sum.b1 = gnomon_select(some, sum.b1, state.sum.b1);
+    state.sum.b2 = gnomon_select(some, sum.b2, state.sum.b2);
+    state.sum.b3 = gnomon_select(some, sum.b3, state.sum.b3);
+    state.sum.b4 = gnomon_select(some, sum.b4, state.sum.b4);
+    state.covered = state.covered + duration;
+    return state;
+}
+
+/// The moments of depth over the shutter interval.
+/// Domain: ranges of a resolved list, depths in [-1, 1].
+/// Error: 8 2^-p for each range.
+static inline moments4 range_moments4_end(range_moments4 state)
+{
+    float open = saturate_or_zero(1.0f - state.covered);
+    return moments4_add(state.sum, moments4_from_depth(state.background), open);
+}
+
+#endif
+
 // motion/range/range_summary.h ----------------------------------------------------------------------------------------
 // A summary of a resolved list in four numbers: nearest and farthest depth, occluded time, id. Most receivers need
 // nothing more. They are in front of all ranges of a texel, or behind all of them, above all where backdrops are left
@@ -6523,131 +7057,6 @@ static inline gnomon_moving_edge facing_function(gnomon_moving_vector n, gnomon_
 
 #endif
 
-// motion/receiver/shutter.h -------------------------------------------------------------------------------------------
-// Shutter responses: the share of the exposure's light that a shutter has let in by time t. The light that a receiver
-// loses between two times is the difference of the shares (Palmer 2011, (2.1), with the response w(t) integrated in
-// advance).
-//
-// Three responses: a box, which opens and closes at once; a tent, which is wide open halfway; and eight equal parts of
-// the exposure with any weights, such as those of a camera's measured shutter.
-//
-// The ends of an exposure may be given in either order. An exposure of no length shows a single time (see
-// gnomon_shutter_exposure_make, which receivers begin with).
-#ifndef GNOMON_MOTION_RECEIVER_SHUTTER_H
-#define GNOMON_MOTION_RECEIVER_SHUTTER_H
-
-/// Fraction of the exposure's light in each eighth, in order; the sum is 1 (see shutter_weights_make).
-typedef struct shutter_weights shutter_weights;
-struct shutter_weights { float w0, w1, w2, w3, w4, w5, w6, w7; };
-
-/// Times at which a shutter opens and closes.
-typedef struct shutter_exposure shutter_exposure;
-struct shutter_exposure { float begin, end; };
-
-__constant float gnomon_shutter_weight_limit = 1152921504606846976.0f; // 2^60: eight of them have a sum in float
-
-/// The exposure between two times, given in either order. An exposure shorter than 2^-20 lasts 2^-20 from its begin on,
-/// or until shutter close if it would end later: a range that covers that time shadows the receiver entirely.
-/// NaN: a NaN stays NaN.
-static inline shutter_exposure gnomon_shutter_exposure_make(float a, float b)
-{
-    float least = 0.00000095367431640625f;
-    bool swapped = b < a;
-    float open = gnomon_select(swapped, b, a);
-    float close = gnomon_select(swapped, a, b);
-    bool brief = close - open < least;
-    float early = gnomon_select(open <= 1.0f, gnomon_min(open, 1.0f - least), open);
-    shutter_exposure r;
-    r.begin = gnomon_select(brief, early, open);
-    r.end = gnomon_select(brief, early + least, close);
-    return r;
-}
-
-/// Time at which the given share of the time from begin to end has passed. The share must lie between 0 and 1,
-/// exclusively: llvmpipe makes 0 of a product with 0, of NaN * 0, too.
-/// Domain: 0 < share < 1.
-/// Error: 3 2^-p max(|begin|, |end|).
-static inline float shutter_time(float begin, float end, float share) { return begin * (1.0f - share) + end * share; }
-
-/// Share of the exposure's light that a shutter which opens and closes at once has let in by time t, in [0, 1]. If
-/// begin == end the share is 0 up to that time and 1 after it.
-/// Domain: begin <= end.
-/// NaN: 0.
-/// Source: Palmer 2011, Eq. 2.1
-static inline float shutter_box(float t, float begin, float end)
-{
-    return saturate_or_zero((t - begin) / (end - begin));
-}
-
-/// Share of the exposure's light that a shutter which opens and closes evenly, wide open halfway, has let in by time t,
-/// in [0, 1].
-/// Domain: begin <= end.
-/// NaN: 0.
-/// Source: Palmer 2011, Eq. 2.1
-static inline float shutter_tent(float t, float begin, float end)
-{
-    float x = shutter_box(t, begin, end);
-    float left = 1.0f - x;
-    return gnomon_select(x < 0.5f, 2.0f * (x * x), 1.0f - 2.0f * (left * left));
-}
-
-/// A weight limited to [0, 2^60].
-/// NaN: 0.
-static inline float gnomon_shutter_weight(float w)
-{
-    return gnomon_select(0.0f < w, gnomon_min(w, gnomon_shutter_weight_limit), 0.0f);
-}
-
-/// Fraction of the sum that is this weight, 1/8 if the sum is 0. In [0, 1], also where division is not correctly
-/// rounded.
-static inline float gnomon_shutter_share(float weight, float sum)
-{
-    return gnomon_select(0.0f < sum, saturate_or_zero(weight / sum), 0.125f);
-}
-
-/// Eight weights scaled to sum to 1. Negative weights count as 0; if no weight is left, all are equal, as for a box.
-/// Call once for a shutter, not for each range.
-/// NaN: a NaN weight counts as 0.
-static inline shutter_weights shutter_weights_make(shutter_weights weights)
-{
-    shutter_weights w;
-    w.w0 = gnomon_shutter_weight(weights.w0);
-    w.w1 = gnomon_shutter_weight(weights.w1);
-    w.w2 = gnomon_shutter_weight(weights.w2);
-    w.w3 = gnomon_shutter_weight(weights.w3);
-    w.w4 = gnomon_shutter_weight(weights.w4);
-    w.w5 = gnomon_shutter_weight(weights.w5);
-    w.w6 = gnomon_shutter_weight(weights.w6);
-    w.w7 = gnomon_shutter_weight(weights.w7);
-    float sum = ((w.w0 + w.w1) + (w.w2 + w.w3)) + ((w.w4 + w.w5) + (w.w6 + w.w7));
-    w.w0 = gnomon_shutter_share(w.w0, sum);
-    w.w1 = gnomon_shutter_share(w.w1, sum);
-    w.w2 = gnomon_shutter_share(w.w2, sum);
-    w.w3 = gnomon_shutter_share(w.w3, sum);
-    w.w4 = gnomon_shutter_share(w.w4, sum);
-    w.w5 = gnomon_shutter_share(w.w5, sum);
-    w.w6 = gnomon_shutter_share(w.w6, sum);
-    w.w7 = gnomon_shutter_share(w.w7, sum);
-    return w;
-}
-
-/// Share of the exposure's light that a shutter with the weights w has let in by time t. Each eighth lets in its weight
-/// evenly. In [0, 1] for any weights, from shutter_weights_make or not, and exactly 1 from the end of the exposure on.
-/// Domain: begin <= end.
-/// Error: 16 2^-p.
-/// Source: Palmer 2011, Eq. 2.1
-static inline float shutter_piecewise(float t, float begin, float end, shutter_weights w)
-{
-    float x = 8.0f * shutter_box(t, begin, end);
-    float early = (w.w0 * saturate_or_zero(x) + w.w1 * saturate_or_zero(x - 1.0f)) +
-                  (w.w2 * saturate_or_zero(x - 2.0f) + w.w3 * saturate_or_zero(x - 3.0f));
-    float late = (w.w4 * saturate_or_zero(x - 4.0f) + w.w5 * saturate_or_zero(x - 5.0f)) +
-                 (w.w6 * saturate_or_zero(x - 6.0f) + w.w7 * saturate_or_zero(x - 7.0f));
-    return gnomon_select(x < 8.0f, saturate_or_zero(early + late), 1.0f);
-}
-
-#endif
-
 // motion/receiver/static_receiver.h -----------------------------------------------------------------------------------
 // The shadow on a static receiver while the shutter is open, in closed form. Every range in front of the receiver
 // occludes it for a time that is known in closed form, and the shutter (shutter.h) turns that time into a share of the
@@ -6756,144 +7165,6 @@ static inline float static_receiver_is_behind(static_receiver state, range_summa
 /// (range_occluding_part) over the duration of the exposure; 4 2^-p for each range of a summary.
 /// Source: Hong & Oh 2018, Sec. 5; Palmer 2011, Sec. 4
 static inline float static_receiver_end(static_receiver state) { return saturate_or_zero(state.shadowed); }
-
-#endif
-
-// motion/receiver/receiver_path.h -------------------------------------------------------------------------------------
-// The path of a receiver through the light's clip space while a pixel sees it, and its shadow by samples in time
-// (Palmer 2011, 2.3.2 and 4.1).
-//
-// The receiver's point and the light move along straight lines, and the light does not turn, so x, y and w are linear
-// in time. The point on the map, (x / w, y / w), moves along a straight line, too; w is 1 for an orthographic light.
-// Depth is linear in view distance, hence linear in time: depth and time are those of a range.
-//
-//     n = receiver_sample_count(path, most);
-//     state = sampled_receiver_begin(n);
-//     for k from 0 to n - 1: t = receiver_sample_time(path, k, n, jitter); in the texel at receiver_path_at(path, t),
-//     the largest range_intensity(range, t, range_depth(path.depth, t), path.depth.id, bias) of all ranges, then
-//         state = sampled_receiver_add(state, largest);     or the mean of several texels by their weights
-//     intensity = sampled_receiver_end(state);
-#ifndef GNOMON_MOTION_RECEIVER_RECEIVER_PATH_H
-#define GNOMON_MOTION_RECEIVER_RECEIVER_PATH_H
-
-/// Times, depths and id as a range; homogeneous positions at the times t0 and t1, where x / w and y / w are in texels,
-/// texel centres at +0.5.
-typedef struct receiver_path receiver_path;
-struct receiver_path
-{
-    depth_time_range depth;
-    float x0, y0, w0, x1, y1, w1;
-};
-
-/// A position in texels, texel centres at +0.5.
-typedef struct gnomon_texel_position gnomon_texel_position;
-struct gnomon_texel_position { float x, y; };
-
-__constant float gnomon_receiver_sample_limit = 1048576.0f; // 2^20
-
-/// Position on the map at time t, held constant before the path begins and after it ends.
-/// Domain: w > 0 at both ends.
-/// Error: 8 2^-p times the largest |x| where w is 1; in perspective that times (1 + the larger w over the smaller w).
-static inline gnomon_texel_position receiver_path_at(receiver_path path, float t)
-{
-    float passed = range_elapsed(path.depth, t);
-    float left = 1.0f - passed;
-    float w = path.w0 * left + path.w1 * passed;
-    gnomon_texel_position r;
-    r.x = (path.x0 * left + path.x1 * passed) / w;
-    r.y = (path.y0 * left + path.y1 * passed) / w;
-    return r;
-}
-
-/// The path shifted by dx and dy texels on the map.
-static inline receiver_path receiver_path_shift(receiver_path path, float dx, float dy)
-{
-    path.x0 = path.x0 + dx * path.w0;
-    path.y0 = path.y0 + dy * path.w0;
-    path.x1 = path.x1 + dx * path.w1;
-    path.y1 = path.y1 + dy * path.w1;
-    return path;
-}
-
-/// The part of the path between the times begin and end, such as those at which the receiver faces the light
-/// (facing.h).
-static inline receiver_path receiver_path_clip(receiver_path path, float begin, float end)
-{
-    float passed0 = range_elapsed(path.depth, begin);
-    float passed1 = range_elapsed(path.depth, end);
-    float left0 = 1.0f - passed0;
-    float left1 = 1.0f - passed1;
-    receiver_path c;
-    c.depth = range_clip(path.depth, begin, end);
-    c.x0 = path.x0 * left0 + path.x1 * passed0;
-    c.y0 = path.y0 * left0 + path.y1 * passed0;
-    c.w0 = path.w0 * left0 + path.w1 * passed0;
-    c.x1 = path.x0 * left1 + path.x1 * passed1;
-    c.y1 = path.y0 * left1 + path.y1 * passed1;
-    c.w1 = path.w0 * left1 + path.w1 * passed1;
-    return c;
-}
-
-/// Length of the path on the map, in texels.
-/// Domain: w > 0 at both ends.
-/// Error: 4 2^-p times the largest |x| + |y|.
-static inline float receiver_path_length(receiver_path path)
-{
-    float dx = path.x1 / path.w1 - path.x0 / path.w0;
-    float dy = path.y1 / path.w1 - path.y0 / path.w0;
-    return gnomon_sqrt(dx * dx + dy * dy);
-}
-
-/// Number of samples for a path: max(2 length, 5), rounded up, at most `most`. A whole number.
-/// Domain: most is a whole number from 5 to 2^20, and is clamped to that.
-/// NaN: a NaN counts as 5.
-/// Source: Palmer 2011, Sec. 4.1
-static inline float receiver_sample_count(receiver_path path, float most)
-{
-    float wanted = gnomon_max(2.0f * receiver_path_length(path), 5.0f); // a NaN becomes 5
-    float limit = gnomon_min(gnomon_max(most, 5.0f), gnomon_receiver_sample_limit);
-    float count = gnomon_min(wanted, limit);
-    float whole = nearest_integer(count);
-    return whole + gnomon_select(whole < count, 1.0f, 0.0f);
-}
-
-/// Time of sample k of n, k from 0, stratified: at `jitter`, in [0, 1), of the k-th of n equal parts of the time. A
-/// jitter of 0.5 is the middle of the part.
-static inline float receiver_sample_time(receiver_path path, float k, float n, float jitter)
-{
-    float passed = saturate_or_zero((k + jitter) / n);
-    return path.depth.t0 * (1.0f - passed) + path.depth.t1 * passed;
-}
-
-/// Number of samples, and the sum of their shadow intensities so far.
-typedef struct gnomon_sampled_receiver gnomon_sampled_receiver;
-struct gnomon_sampled_receiver { float samples, shadowed; };
-
-/// Begin with the number of samples to come.
-static inline gnomon_sampled_receiver sampled_receiver_begin(float samples)
-{
-    gnomon_sampled_receiver r;
-    r.samples = samples;
-    r.shadowed = 0.0f;
-    return r;
-}
-
-/// Add one sample by its shadow intensity in [0, 1].
-/// NaN: the sample is lit.
-static inline gnomon_sampled_receiver sampled_receiver_add(gnomon_sampled_receiver state, float intensity)
-{
-    state.shadowed = state.shadowed + saturate_or_zero(intensity);
-    return state;
-}
-
-/// Shadow intensity in [0, 1]: the mean of all samples.
-/// Error: that of sampling: up to 1 / n for each time at which the shadow comes or goes, half of that with samples in
-/// the middle.
-/// Source: Palmer 2011, Sec. 4.1
-static inline float sampled_receiver_end(gnomon_sampled_receiver state)
-{
-    return saturate_or_zero(state.shadowed / state.samples);
-}
 
 #endif
 
@@ -7212,6 +7483,58 @@ static inline float moving_receiver_filtered_light(moving_receiver state, depth_
 /// moving_receiver_tap in perspective).
 /// Source: Palmer 2011, Sec. 5
 static inline float moving_receiver_end(moving_receiver state) { return saturate_or_zero(state.shadowed); }
+
+#endif
+
+// motion/receiver/time_dependent.h ------------------------------------------------------------------------------------
+// Time-dependent shadow maps (Akenine-Moller, Munkberg & Hasselgren 2007): the shutter interval is cut into slices, and
+// each slice has a shadow map whose texels have one sample each, at a time of their own within the slice. A receiver
+// that is seen at time t_r reads the slice of that time, but the sample's time t is another one. Meanwhile the surface
+// that the sample shows has moved: by itself it would shadow itself (Andersson et al. 2015, Figure 10).
+//
+//     sample.travel = time_dependent_travel(d_x, d_y);                         when the map is made
+//     state = percentage_closer_begin(z_f - constant_bias);                    filters/percentage_closer.h
+//     for the texel of the receiver, or for 2 x 2 texels by bilinear weights, in slice slice_of(t_r, slices):
+//         state = percentage_closer_add(state, z, weight), where z is one of
+//             sample.z                                                         constant bias alone
+//             time_dependent_depth(sample, t_r)                                moved along with its surface in depth
+//             time_dependent_biased_depth(sample, t_r, slope, texels)          and spared by the surface's slope
+//     intensity = percentage_closer_end(state);
+//
+// Motion in depth alone does not spare a tilted surface: in the time between, the sample moves across the map as well,
+// and where it goes the surface is at another depth. The third depth adds the most that this can be.
+#ifndef GNOMON_MOTION_RECEIVER_TIME_DEPENDENT_H
+#define GNOMON_MOTION_RECEIVER_TIME_DEPENDENT_H
+
+/// Depth z and time t of a sample, and the motion of the point that it shows over the whole shutter interval: in depth,
+/// d_z, and the length of its way over the map in texels, travel.
+typedef struct time_dependent_sample time_dependent_sample;
+struct time_dependent_sample { float z, t, d_z, travel; };
+
+/// Length in texels of a motion over the map.
+/// NaN: NaN.
+/// Error: relative, 3 2^-p.
+static inline float time_dependent_travel(float d_x, float d_y) { return gnomon_sqrt(d_x * d_x + d_y * d_y); }
+
+/// Depth of the sample's surface at time t_r, by its own motion in depth: the dynamic bias.
+/// NaN: NaN.
+/// Error: 2^-p (|z| + 4 |d_z|), for times in [0, 1].
+/// Source: Andersson 2015, Eq. 12
+static inline float time_dependent_depth(time_dependent_sample s, float t_r) { return s.z + s.d_z * (t_r - s.t); }
+
+/// Depth of the sample's surface at time t_r, plus the depth bias slope (texels + 1.5 travel |t_r - t|). slope is the
+/// change of the receiver's depth per texel, and texels the distance to the farthest place that the look-up may read:
+/// sqrt(2) for the nearest texel, 1.5 sqrt(2) for 2 x 2. A plane whose points share one motion never shadows itself;
+/// the factor of 1.5 leaves room for paths that perspective bends.
+/// Domain: slope at least 0, else 0.
+/// NaN: NaN.
+/// Error: twice that of time_dependent_depth, and 8 2^-p times the bias.
+static inline float time_dependent_biased_depth(time_dependent_sample s, float t_r, float slope, float texels)
+{
+    float passed = gnomon_abs(t_r - s.t);
+    float reach = texels + 1.5f * (s.travel * passed);
+    return time_dependent_depth(s, t_r) + gnomon_max(0.0f, slope) * reach;
+}
 
 #endif
 

@@ -6861,6 +6861,494 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif
 
+// motion/receiver/receiver_path.h -------------------------------------------------------------------------------------
+// The path of a receiver through the light's clip space while a pixel sees it, and its shadow by samples in time
+// (Palmer 2011, 2.3.2 and 4.1).
+//
+// The receiver's point and the light move along straight lines, and the light does not turn, so x, y and w are linear
+// in time. The point on the map, (x / w, y / w), moves along a straight line, too; w is 1 for an orthographic light.
+// Depth is linear in view distance, hence linear in time: depth and time are those of a range.
+//
+//     n = receiver_sample_count(path, most);
+//     state = sampled_receiver_begin(n);
+//     for k from 0 to n - 1: t = receiver_sample_time(path, k, n, jitter); in the texel at receiver_path_at(path, t),
+//     the largest range_intensity(range, t, range_depth(path.depth, t), path.depth.id, bias) of all ranges, then
+//         state = sampled_receiver_add(state, largest);     or the mean of several texels by their weights
+//     intensity = sampled_receiver_end(state);
+#ifndef GNOMON_MOTION_RECEIVER_RECEIVER_PATH_H
+#define GNOMON_MOTION_RECEIVER_RECEIVER_PATH_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// Times, depths and id as a range; homogeneous positions at the times t0 and t1, where x / w and y / w are in texels,
+/// texel centres at +0.5.
+template <class Real, class = require_real<Real>> struct receiver_path
+{
+    depth_time_range<Real> depth;
+    Real x0, y0, w0, x1, y1, w1;
+};
+
+/// A position in texels, texel centres at +0.5.
+template <class Real, class = require_real<Real>> struct texel_position { Real x, y; };
+
+inline constexpr double receiver_sample_limit = 1048576.0; // 2^20
+
+/// Position on the map at time t, held constant before the path begins and after it ends.
+/// Domain: w > 0 at both ends.
+/// Error: 8 2^-p times the largest |x| where w is 1; in perspective that times (1 + the larger w over the smaller w).
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr texel_position<Real> receiver_path_at(receiver_path<Real> path, Real t)
+{
+    Real passed = range_elapsed(path.depth, t);
+    Real left = Real(1) - passed;
+    Real w = path.w0 * left + path.w1 * passed;
+    texel_position<Real> r;
+    r.x = (path.x0 * left + path.x1 * passed) / w;
+    r.y = (path.y0 * left + path.y1 * passed) / w;
+    return r;
+}
+
+/// The path shifted by dx and dy texels on the map.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr receiver_path<Real> receiver_path_shift(receiver_path<Real> path, Real dx, Real dy)
+{
+    path.x0 = path.x0 + dx * path.w0;
+    path.y0 = path.y0 + dy * path.w0;
+    path.x1 = path.x1 + dx * path.w1;
+    path.y1 = path.y1 + dy * path.w1;
+    return path;
+}
+
+/// The part of the path between the times begin and end, such as those at which the receiver faces the light
+/// (facing.h).
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr receiver_path<Real> receiver_path_clip(receiver_path<Real> path, Real begin, Real end)
+{
+    Real passed0 = range_elapsed(path.depth, begin);
+    Real passed1 = range_elapsed(path.depth, end);
+    Real left0 = Real(1) - passed0;
+    Real left1 = Real(1) - passed1;
+    receiver_path<Real> c;
+    c.depth = range_clip(path.depth, begin, end);
+    c.x0 = path.x0 * left0 + path.x1 * passed0;
+    c.y0 = path.y0 * left0 + path.y1 * passed0;
+    c.w0 = path.w0 * left0 + path.w1 * passed0;
+    c.x1 = path.x0 * left1 + path.x1 * passed1;
+    c.y1 = path.y0 * left1 + path.y1 * passed1;
+    c.w1 = path.w0 * left1 + path.w1 * passed1;
+    return c;
+}
+
+/// Length of the path on the map, in texels.
+/// Domain: w > 0 at both ends.
+/// Error: 4 2^-p times the largest |x| + |y|.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real receiver_path_length(receiver_path<Real> path)
+{
+    Real dx = path.x1 / path.w1 - path.x0 / path.w0;
+    Real dy = path.y1 / path.w1 - path.y0 / path.w0;
+    return gnomon_sqrt(dx * dx + dy * dy);
+}
+
+/// Number of samples for a path: max(2 length, 5), rounded up, at most `most`. A whole number.
+/// Domain: most is a whole number from 5 to 2^20, and is clamped to that.
+/// NaN: a NaN counts as 5.
+/// Source: Palmer 2011, Sec. 4.1
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real receiver_sample_count(receiver_path<Real> path, std::type_identity_t<Real> most)
+{
+    Real wanted = gnomon_max(Real(2) * receiver_path_length(path), Real(5)); // a NaN becomes 5
+    Real limit = gnomon_min(gnomon_max(most, Real(5)), literal<Real>(receiver_sample_limit));
+    Real count = gnomon_min(wanted, limit);
+    Real whole = nearest_integer(count);
+    return whole + gnomon_select(whole < count, Real(1), Real(0));
+}
+
+/// Time of sample k of n, k from 0, stratified: at `jitter`, in [0, 1), of the k-th of n equal parts of the time. A
+/// jitter of 0.5 is the middle of the part.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real receiver_sample_time(receiver_path<Real> path, Real k, Real n, Real jitter)
+{
+    Real passed = saturate_or_zero((k + jitter) / n);
+    return path.depth.t0 * (Real(1) - passed) + path.depth.t1 * passed;
+}
+
+/// Number of samples, and the sum of their shadow intensities so far.
+template <class Real, class = require_real<Real>> struct sampled_receiver { Real samples, shadowed; };
+
+/// Begin with the number of samples to come.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr sampled_receiver<Real> sampled_receiver_begin(Real samples)
+{
+    sampled_receiver<Real> r;
+    r.samples = samples;
+    r.shadowed = Real(0);
+    return r;
+}
+
+/// Add one sample by its shadow intensity in [0, 1].
+/// NaN: the sample is lit.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr sampled_receiver<Real> sampled_receiver_add(sampled_receiver<Real> state, Real intensity)
+{
+    state.shadowed = state.shadowed + saturate_or_zero(intensity);
+    return state;
+}
+
+/// Shadow intensity in [0, 1]: the mean of all samples.
+/// Error: that of sampling: up to 1 / n for each time at which the shadow comes or goes, half of that with samples in
+/// the middle.
+/// Source: Palmer 2011, Sec. 4.1
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real sampled_receiver_end(sampled_receiver<Real> state)
+{
+    return saturate_or_zero(state.shadowed / state.samples);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// motion/receiver/shutter.h -------------------------------------------------------------------------------------------
+// Shutter responses: the share of the exposure's light that a shutter has let in by time t. The light that a receiver
+// loses between two times is the difference of the shares (Palmer 2011, (2.1), with the response w(t) integrated in
+// advance).
+//
+// Three responses: a box, which opens and closes at once; a tent, which is wide open halfway; and eight equal parts of
+// the exposure with any weights, such as those of a camera's measured shutter.
+//
+// The ends of an exposure may be given in either order. An exposure of no length shows a single time (see
+// shutter_exposure_make, which receivers begin with).
+#ifndef GNOMON_MOTION_RECEIVER_SHUTTER_H
+#define GNOMON_MOTION_RECEIVER_SHUTTER_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// Fraction of the exposure's light in each eighth, in order; the sum is 1 (see shutter_weights_make).
+template <class Real, class = require_real<Real>> struct shutter_weights { Real w0, w1, w2, w3, w4, w5, w6, w7; };
+
+/// Times at which a shutter opens and closes.
+template <class Real, class = require_real<Real>> struct shutter_exposure { Real begin, end; };
+
+inline constexpr double shutter_weight_limit = 1152921504606846976.0; // 2^60: eight of them have a sum in float
+
+/// The exposure between two times, given in either order. An exposure shorter than 2^-20 lasts 2^-20 from its begin on,
+/// or until shutter close if it would end later: a range that covers that time shadows the receiver entirely.
+/// NaN: a NaN stays NaN.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr shutter_exposure<Real> shutter_exposure_make(Real a, Real b)
+{
+    Real least = Real(0.00000095367431640625);
+    mask_t<Real> swapped = b < a;
+    Real open = gnomon_select(swapped, b, a);
+    Real close = gnomon_select(swapped, a, b);
+    mask_t<Real> brief = close - open < least;
+    Real early = gnomon_select(open <= Real(1), gnomon_min(open, Real(1) - least), open);
+    shutter_exposure<Real> r;
+    r.begin = gnomon_select(brief, early, open);
+    r.end = gnomon_select(brief, early + least, close);
+    return r;
+}
+
+/// Time at which the given share of the time from begin to end has passed. The share must lie between 0 and 1,
+/// exclusively: llvmpipe makes 0 of a product with 0, of NaN * 0, too.
+/// Domain: 0 < share < 1.
+/// Error: 3 2^-p max(|begin|, |end|).
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real shutter_time(Real begin, Real end, std::type_identity_t<Real> share)
+{
+    return begin * (Real(1) - share) + end * share;
+}
+
+/// Share of the exposure's light that a shutter which opens and closes at once has let in by time t, in [0, 1]. If
+/// begin == end the share is 0 up to that time and 1 after it.
+/// Domain: begin <= end.
+/// NaN: 0.
+/// Source: Palmer 2011, Eq. 2.1
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real shutter_box(Real t, Real begin, Real end)
+{
+    return saturate_or_zero((t - begin) / (end - begin));
+}
+
+/// Share of the exposure's light that a shutter which opens and closes evenly, wide open halfway, has let in by time t,
+/// in [0, 1].
+/// Domain: begin <= end.
+/// NaN: 0.
+/// Source: Palmer 2011, Eq. 2.1
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real shutter_tent(Real t, Real begin, Real end)
+{
+    Real x = shutter_box(t, begin, end);
+    Real left = Real(1) - x;
+    return gnomon_select(x < Real(0.5), Real(2) * (x * x), Real(1) - Real(2) * (left * left));
+}
+
+/// A weight limited to [0, 2^60].
+/// NaN: 0.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real shutter_weight(Real w)
+{
+    return gnomon_select(Real(0) < w, gnomon_min(w, literal<Real>(shutter_weight_limit)), Real(0));
+}
+
+/// Fraction of the sum that is this weight, 1/8 if the sum is 0. In [0, 1], also where division is not correctly
+/// rounded.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real shutter_share(Real weight, Real sum)
+{
+    return gnomon_select(Real(0) < sum, saturate_or_zero(weight / sum), Real(0.125));
+}
+
+/// Eight weights scaled to sum to 1. Negative weights count as 0; if no weight is left, all are equal, as for a box.
+/// Call once for a shutter, not for each range.
+/// NaN: a NaN weight counts as 0.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr shutter_weights<Real> shutter_weights_make(shutter_weights<Real> weights)
+{
+    shutter_weights<Real> w;
+    w.w0 = shutter_weight(weights.w0);
+    w.w1 = shutter_weight(weights.w1);
+    w.w2 = shutter_weight(weights.w2);
+    w.w3 = shutter_weight(weights.w3);
+    w.w4 = shutter_weight(weights.w4);
+    w.w5 = shutter_weight(weights.w5);
+    w.w6 = shutter_weight(weights.w6);
+    w.w7 = shutter_weight(weights.w7);
+    Real sum = ((w.w0 + w.w1) + (w.w2 + w.w3)) + ((w.w4 + w.w5) + (w.w6 + w.w7));
+    w.w0 = shutter_share(w.w0, sum);
+    w.w1 = shutter_share(w.w1, sum);
+    w.w2 = shutter_share(w.w2, sum);
+    w.w3 = shutter_share(w.w3, sum);
+    w.w4 = shutter_share(w.w4, sum);
+    w.w5 = shutter_share(w.w5, sum);
+    w.w6 = shutter_share(w.w6, sum);
+    w.w7 = shutter_share(w.w7, sum);
+    return w;
+}
+
+/// Share of the exposure's light that a shutter with the weights w has let in by time t. Each eighth lets in its weight
+/// evenly. In [0, 1] for any weights, from shutter_weights_make or not, and exactly 1 from the end of the exposure on.
+/// Domain: begin <= end.
+/// Error: 16 2^-p.
+/// Source: Palmer 2011, Eq. 2.1
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real shutter_piecewise(Real t, Real begin, Real end, shutter_weights<Real> w)
+{
+    Real x = Real(8) * shutter_box(t, begin, end);
+    Real early = (w.w0 * saturate_or_zero(x) + w.w1 * saturate_or_zero(x - Real(1))) +
+                 (w.w2 * saturate_or_zero(x - Real(2)) + w.w3 * saturate_or_zero(x - Real(3)));
+    Real late = (w.w4 * saturate_or_zero(x - Real(4)) + w.w5 * saturate_or_zero(x - Real(5))) +
+                (w.w6 * saturate_or_zero(x - Real(6)) + w.w7 * saturate_or_zero(x - Real(7)));
+    return gnomon_select(x < Real(8), saturate_or_zero(early + late), Real(1));
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// motion/layers/receiver_footprint.h ----------------------------------------------------------------------------------
+// The time that one sample of a stochastic camera stands for. The camera takes N samples for each pixel, one in each
+// stratum of the shutter interval. A look-up at the sample's own time is as noisy as the camera; the mean over the time
+// that the sample stands for is not.
+//
+// The point has to follow its surface meanwhile (receiver_path.h). Held in place it would leave the surface, which then
+// shadows it. With the path of the point and ranges, the mean is known in closed form:
+//     exposure = footprint_stratum(t, N);
+//     path = receiver_path_clip(path, exposure.begin, exposure.end);
+//     moving_receiver_begin(path, exposure.begin, exposure.end), and so on (moving_receiver.h)
+// The strata of a pixel's samples fill the shutter interval, so a point that its pixel sees all the time gets the mean
+// over the whole interval, without noise and without bias.
+#ifndef GNOMON_MOTION_LAYERS_RECEIVER_FOOTPRINT_H
+#define GNOMON_MOTION_LAYERS_RECEIVER_FOOTPRINT_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The stratum of `count` that holds time t, from begin to end.
+/// Domain: t is clamped to [0, 1]; count is a whole number in [1, 65536].
+/// NaN: the first stratum for t.
+/// Error: 2^-p for each time.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr shutter_exposure<Real> footprint_stratum(Real t, Real count)
+{
+    Real slice = slice_of(t, count);
+    shutter_exposure<Real> r;
+    r.begin = saturate_or_zero(slice / count);
+    r.end = saturate_or_zero((slice + Real(1)) / count);
+    return r;
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// motion/range/deep_shadow.h ------------------------------------------------------------------------------------------
+// Deep shadow maps (Lokovic & Veach 2000): transmittance over depth for each texel, from 1 in front of all occluders to
+// that behind them. What moves covers a texel for a part of the time, so motion counts as translucency: time is
+// collapsed, which is right for static receivers under a static light and for no others.
+//
+// A deep layer takes away a share of the light, its opacity, evenly from depth z0 to depth z1, or at once if both are
+// equal. Layers multiply, in any order:
+//     transmittance = 1;   for every layer of the texel: transmittance = deep_shadow_add(transmittance, layer, z_f)
+//     intensity = deep_shadow_end(transmittance);
+//
+// The layers of a texel come from its transmittance as a polyline over depth, which is compressed to a tolerance by a
+// greedy window of slopes: one line goes on for as long as it passes all vertices within the tolerance.
+//     window = deep_window_begin(tolerance);
+//     for each vertex from near to far: window = deep_window_add(window, z, v), and keep window.layer if it is opaque
+//     layer = deep_window_end(window), kept if it is opaque
+// The n sorted depths of samples have two vertices each: (z_k, 1 - k / n) and (z_k, 1 - (k + 1) / n), k from 0.
+//
+// With ever more samples the polyline becomes the one of a resolved list, in closed form: each range that covers the
+// texel for a time takes that time's share of the light, evenly over its depths (deep_shadow_share). So lists of ranges
+// give the deep map that samples converge to.
+#ifndef GNOMON_MOTION_RANGE_DEEP_SHADOW_H
+#define GNOMON_MOTION_RANGE_DEEP_SHADOW_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// A layer that takes the share `opacity` of the light that reaches it, evenly from depth z0 to z1 >= z0.
+template <class Real, class = require_real<Real>> struct deep_layer { Real z0, z1, opacity; };
+
+/// Transmittance behind one more layer, for a receiver at depth z_f, from the transmittance so far; 1 before the first.
+/// A layer of one depth takes its light from receivers behind that depth.
+/// NaN: a layer with a NaN takes nothing.
+/// Error: 4 2^-p for each layer.
+/// Source: Lokovic & Veach 2000
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real deep_shadow_add(Real transmittance, deep_layer<Real> layer, Real z_f)
+{
+    Real passed = saturate_or_zero((z_f - layer.z0) / (layer.z1 - layer.z0));
+    return transmittance * (Real(1) - saturate_or_zero(layer.opacity * passed));
+}
+
+/// Shadow intensity in [0, 1] of the transmittance in front of a receiver.
+/// NaN: 0, lit.
+/// Error: that of deep_shadow_add.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real deep_shadow_end(Real transmittance) { return saturate_or_zero(Real(1) - transmittance); }
+
+/// Share of the shutter interval for which a range is in front of depth z_f, in [0, 1]. 1 minus the sum over a resolved
+/// list is the transmittance at z_f.
+/// NaN: 0.
+/// Error: 4 2^-p of the duration.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real deep_shadow_share(depth_time_range<Real> r, Real z_f)
+{
+    depth_time_range c = range_clip(r, Real(0), Real(1));
+    Real nearest = gnomon_min(c.z0, c.z1);
+    Real passed = saturate_or_zero((z_f - nearest) / (gnomon_max(c.z0, c.z1) - nearest));
+    mask_t<Real> known = c.z0 == c.z0 && c.z1 == c.z1;
+    return saturate_or_zero(gnomon_select(known, range_duration(c) * passed, Real(0)));
+}
+
+/// The tolerance; the line from depth z0 and transmittance v0 to depth z1 and transmittance v1, and the slopes between
+/// which it passes its vertices, least above most if it ends here; the last vertex's transmittance, v; touched, 1 if
+/// the line has a vertex besides its begin; and the layer that the last vertex has completed, of opacity 0 if none.
+template <class Real, class = require_real<Real>> struct deep_window
+{
+    Real tolerance, z0, v0, z1, v1, least, most, v, touched;
+    deep_layer<Real> layer;
+};
+
+inline constexpr double deep_window_steepest = 1099511627776.0; // 2^40: depths closer than its inverse count as equal
+
+/// The layer of the line so far, of opacity 0 if transmittance does not change.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr deep_layer<Real> deep_window_end(deep_window<Real> window)
+{
+    deep_layer<Real> r;
+    r.z0 = window.z0;
+    r.z1 = window.z1;
+    r.opacity = saturate_or_zero((window.v0 - window.v1) / window.v0);
+    return r;
+}
+
+/// A line that begins where the last one ends, without a vertex besides.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr deep_window<Real> deep_window_next(deep_window<Real> window)
+{
+    window.layer = deep_window_end(window);
+    window.z0 = window.z1;
+    window.v0 = window.v1;
+    window.least = Real(-1) * literal<Real>(deep_window_steepest);
+    window.most = Real(0);
+    window.touched = Real(0);
+    return window;
+}
+
+/// Begin at the near plane, -1, with transmittance 1. Tolerance is the most by which lines may
+/// depart from the polyline. With 0 every step and every slope of the polyline becomes a layer.
+/// NaN: a tolerance of 0.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr deep_window<Real> deep_window_begin(Real tolerance)
+{
+    deep_window<Real> r;
+    r.tolerance = gnomon_max(tolerance, Real(0));
+    r.z0 = Real(-1);
+    r.v0 = Real(1);
+    r.z1 = Real(-1);
+    r.v1 = Real(1);
+    r.v = Real(1);
+    return deep_window_next(r);
+}
+
+/// The line led to one more vertex, z >= window.z1 and v <= window.v. Where it cannot pass all of its vertices it ends.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr deep_window<Real> deep_window_lead(deep_window<Real> window, Real z, Real v)
+{
+    Real length = z - window.z0;
+    Real lowest = (gnomon_max(v - window.tolerance, Real(0)) - window.v0) / length;
+    Real highest = (v + window.tolerance - window.v0) / length;
+    Real least = gnomon_max(window.least, lowest);
+    Real most = gnomon_min(window.most, highest);
+    Real nearest = saturate_or_zero(clamp_or_high(v, window.v0 + least * length, window.v0 + most * length));
+    mask_t<Real> level = window.touched < Real(1) && v == window.v && window.z1 < z; // no line begins before a drop
+    mask_t<Real> step = length * literal<Real>(deep_window_steepest) <= Real(1);
+    mask_t<Real> kept = level || (step && window.v0 <= v + window.tolerance);
+    window.least = gnomon_select(kept, window.least, gnomon_select(step, Real(1), least));
+    window.most = gnomon_select(kept, window.most, gnomon_select(step, Real(0), most));
+    window.v1 = gnomon_select(kept, window.v0, gnomon_select(step, v, nearest));
+    window.z0 = gnomon_select(level, z, window.z0);
+    window.touched = gnomon_select(level, Real(0), Real(1));
+    window.z1 = z;
+    window.v = v;
+    return window;
+}
+
+/// Add a vertex of the polyline, transmittance v at depth z; two at one depth are a step. If the layer of the result
+/// has an opacity above 0 it is complete, and the caller keeps it.
+/// Domain: vertices from near to far, transmittance in [0, 1] and never growing; others are moved to the nearest such.
+/// Depths closer than 2^-40 count as equal.
+/// NaN: the vertex is left out, as is one beyond 2^60.
+/// Error: with all layers kept, the tolerance and 4 2^-p for each of them.
+/// Source: Lokovic & Veach 2000
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr deep_window<Real> deep_window_add(deep_window<Real> window, Real z, Real v)
+{
+    mask_t<Real> known = gnomon_abs(z) < literal<Real>(range_far) && v == v;
+    Real touched = window.touched;
+    z = gnomon_select(known, gnomon_max(z, window.z1), window.z1);
+    v = gnomon_select(known, gnomon_min(saturate_or_zero(v), window.v), window.v);
+    deep_window led = deep_window_lead(window, z, v);
+    deep_window next = deep_window_next(window);
+    mask_t<Real> deeper = window.most < window.least && (z - window.z0) *
+                          literal<Real>(deep_window_steepest) <= Real(1);
+    mask_t<Real> done = known && !(deeper || (window.least <= window.most && led.least <= led.most));
+    window.layer = next.layer;
+    window.layer.opacity = gnomon_select(done, next.layer.opacity, Real(0));
+    window.z0 = gnomon_select(done, next.z0, window.z0);
+    window.v0 = gnomon_select(done, next.v0, window.v0);
+    window.least = gnomon_select(done, next.least, window.least);
+    window.most = gnomon_select(done, next.most, window.most);
+    window.touched = gnomon_select(done, next.touched, window.touched);
+    led = deep_window_lead(window, z, v);
+    led.touched = gnomon_select(known, led.touched, touched);
+    return led;
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
 // motion/range/range_cover.h ------------------------------------------------------------------------------------------
 // Texels that one surface covers for the whole shutter, in front of everything else: the coverage map of Hong & Oh
 // ("Efficient motion blurred shadows using a temporal shadow map", 2017). All other ranges of such a texel are occluded
@@ -7406,6 +7894,96 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif
 
+// motion/range/range_moments.h ----------------------------------------------------------------------------------------
+// Moments over time of what a texel of the light sees while the shutter is open, in closed form from its resolved
+// ranges: the filterable shadow map of motion that Palmer 2011 leaves as future work. The depth of a range is a line
+// over time, so the mean of its power z^j is (z0^j + z0^(j-1) z1 + ... + z1^j) / (j + 1), and nothing cancels for
+// depths of one sign. There is no noise: the moments are those that stochastic samples converge to.
+//
+// The result is a texel of a moment shadow map. It goes through any storage format and any linear filter, and gives the
+// bounds on the shadow of a static receiver (moments/hamburger4.h). Time is collapsed: a receiver that moves with its
+// caster gets the shadow of all times.
+//
+//     state = range_moments4_begin(1);
+//     state = range_moments4_add(state, range);    for every range of the resolved list
+//     b = range_moments4_end(state);
+#ifndef GNOMON_MOTION_RANGE_RANGE_MOMENTS_H
+#define GNOMON_MOTION_RANGE_RANGE_MOMENTS_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The sum of moments weighted by time, the time that is covered, and the depth of the times that are not.
+template <class Real, class = require_real<Real>> struct range_moments4
+{
+    moments4<Real> sum;
+    Real covered, background;
+};
+
+inline constexpr double range_moments_third = 0.33333333333333333333;
+inline constexpr double range_moments_fifth = 0.2;
+
+/// The means of the first four powers of depth over the time of a range.
+/// Domain: depths in [-1, 1].
+/// NaN: NaN.
+/// Error: 4 2^-p.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr moments4<Real> range_mean_moments4(depth_time_range<Real> r)
+{
+    Real product = r.z0 * r.z1;
+    Real squares = r.z0 * r.z0 + r.z1 * r.z1;
+    moments4<Real> m;
+    m.b1 = Real(0.5) * (r.z0 + r.z1);
+    m.b2 = literal<Real>(range_moments_third) * (squares + product);
+    m.b3 = Real(0.5) * (squares * m.b1);
+    m.b4 = literal<Real>(range_moments_fifth) * ((squares * squares - product * product) + squares * product);
+    return m;
+}
+
+/// Begin without a range. Times that no range covers have the depth `background`, 1 for a cleared map.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr range_moments4<Real> range_moments4_begin(Real background)
+{
+    range_moments4<Real> state;
+    state.sum.b1 = Real(0);
+    state.sum.b2 = Real(0);
+    state.sum.b3 = Real(0);
+    state.sum.b4 = Real(0);
+    state.covered = Real(0);
+    state.background = background;
+    return state;
+}
+
+/// Add one range that is disjoint in time from those before.
+/// NaN: a range with a NaN adds nothing.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr range_moments4<Real> range_moments4_add(range_moments4<Real> state, depth_time_range<Real> r)
+{
+    depth_time_range c = range_clip(r, Real(0), Real(1));
+    Real duration = gnomon_select(c.z0 == c.z0 && c.z1 == c.z1, range_duration(c), Real(0));
+    mask_t<Real> some = Real(0) < duration;
+    moments4 sum = moments4_add(state.sum, range_mean_moments4(c), duration);
+    state.sum.b1 = gnomon_select(some, sum.b1, state.sum.b1);
+    state.sum.b2 = gnomon_select(some, sum.b2, state.sum.b2);
+    state.sum.b3 = gnomon_select(some, sum.b3, state.sum.b3);
+    state.sum.b4 = gnomon_select(some, sum.b4, state.sum.b4);
+    state.covered = state.covered + duration;
+    return state;
+}
+
+/// The moments of depth over the shutter interval.
+/// Domain: ranges of a resolved list, depths in [-1, 1].
+/// Error: 8 2^-p for each range.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr moments4<Real> range_moments4_end(range_moments4<Real> state)
+{
+    Real open = saturate_or_zero(Real(1) - state.covered);
+    return moments4_add(state.sum, moments4_from_depth(state.background), open);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
 // motion/range/range_summary.h ----------------------------------------------------------------------------------------
 // A summary of a resolved list in four numbers: nearest and farthest depth, occluded time, id. Most receivers need
 // nothing more. They are in front of all ranges of a texel, or behind all of them, above all where backdrops are left
@@ -7582,142 +8160,6 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif
 
-// motion/receiver/shutter.h -------------------------------------------------------------------------------------------
-// Shutter responses: the share of the exposure's light that a shutter has let in by time t. The light that a receiver
-// loses between two times is the difference of the shares (Palmer 2011, (2.1), with the response w(t) integrated in
-// advance).
-//
-// Three responses: a box, which opens and closes at once; a tent, which is wide open halfway; and eight equal parts of
-// the exposure with any weights, such as those of a camera's measured shutter.
-//
-// The ends of an exposure may be given in either order. An exposure of no length shows a single time (see
-// shutter_exposure_make, which receivers begin with).
-#ifndef GNOMON_MOTION_RECEIVER_SHUTTER_H
-#define GNOMON_MOTION_RECEIVER_SHUTTER_H
-
-GNOMON_WARNINGS_OFF namespace gnomon {
-
-/// Fraction of the exposure's light in each eighth, in order; the sum is 1 (see shutter_weights_make).
-template <class Real, class = require_real<Real>> struct shutter_weights { Real w0, w1, w2, w3, w4, w5, w6, w7; };
-
-/// Times at which a shutter opens and closes.
-template <class Real, class = require_real<Real>> struct shutter_exposure { Real begin, end; };
-
-inline constexpr double shutter_weight_limit = 1152921504606846976.0; // 2^60: eight of them have a sum in float
-
-/// The exposure between two times, given in either order. An exposure shorter than 2^-20 lasts 2^-20 from its begin on,
-/// or until shutter close if it would end later: a range that covers that time shadows the receiver entirely.
-/// NaN: a NaN stays NaN.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr shutter_exposure<Real> shutter_exposure_make(Real a, Real b)
-{
-    Real least = Real(0.00000095367431640625);
-    mask_t<Real> swapped = b < a;
-    Real open = gnomon_select(swapped, b, a);
-    Real close = gnomon_select(swapped, a, b);
-    mask_t<Real> brief = close - open < least;
-    Real early = gnomon_select(open <= Real(1), gnomon_min(open, Real(1) - least), open);
-    shutter_exposure<Real> r;
-    r.begin = gnomon_select(brief, early, open);
-    r.end = gnomon_select(brief, early + least, close);
-    return r;
-}
-
-/// Time at which the given share of the time from begin to end has passed. The share must lie between 0 and 1,
-/// exclusively: llvmpipe makes 0 of a product with 0, of NaN * 0, too.
-/// Domain: 0 < share < 1.
-/// Error: 3 2^-p max(|begin|, |end|).
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real shutter_time(Real begin, Real end, std::type_identity_t<Real> share)
-{
-    return begin * (Real(1) - share) + end * share;
-}
-
-/// Share of the exposure's light that a shutter which opens and closes at once has let in by time t, in [0, 1]. If
-/// begin == end the share is 0 up to that time and 1 after it.
-/// Domain: begin <= end.
-/// NaN: 0.
-/// Source: Palmer 2011, Eq. 2.1
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real shutter_box(Real t, Real begin, Real end)
-{
-    return saturate_or_zero((t - begin) / (end - begin));
-}
-
-/// Share of the exposure's light that a shutter which opens and closes evenly, wide open halfway, has let in by time t,
-/// in [0, 1].
-/// Domain: begin <= end.
-/// NaN: 0.
-/// Source: Palmer 2011, Eq. 2.1
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real shutter_tent(Real t, Real begin, Real end)
-{
-    Real x = shutter_box(t, begin, end);
-    Real left = Real(1) - x;
-    return gnomon_select(x < Real(0.5), Real(2) * (x * x), Real(1) - Real(2) * (left * left));
-}
-
-/// A weight limited to [0, 2^60].
-/// NaN: 0.
-template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real shutter_weight(Real w)
-{
-    return gnomon_select(Real(0) < w, gnomon_min(w, literal<Real>(shutter_weight_limit)), Real(0));
-}
-
-/// Fraction of the sum that is this weight, 1/8 if the sum is 0. In [0, 1], also where division is not correctly
-/// rounded.
-template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real shutter_share(Real weight, Real sum)
-{
-    return gnomon_select(Real(0) < sum, saturate_or_zero(weight / sum), Real(0.125));
-}
-
-/// Eight weights scaled to sum to 1. Negative weights count as 0; if no weight is left, all are equal, as for a box.
-/// Call once for a shutter, not for each range.
-/// NaN: a NaN weight counts as 0.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr shutter_weights<Real> shutter_weights_make(shutter_weights<Real> weights)
-{
-    shutter_weights<Real> w;
-    w.w0 = shutter_weight(weights.w0);
-    w.w1 = shutter_weight(weights.w1);
-    w.w2 = shutter_weight(weights.w2);
-    w.w3 = shutter_weight(weights.w3);
-    w.w4 = shutter_weight(weights.w4);
-    w.w5 = shutter_weight(weights.w5);
-    w.w6 = shutter_weight(weights.w6);
-    w.w7 = shutter_weight(weights.w7);
-    Real sum = ((w.w0 + w.w1) + (w.w2 + w.w3)) + ((w.w4 + w.w5) + (w.w6 + w.w7));
-    w.w0 = shutter_share(w.w0, sum);
-    w.w1 = shutter_share(w.w1, sum);
-    w.w2 = shutter_share(w.w2, sum);
-    w.w3 = shutter_share(w.w3, sum);
-    w.w4 = shutter_share(w.w4, sum);
-    w.w5 = shutter_share(w.w5, sum);
-    w.w6 = shutter_share(w.w6, sum);
-    w.w7 = shutter_share(w.w7, sum);
-    return w;
-}
-
-/// Share of the exposure's light that a shutter with the weights w has let in by time t. Each eighth lets in its weight
-/// evenly. In [0, 1] for any weights, from shutter_weights_make or not, and exactly 1 from the end of the exposure on.
-/// Domain: begin <= end.
-/// Error: 16 2^-p.
-/// Source: Palmer 2011, Eq. 2.1
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real shutter_piecewise(Real t, Real begin, Real end, shutter_weights<Real> w)
-{
-    Real x = Real(8) * shutter_box(t, begin, end);
-    Real early = (w.w0 * saturate_or_zero(x) + w.w1 * saturate_or_zero(x - Real(1))) +
-                 (w.w2 * saturate_or_zero(x - Real(2)) + w.w3 * saturate_or_zero(x - Real(3)));
-    Real late = (w.w4 * saturate_or_zero(x - Real(4)) + w.w5 * saturate_or_zero(x - Real(5))) +
-                (w.w6 * saturate_or_zero(x - Real(6)) + w.w7 * saturate_or_zero(x - Real(7)));
-    return gnomon_select(x < Real(8), saturate_or_zero(early + late), Real(1));
-}
-
-GNOMON_WARNINGS_ON } // namespace gnomon
-
-#endif
-
 // motion/receiver/static_receiver.h -----------------------------------------------------------------------------------
 // The shadow on a static receiver while the shutter is open, in closed form. Every range in front of the receiver
 // occludes it for a time that is known in closed form, and the shutter (shutter.h) turns that time into a share of the
@@ -7839,154 +8281,6 @@ template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real static_receiver_end(static_receiver<Real> state)
 {
     return saturate_or_zero(state.shadowed);
-}
-
-GNOMON_WARNINGS_ON } // namespace gnomon
-
-#endif
-
-// motion/receiver/receiver_path.h -------------------------------------------------------------------------------------
-// The path of a receiver through the light's clip space while a pixel sees it, and its shadow by samples in time
-// (Palmer 2011, 2.3.2 and 4.1).
-//
-// The receiver's point and the light move along straight lines, and the light does not turn, so x, y and w are linear
-// in time. The point on the map, (x / w, y / w), moves along a straight line, too; w is 1 for an orthographic light.
-// Depth is linear in view distance, hence linear in time: depth and time are those of a range.
-//
-//     n = receiver_sample_count(path, most);
-//     state = sampled_receiver_begin(n);
-//     for k from 0 to n - 1: t = receiver_sample_time(path, k, n, jitter); in the texel at receiver_path_at(path, t),
-//     the largest range_intensity(range, t, range_depth(path.depth, t), path.depth.id, bias) of all ranges, then
-//         state = sampled_receiver_add(state, largest);     or the mean of several texels by their weights
-//     intensity = sampled_receiver_end(state);
-#ifndef GNOMON_MOTION_RECEIVER_RECEIVER_PATH_H
-#define GNOMON_MOTION_RECEIVER_RECEIVER_PATH_H
-
-GNOMON_WARNINGS_OFF namespace gnomon {
-
-/// Times, depths and id as a range; homogeneous positions at the times t0 and t1, where x / w and y / w are in texels,
-/// texel centres at +0.5.
-template <class Real, class = require_real<Real>> struct receiver_path
-{
-    depth_time_range<Real> depth;
-    Real x0, y0, w0, x1, y1, w1;
-};
-
-/// A position in texels, texel centres at +0.5.
-template <class Real, class = require_real<Real>> struct texel_position { Real x, y; };
-
-inline constexpr double receiver_sample_limit = 1048576.0; // 2^20
-
-/// Position on the map at time t, held constant before the path begins and after it ends.
-/// Domain: w > 0 at both ends.
-/// Error: 8 2^-p times the largest |x| where w is 1; in perspective that times (1 + the larger w over the smaller w).
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr texel_position<Real> receiver_path_at(receiver_path<Real> path, Real t)
-{
-    Real passed = range_elapsed(path.depth, t);
-    Real left = Real(1) - passed;
-    Real w = path.w0 * left + path.w1 * passed;
-    texel_position<Real> r;
-    r.x = (path.x0 * left + path.x1 * passed) / w;
-    r.y = (path.y0 * left + path.y1 * passed) / w;
-    return r;
-}
-
-/// The path shifted by dx and dy texels on the map.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr receiver_path<Real> receiver_path_shift(receiver_path<Real> path, Real dx, Real dy)
-{
-    path.x0 = path.x0 + dx * path.w0;
-    path.y0 = path.y0 + dy * path.w0;
-    path.x1 = path.x1 + dx * path.w1;
-    path.y1 = path.y1 + dy * path.w1;
-    return path;
-}
-
-/// The part of the path between the times begin and end, such as those at which the receiver faces the light
-/// (facing.h).
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr receiver_path<Real> receiver_path_clip(receiver_path<Real> path, Real begin, Real end)
-{
-    Real passed0 = range_elapsed(path.depth, begin);
-    Real passed1 = range_elapsed(path.depth, end);
-    Real left0 = Real(1) - passed0;
-    Real left1 = Real(1) - passed1;
-    receiver_path<Real> c;
-    c.depth = range_clip(path.depth, begin, end);
-    c.x0 = path.x0 * left0 + path.x1 * passed0;
-    c.y0 = path.y0 * left0 + path.y1 * passed0;
-    c.w0 = path.w0 * left0 + path.w1 * passed0;
-    c.x1 = path.x0 * left1 + path.x1 * passed1;
-    c.y1 = path.y0 * left1 + path.y1 * passed1;
-    c.w1 = path.w0 * left1 + path.w1 * passed1;
-    return c;
-}
-
-/// Length of the path on the map, in texels.
-/// Domain: w > 0 at both ends.
-/// Error: 4 2^-p times the largest |x| + |y|.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real receiver_path_length(receiver_path<Real> path)
-{
-    Real dx = path.x1 / path.w1 - path.x0 / path.w0;
-    Real dy = path.y1 / path.w1 - path.y0 / path.w0;
-    return gnomon_sqrt(dx * dx + dy * dy);
-}
-
-/// Number of samples for a path: max(2 length, 5), rounded up, at most `most`. A whole number.
-/// Domain: most is a whole number from 5 to 2^20, and is clamped to that.
-/// NaN: a NaN counts as 5.
-/// Source: Palmer 2011, Sec. 4.1
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real receiver_sample_count(receiver_path<Real> path, std::type_identity_t<Real> most)
-{
-    Real wanted = gnomon_max(Real(2) * receiver_path_length(path), Real(5)); // a NaN becomes 5
-    Real limit = gnomon_min(gnomon_max(most, Real(5)), literal<Real>(receiver_sample_limit));
-    Real count = gnomon_min(wanted, limit);
-    Real whole = nearest_integer(count);
-    return whole + gnomon_select(whole < count, Real(1), Real(0));
-}
-
-/// Time of sample k of n, k from 0, stratified: at `jitter`, in [0, 1), of the k-th of n equal parts of the time. A
-/// jitter of 0.5 is the middle of the part.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real receiver_sample_time(receiver_path<Real> path, Real k, Real n, Real jitter)
-{
-    Real passed = saturate_or_zero((k + jitter) / n);
-    return path.depth.t0 * (Real(1) - passed) + path.depth.t1 * passed;
-}
-
-/// Number of samples, and the sum of their shadow intensities so far.
-template <class Real, class = require_real<Real>> struct sampled_receiver { Real samples, shadowed; };
-
-/// Begin with the number of samples to come.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr sampled_receiver<Real> sampled_receiver_begin(Real samples)
-{
-    sampled_receiver<Real> r;
-    r.samples = samples;
-    r.shadowed = Real(0);
-    return r;
-}
-
-/// Add one sample by its shadow intensity in [0, 1].
-/// NaN: the sample is lit.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr sampled_receiver<Real> sampled_receiver_add(sampled_receiver<Real> state, Real intensity)
-{
-    state.shadowed = state.shadowed + saturate_or_zero(intensity);
-    return state;
-}
-
-/// Shadow intensity in [0, 1]: the mean of all samples.
-/// Error: that of sampling: up to 1 / n for each time at which the shadow comes or goes, half of that with samples in
-/// the middle.
-/// Source: Palmer 2011, Sec. 4.1
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real sampled_receiver_end(sampled_receiver<Real> state)
-{
-    return saturate_or_zero(state.shadowed / state.samples);
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon
@@ -8331,6 +8625,68 @@ template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real moving_receiver_end(moving_receiver<Real> state)
 {
     return saturate_or_zero(state.shadowed);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// motion/receiver/time_dependent.h ------------------------------------------------------------------------------------
+// Time-dependent shadow maps (Akenine-Moller, Munkberg & Hasselgren 2007): the shutter interval is cut into slices, and
+// each slice has a shadow map whose texels have one sample each, at a time of their own within the slice. A receiver
+// that is seen at time t_r reads the slice of that time, but the sample's time t is another one. Meanwhile the surface
+// that the sample shows has moved: by itself it would shadow itself (Andersson et al. 2015, Figure 10).
+//
+//     sample.travel = time_dependent_travel(d_x, d_y);                         when the map is made
+//     state = percentage_closer_begin(z_f - constant_bias);                    filters/percentage_closer.h
+//     for the texel of the receiver, or for 2 x 2 texels by bilinear weights, in slice slice_of(t_r, slices):
+//         state = percentage_closer_add(state, z, weight), where z is one of
+//             sample.z                                                         constant bias alone
+//             time_dependent_depth(sample, t_r)                                moved along with its surface in depth
+//             time_dependent_biased_depth(sample, t_r, slope, texels)          and spared by the surface's slope
+//     intensity = percentage_closer_end(state);
+//
+// Motion in depth alone does not spare a tilted surface: in the time between, the sample moves across the map as well,
+// and where it goes the surface is at another depth. The third depth adds the most that this can be.
+#ifndef GNOMON_MOTION_RECEIVER_TIME_DEPENDENT_H
+#define GNOMON_MOTION_RECEIVER_TIME_DEPENDENT_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// Depth z and time t of a sample, and the motion of the point that it shows over the whole shutter interval: in depth,
+/// d_z, and the length of its way over the map in texels, travel.
+template <class Real, class = require_real<Real>> struct time_dependent_sample { Real z, t, d_z, travel; };
+
+/// Length in texels of a motion over the map.
+/// NaN: NaN.
+/// Error: relative, 3 2^-p.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real time_dependent_travel(Real d_x, Real d_y) { return gnomon_sqrt(d_x * d_x + d_y * d_y); }
+
+/// Depth of the sample's surface at time t_r, by its own motion in depth: the dynamic bias.
+/// NaN: NaN.
+/// Error: 2^-p (|z| + 4 |d_z|), for times in [0, 1].
+/// Source: Andersson 2015, Eq. 12
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real time_dependent_depth(time_dependent_sample<Real> s, Real t_r)
+{
+    return s.z + s.d_z * (t_r - s.t);
+}
+
+/// Depth of the sample's surface at time t_r, plus the depth bias slope (texels + 1.5 travel |t_r - t|). slope is the
+/// change of the receiver's depth per texel, and texels the distance to the farthest place that the look-up may read:
+/// sqrt(2) for the nearest texel, 1.5 sqrt(2) for 2 x 2. A plane whose points share one motion never shadows itself;
+/// the factor of 1.5 leaves room for paths that perspective bends.
+/// Domain: slope at least 0, else 0.
+/// NaN: NaN.
+/// Error: twice that of time_dependent_depth, and 8 2^-p times the bias.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real time_dependent_biased_depth(time_dependent_sample<Real> s, Real t_r, Real slope,
+                                                         std::type_identity_t<Real> texels)
+{
+    Real passed = gnomon_abs(t_r - s.t);
+    Real reach = texels + Real(1.5) * (s.travel * passed);
+    return time_dependent_depth(s, t_r) + gnomon_max(Real(0), slope) * reach;
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon

@@ -5497,6 +5497,435 @@ fn layer_exponential_visibility(sums: gnomon_layer_exponential_sums, z: f32, set
     return gnomon_layer_transmission(sums.opacity, sums.weight, exponential_intensity(b, z, settings), z);
 }
 
+// motion/receiver/receiver_path.h -------------------------------------------------------------------------------------
+// The path of a receiver through the light's clip space while a pixel sees it, and its shadow by samples in time
+// (Palmer 2011, 2.3.2 and 4.1).
+//
+// The receiver's point and the light move along straight lines, and the light does not turn, so x, y and w are linear
+// in time. The point on the map, (x / w, y / w), moves along a straight line, too; w is 1 for an orthographic light.
+// Depth is linear in view distance, hence linear in time: depth and time are those of a range.
+//
+//     n = receiver_sample_count(path, most);
+//     state = sampled_receiver_begin(n);
+//     for k from 0 to n - 1: t = receiver_sample_time(path, k, n, jitter); in the texel at receiver_path_at(path, t),
+//     the largest range_intensity(range, t, range_depth(path.depth, t), path.depth.id, bias) of all ranges, then
+//         state = sampled_receiver_add(state, largest);     or the mean of several texels by their weights
+//     intensity = sampled_receiver_end(state);
+
+/// Times, depths and id as a range; homogeneous positions at the times t0 and t1, where x / w and y / w are in texels,
+/// texel centres at +0.5.
+struct receiver_path
+{
+    depth: depth_time_range,
+    x0_: f32, y0_: f32, w0_: f32, x1_: f32, y1_: f32, w1_: f32,
+}
+
+/// A position in texels, texel centres at +0.5.
+struct gnomon_texel_position { x: f32, y: f32 }
+
+const gnomon_receiver_sample_limit: f32 = 1048576.0; // 2^20
+
+/// Position on the map at time t, held constant before the path begins and after it ends.
+/// Domain: w > 0 at both ends.
+/// Error: 8 2^-p times the largest |x| where w is 1; in perspective that times (1 + the larger w over the smaller w).
+fn receiver_path_at(path: receiver_path, t: f32) -> gnomon_texel_position
+{
+    let passed = range_elapsed(path.depth, t);
+    let left = 1.0 - passed;
+    let w = path.w0_ * left + path.w1_ * passed;
+    var r: gnomon_texel_position;
+    r.x = (path.x0_ * left + path.x1_ * passed) / w;
+    r.y = (path.y0_ * left + path.y1_ * passed) / w;
+    return r;
+}
+
+/// The path shifted by dx and dy texels on the map.
+fn receiver_path_shift(given_path: receiver_path, dx: f32, dy: f32) -> receiver_path
+{
+    var path = given_path;
+    path.x0_ = path.x0_ + dx * path.w0_;
+    path.y0_ = path.y0_ + dy * path.w0_;
+    path.x1_ = path.x1_ + dx * path.w1_;
+    path.y1_ = path.y1_ + dy * path.w1_;
+    return path;
+}
+
+/// The part of the path between the times begin and end, such as those at which the receiver faces the light
+/// (facing.h).
+fn receiver_path_clip(path: receiver_path, begin: f32, end: f32) -> receiver_path
+{
+    let passed0 = range_elapsed(path.depth, begin);
+    let passed1 = range_elapsed(path.depth, end);
+    let left0 = 1.0 - passed0;
+    let left1 = 1.0 - passed1;
+    var c: receiver_path;
+    c.depth = range_clip(path.depth, begin, end);
+    c.x0_ = path.x0_ * left0 + path.x1_ * passed0;
+    c.y0_ = path.y0_ * left0 + path.y1_ * passed0;
+    c.w0_ = path.w0_ * left0 + path.w1_ * passed0;
+    c.x1_ = path.x0_ * left1 + path.x1_ * passed1;
+    c.y1_ = path.y0_ * left1 + path.y1_ * passed1;
+    c.w1_ = path.w0_ * left1 + path.w1_ * passed1;
+    return c;
+}
+
+/// Length of the path on the map, in texels.
+/// Domain: w > 0 at both ends.
+/// Error: 4 2^-p times the largest |x| + |y|.
+fn receiver_path_length(path: receiver_path) -> f32
+{
+    let dx = path.x1_ / path.w1_ - path.x0_ / path.w0_;
+    let dy = path.y1_ / path.w1_ - path.y0_ / path.w0_;
+    return gnomon_sqrt(dx * dx + dy * dy);
+}
+
+/// Number of samples for a path: max(2 length, 5), rounded up, at most `most`. A whole number.
+/// Domain: most is a whole number from 5 to 2^20, and is clamped to that.
+/// NaN: a NaN counts as 5.
+/// Source: Palmer 2011, Sec. 4.1
+fn receiver_sample_count(path: receiver_path, most: f32) -> f32
+{
+    let wanted = gnomon_max(2.0 * receiver_path_length(path), 5.0); // a NaN becomes 5
+    let limit = gnomon_min(gnomon_max(most, 5.0), gnomon_receiver_sample_limit);
+    let count = gnomon_min(wanted, limit);
+    let whole = nearest_integer(count);
+    return whole + gnomon_select(whole < count, 1.0, 0.0);
+}
+
+/// Time of sample k of n, k from 0, stratified: at `jitter`, in [0, 1), of the k-th of n equal parts of the time. A
+/// jitter of 0.5 is the middle of the part.
+fn receiver_sample_time(path: receiver_path, k: f32, n: f32, jitter: f32) -> f32
+{
+    let passed = saturate_or_zero((k + jitter) / n);
+    return path.depth.t0_ * (1.0 - passed) + path.depth.t1_ * passed;
+}
+
+/// Number of samples, and the sum of their shadow intensities so far.
+struct gnomon_sampled_receiver { samples: f32, shadowed: f32 }
+
+/// Begin with the number of samples to come.
+fn sampled_receiver_begin(samples: f32) -> gnomon_sampled_receiver
+{
+    var r: gnomon_sampled_receiver;
+    r.samples = samples;
+    r.shadowed = 0.0;
+    return r;
+}
+
+/// Add one sample by its shadow intensity in [0, 1].
+/// NaN: the sample is lit.
+fn sampled_receiver_add(given_state: gnomon_sampled_receiver, intensity: f32) -> gnomon_sampled_receiver
+{
+    var state = given_state;
+    state.shadowed = state.shadowed + saturate_or_zero(intensity);
+    return state;
+}
+
+/// Shadow intensity in [0, 1]: the mean of all samples.
+/// Error: that of sampling: up to 1 / n for each time at which the shadow comes or goes, half of that with samples in
+/// the middle.
+/// Source: Palmer 2011, Sec. 4.1
+fn sampled_receiver_end(state: gnomon_sampled_receiver) -> f32 { return saturate_or_zero(state.shadowed /
+                                                                                         state.samples); }
+
+// motion/receiver/shutter.h -------------------------------------------------------------------------------------------
+// Shutter responses: the share of the exposure's light that a shutter has let in by time t. The light that a receiver
+// loses between two times is the difference of the shares (Palmer 2011, (2.1), with the response w(t) integrated in
+// advance).
+//
+// Three responses: a box, which opens and closes at once; a tent, which is wide open halfway; and eight equal parts of
+// the exposure with any weights, such as those of a camera's measured shutter.
+//
+// The ends of an exposure may be given in either order. An exposure of no length shows a single time (see
+// gnomon_shutter_exposure_make, which receivers begin with).
+
+/// Fraction of the exposure's light in each eighth, in order; the sum is 1 (see shutter_weights_make).
+struct shutter_weights { w0_: f32, w1_: f32, w2_: f32, w3_: f32, w4_: f32, w5_: f32, w6_: f32, w7_: f32 }
+
+/// Times at which a shutter opens and closes.
+struct shutter_exposure { begin: f32, end: f32 }
+
+const gnomon_shutter_weight_limit: f32 = 1152921504606846976.0; // 2^60: eight of them have a sum in float
+
+/// The exposure between two times, given in either order. An exposure shorter than 2^-20 lasts 2^-20 from its begin on,
+/// or until shutter close if it would end later: a range that covers that time shadows the receiver entirely.
+/// NaN: a NaN stays NaN.
+fn gnomon_shutter_exposure_make(a: f32, b: f32) -> shutter_exposure
+{
+    let least = 0.00000095367431640625;
+    let swapped = b < a;
+    let open = gnomon_select(swapped, b, a);
+    let close = gnomon_select(swapped, a, b);
+    let brief = close - open < least;
+    let early = gnomon_select(open <= 1.0, gnomon_min(open, 1.0 - least), open);
+    var r: shutter_exposure;
+    r.begin = gnomon_select(brief, early, open);
+    r.end = gnomon_select(brief, early + least, close);
+    return r;
+}
+
+/// Time at which the given share of the time from begin to end has passed. The share must lie between 0 and 1,
+/// exclusively: llvmpipe makes 0 of a product with 0, of NaN * 0, too.
+/// Domain: 0 < share < 1.
+/// Error: 3 2^-p max(|begin|, |end|).
+fn shutter_time(begin: f32, end: f32, share: f32) -> f32 { return begin * (1.0 - share) + end * share; }
+
+/// Share of the exposure's light that a shutter which opens and closes at once has let in by time t, in [0, 1]. If
+/// begin == end the share is 0 up to that time and 1 after it.
+/// Domain: begin <= end.
+/// NaN: 0.
+/// Source: Palmer 2011, Eq. 2.1
+fn shutter_box(t: f32, begin: f32, end: f32) -> f32 { return saturate_or_zero((t - begin) / (end - begin)); }
+
+/// Share of the exposure's light that a shutter which opens and closes evenly, wide open halfway, has let in by time t,
+/// in [0, 1].
+/// Domain: begin <= end.
+/// NaN: 0.
+/// Source: Palmer 2011, Eq. 2.1
+fn shutter_tent(t: f32, begin: f32, end: f32) -> f32
+{
+    let x = shutter_box(t, begin, end);
+    let left = 1.0 - x;
+    return gnomon_select(x < 0.5, 2.0 * (x * x), 1.0 - 2.0 * (left * left));
+}
+
+/// A weight limited to [0, 2^60].
+/// NaN: 0.
+fn gnomon_shutter_weight(w: f32) -> f32 { return gnomon_select(0.0 < w, gnomon_min(w, gnomon_shutter_weight_limit),
+                                                               0.0); }
+
+/// Fraction of the sum that is this weight, 1/8 if the sum is 0. In [0, 1], also where division is not correctly
+/// rounded.
+fn gnomon_shutter_share(weight: f32, sum: f32) -> f32
+{
+    return gnomon_select(0.0 < sum, saturate_or_zero(weight / sum), 0.125);
+}
+
+/// Eight weights scaled to sum to 1. Negative weights count as 0; if no weight is left, all are equal, as for a box.
+/// Call once for a shutter, not for each range.
+/// NaN: a NaN weight counts as 0.
+fn shutter_weights_make(weights: shutter_weights) -> shutter_weights
+{
+    var w: shutter_weights;
+    w.w0_ = gnomon_shutter_weight(weights.w0_);
+    w.w1_ = gnomon_shutter_weight(weights.w1_);
+    w.w2_ = gnomon_shutter_weight(weights.w2_);
+    w.w3_ = gnomon_shutter_weight(weights.w3_);
+    w.w4_ = gnomon_shutter_weight(weights.w4_);
+    w.w5_ = gnomon_shutter_weight(weights.w5_);
+    w.w6_ = gnomon_shutter_weight(weights.w6_);
+    w.w7_ = gnomon_shutter_weight(weights.w7_);
+    let sum = ((w.w0_ + w.w1_) + (w.w2_ + w.w3_)) + ((w.w4_ + w.w5_) + (w.w6_ + w.w7_));
+    w.w0_ = gnomon_shutter_share(w.w0_, sum);
+    w.w1_ = gnomon_shutter_share(w.w1_, sum);
+    w.w2_ = gnomon_shutter_share(w.w2_, sum);
+    w.w3_ = gnomon_shutter_share(w.w3_, sum);
+    w.w4_ = gnomon_shutter_share(w.w4_, sum);
+    w.w5_ = gnomon_shutter_share(w.w5_, sum);
+    w.w6_ = gnomon_shutter_share(w.w6_, sum);
+    w.w7_ = gnomon_shutter_share(w.w7_, sum);
+    return w;
+}
+
+/// Share of the exposure's light that a shutter with the weights w has let in by time t. Each eighth lets in its weight
+/// evenly. In [0, 1] for any weights, from shutter_weights_make or not, and exactly 1 from the end of the exposure on.
+/// Domain: begin <= end.
+/// Error: 16 2^-p.
+/// Source: Palmer 2011, Eq. 2.1
+fn shutter_piecewise(t: f32, begin: f32, end: f32, w: shutter_weights) -> f32
+{
+    let x = 8.0 * shutter_box(t, begin, end);
+    let early = (w.w0_ * saturate_or_zero(x) + w.w1_ * saturate_or_zero(x - 1.0)) +
+                (w.w2_ * saturate_or_zero(x - 2.0) + w.w3_ * saturate_or_zero(x - 3.0));
+    let late = (w.w4_ * saturate_or_zero(x - 4.0) + w.w5_ * saturate_or_zero(x - 5.0)) +
+               (w.w6_ * saturate_or_zero(x - 6.0) + w.w7_ * saturate_or_zero(x - 7.0));
+    return gnomon_select(x < 8.0, saturate_or_zero(early + late), 1.0);
+}
+
+// motion/layers/receiver_footprint.h ----------------------------------------------------------------------------------
+// The time that one sample of a stochastic camera stands for. The camera takes N samples for each pixel, one in each
+// stratum of the shutter interval. A look-up at the sample's own time is as noisy as the camera; the mean over the time
+// that the sample stands for is not.
+//
+// The point has to follow its surface meanwhile (receiver_path.h). Held in place it would leave the surface, which then
+// shadows it. With the path of the point and ranges, the mean is known in closed form:
+//     exposure = footprint_stratum(t, N);
+//     path = receiver_path_clip(path, exposure.begin, exposure.end);
+//     moving_receiver_begin(path, exposure.begin, exposure.end), and so on (moving_receiver.h)
+// The strata of a pixel's samples fill the shutter interval, so a point that its pixel sees all the time gets the mean
+// over the whole interval, without noise and without bias.
+
+/// The stratum of `count` that holds time t, from begin to end.
+/// Domain: t is clamped to [0, 1]; count is a whole number in [1, 65536].
+/// NaN: the first stratum for t.
+/// Error: 2^-p for each time.
+fn footprint_stratum(t: f32, count: f32) -> shutter_exposure
+{
+    let slice = slice_of(t, count);
+    var r: shutter_exposure;
+    r.begin = saturate_or_zero(slice / count);
+    r.end = saturate_or_zero((slice + 1.0) / count);
+    return r;
+}
+
+// motion/range/deep_shadow.h ------------------------------------------------------------------------------------------
+// Deep shadow maps (Lokovic & Veach 2000): transmittance over depth for each texel, from 1 in front of all occluders to
+// that behind them. What moves covers a texel for a part of the time, so motion counts as translucency: time is
+// collapsed, which is right for static receivers under a static light and for no others.
+//
+// A deep layer takes away a share of the light, its opacity, evenly from depth z0 to depth z1, or at once if both are
+// equal. Layers multiply, in any order:
+//     transmittance = 1;   for every layer of the texel: transmittance = deep_shadow_add(transmittance, layer, z_f)
+//     intensity = deep_shadow_end(transmittance);
+//
+// The layers of a texel come from its transmittance as a polyline over depth, which is compressed to a tolerance by a
+// greedy window of slopes: one line goes on for as long as it passes all vertices within the tolerance.
+//     window = deep_window_begin(tolerance);
+//     for each vertex from near to far: window = deep_window_add(window, z, v), and keep window.layer if it is opaque
+//     layer = deep_window_end(window), kept if it is opaque
+// The n sorted depths of samples have two vertices each: (z_k, 1 - k / n) and (z_k, 1 - (k + 1) / n), k from 0.
+//
+// With ever more samples the polyline becomes the one of a resolved list, in closed form: each range that covers the
+// texel for a time takes that time's share of the light, evenly over its depths (deep_shadow_share). So lists of ranges
+// give the deep map that samples converge to.
+
+/// A layer that takes the share `opacity` of the light that reaches it, evenly from depth z0 to z1 >= z0.
+struct gnomon_deep_layer { z0_: f32, z1_: f32, opacity: f32 }
+
+/// Transmittance behind one more layer, for a receiver at depth z_f, from the transmittance so far; 1 before the first.
+/// A layer of one depth takes its light from receivers behind that depth.
+/// NaN: a layer with a NaN takes nothing.
+/// Error: 4 2^-p for each layer.
+/// Source: Lokovic & Veach 2000
+fn deep_shadow_add(transmittance: f32, layer: gnomon_deep_layer, z_f: f32) -> f32
+{
+    let passed = saturate_or_zero((z_f - layer.z0_) / (layer.z1_ - layer.z0_));
+    return transmittance * (1.0 - saturate_or_zero(layer.opacity * passed));
+}
+
+/// Shadow intensity in [0, 1] of the transmittance in front of a receiver.
+/// NaN: 0, lit.
+/// Error: that of deep_shadow_add.
+fn deep_shadow_end(transmittance: f32) -> f32 { return saturate_or_zero(1.0 - transmittance); }
+
+/// Share of the shutter interval for which a range is in front of depth z_f, in [0, 1]. 1 minus the sum over a resolved
+/// list is the transmittance at z_f.
+/// NaN: 0.
+/// Error: 4 2^-p of the duration.
+fn deep_shadow_share(r: depth_time_range, z_f: f32) -> f32
+{
+    let c = range_clip(r, 0.0, 1.0);
+    let nearest = gnomon_min(c.z0_, c.z1_);
+    let passed = saturate_or_zero((z_f - nearest) / (gnomon_max(c.z0_, c.z1_) - nearest));
+    let known = c.z0_ == c.z0_ && c.z1_ == c.z1_;
+    return saturate_or_zero(gnomon_select(known, range_duration(c) * passed, 0.0));
+}
+
+/// The tolerance; the line from depth z0 and transmittance v0 to depth z1 and transmittance v1, and the slopes between
+/// which it passes its vertices, least above most if it ends here; the last vertex's transmittance, v; touched, 1 if
+/// the line has a vertex besides its begin; and the layer that the last vertex has completed, of opacity 0 if none.
+struct gnomon_deep_window
+{
+    tolerance: f32, z0_: f32, v0_: f32, z1_: f32, v1_: f32, least: f32, most: f32, v: f32,
+    touched: f32,
+    layer: gnomon_deep_layer,
+}
+
+const gnomon_deep_window_steepest: f32 = 1099511627776.0; // 2^40: depths closer than its inverse count as equal
+
+/// The layer of the line so far, of opacity 0 if transmittance does not change.
+fn deep_window_end(window: gnomon_deep_window) -> gnomon_deep_layer
+{
+    var r: gnomon_deep_layer;
+    r.z0_ = window.z0_;
+    r.z1_ = window.z1_;
+    r.opacity = saturate_or_zero((window.v0_ - window.v1_) / window.v0_);
+    return r;
+}
+
+/// A line that begins where the last one ends, without a vertex besides.
+fn gnomon_deep_window_next(given_window: gnomon_deep_window) -> gnomon_deep_window
+{
+    var window = given_window;
+    window.layer = deep_window_end(window);
+    window.z0_ = window.z1_;
+    window.v0_ = window.v1_;
+    window.least = -1.0 * gnomon_deep_window_steepest;
+    window.most = 0.0;
+    window.touched = 0.0;
+    return window;
+}
+
+/// Begin at the near plane, -1, with transmittance 1. Tolerance is the most by which lines may
+/// depart from the polyline. With 0 every step and every slope of the polyline becomes a layer.
+/// NaN: a tolerance of 0.
+fn deep_window_begin(tolerance: f32) -> gnomon_deep_window
+{
+    var r: gnomon_deep_window;
+    r.tolerance = gnomon_max(tolerance, 0.0);
+    r.z0_ = -1.0;
+    r.v0_ = 1.0;
+    r.z1_ = -1.0;
+    r.v1_ = 1.0;
+    r.v = 1.0;
+    return gnomon_deep_window_next(r);
+}
+
+/// The line led to one more vertex, z >= window.z1 and v <= window.v. Where it cannot pass all of its vertices it ends.
+fn gnomon_deep_window_lead(given_window: gnomon_deep_window, z: f32, v: f32) -> gnomon_deep_window
+{
+    var window = given_window;
+    let length = z - window.z0_;
+    let lowest = (gnomon_max(v - window.tolerance, 0.0) - window.v0_) / length;
+    let highest = (v + window.tolerance - window.v0_) / length;
+    let least = gnomon_max(window.least, lowest);
+    let most = gnomon_min(window.most, highest);
+    let nearest = saturate_or_zero(clamp_or_high(v, window.v0_ + least * length, window.v0_ + most * length));
+    let level = window.touched < 1.0 && v == window.v && window.z1_ < z; // no line begins before a drop
+    let step = length * gnomon_deep_window_steepest <= 1.0;
+    let kept = level || (step && window.v0_ <= v + window.tolerance);
+    window.least = gnomon_select(kept, window.least, gnomon_select(step, 1.0, least));
+    window.most = gnomon_select(kept, window.most, gnomon_select(step, 0.0, most));
+    window.v1_ = gnomon_select(kept, window.v0_, gnomon_select(step, v, nearest));
+    window.z0_ = gnomon_select(level, z, window.z0_);
+    window.touched = gnomon_select(level, 0.0, 1.0);
+    window.z1_ = z;
+    window.v = v;
+    return window;
+}
+
+/// Add a vertex of the polyline, transmittance v at depth z; two at one depth are a step. If the layer of the result
+/// has an opacity above 0 it is complete, and the caller keeps it.
+/// Domain: vertices from near to far, transmittance in [0, 1] and never growing; others are moved to the nearest such.
+/// Depths closer than 2^-40 count as equal.
+/// NaN: the vertex is left out, as is one beyond 2^60.
+/// Error: with all layers kept, the tolerance and 4 2^-p for each of them.
+/// Source: Lokovic & Veach 2000
+fn deep_window_add(given_window: gnomon_deep_window, given_z: f32, given_v: f32) -> gnomon_deep_window
+{
+    var v = given_v;
+    var z = given_z;
+    var window = given_window;
+    let known = gnomon_abs(z) < range_far && v == v;
+    let touched = window.touched;
+    z = gnomon_select(known, gnomon_max(z, window.z1_), window.z1_);
+    v = gnomon_select(known, gnomon_min(saturate_or_zero(v), window.v), window.v);
+    var led = gnomon_deep_window_lead(window, z, v);
+    let next = gnomon_deep_window_next(window);
+    let deeper = window.most < window.least && (z - window.z0_) * gnomon_deep_window_steepest <= 1.0;
+    let done = known && !(deeper || (window.least <= window.most && led.least <= led.most));
+    window.layer = next.layer;
+    window.layer.opacity = gnomon_select(done, next.layer.opacity, 0.0);
+    window.z0_ = gnomon_select(done, next.z0_, window.z0_);
+    window.v0_ = gnomon_select(done, next.v0_, window.v0_);
+    window.least = gnomon_select(done, next.least, window.least);
+    window.most = gnomon_select(done, next.most, window.most);
+    window.touched = gnomon_select(done, next.touched, window.touched);
+    led = gnomon_deep_window_lead(window, z, v);
+    led.touched = gnomon_select(known, led.touched, touched);
+    return led;
+}
+
 // motion/range/range_cover.h ------------------------------------------------------------------------------------------
 // Texels that one surface covers for the whole shutter, in front of everything else: the coverage map of Hong & Oh
 // ("Efficient motion blurred shadows using a temporal shadow map", 2017). All other ranges of such a texel are occluded
@@ -6003,6 +6432,85 @@ fn range_list_intensity(given_list: range_list, t: f32, z: f32, id: f32, bias: f
     return intensity;
 }
 
+// motion/range/range_moments.h ----------------------------------------------------------------------------------------
+// Moments over time of what a texel of the light sees while the shutter is open, in closed form from its resolved
+// ranges: the filterable shadow map of motion that Palmer 2011 leaves as future work. The depth of a range is a line
+// over time, so the mean of its power z^j is (z0^j + z0^(j-1) z1 + ... + z1^j) / (j + 1), and nothing cancels for
+// depths of one sign. There is no noise: the moments are those that stochastic samples converge to.
+//
+// The result is a texel of a moment shadow map. It goes through any storage format and any linear filter, and gives the
+// bounds on the shadow of a static receiver (moments/hamburger4.h). Time is collapsed: a receiver that moves with its
+// caster gets the shadow of all times.
+//
+//     state = range_moments4_begin(1);
+//     state = range_moments4_add(state, range);    for every range of the resolved list
+//     b = range_moments4_end(state);
+
+/// The sum of moments weighted by time, the time that is covered, and the depth of the times that are not.
+struct range_moments4_
+{
+    sum: moments4_,
+    covered: f32, background: f32,
+}
+
+const range_moments_third: f32 = 0x1.555556p-2; // 0.33333333333333333333
+const range_moments_fifth: f32 = 0x1.99999ap-3; // 0.2
+
+/// The means of the first four powers of depth over the time of a range.
+/// Domain: depths in [-1, 1].
+/// NaN: NaN.
+/// Error: 4 2^-p.
+fn range_mean_moments4_(r: depth_time_range) -> moments4_
+{
+    let product = r.z0_ * r.z1_;
+    let squares = r.z0_ * r.z0_ + r.z1_ * r.z1_;
+    var m: moments4_;
+    m.b1_ = 0.5 * (r.z0_ + r.z1_);
+    m.b2_ = range_moments_third * (squares + product);
+    m.b3_ = 0.5 * (squares * m.b1_);
+    m.b4_ = range_moments_fifth * ((squares * squares - product * product) + squares * product);
+    return m;
+}
+
+/// Begin without a range. Times that no range covers have the depth `background`, 1 for a cleared map.
+fn range_moments4_begin(background: f32) -> range_moments4_
+{
+    var state: range_moments4_;
+    state.sum.b1_ = 0.0;
+    state.sum.b2_ = 0.0;
+    state.sum.b3_ = 0.0;
+    state.sum.b4_ = 0.0;
+    state.covered = 0.0;
+    state.background = background;
+    return state;
+}
+
+/// Add one range that is disjoint in time from those before.
+/// NaN: a range with a NaN adds nothing.
+fn range_moments4_add(given_state: range_moments4_, r: depth_time_range) -> range_moments4_
+{
+    var state = given_state;
+    let c = range_clip(r, 0.0, 1.0);
+    let duration = gnomon_select(c.z0_ == c.z0_ && c.z1_ == c.z1_, range_duration(c), 0.0);
+    let some = 0.0 < duration;
+    let sum = moments4_add(state.sum, range_mean_moments4_(c), duration);
+    state.sum.b1_ = gnomon_select(some, sum.b1_, state.sum.b1_);
+    state.sum.b2_ = gnomon_select(some, sum.b2_, state.sum.b2_);
+    state.sum.b3_ = gnomon_select(some, sum.b3_, state.sum.b3_);
+    state.sum.b4_ = gnomon_select(some, sum.b4_, state.sum.b4_);
+    state.covered = state.covered + duration;
+    return state;
+}
+
+/// The moments of depth over the shutter interval.
+/// Domain: ranges of a resolved list, depths in [-1, 1].
+/// Error: 8 2^-p for each range.
+fn range_moments4_end(state: range_moments4_) -> moments4_
+{
+    let open = saturate_or_zero(1.0 - state.covered);
+    return moments4_add(state.sum, moments4_from_depth(state.background), open);
+}
+
 // motion/range/range_summary.h ----------------------------------------------------------------------------------------
 // A summary of a resolved list in four numbers: nearest and farthest depth, occluded time, id. Most receivers need
 // nothing more. They are in front of all ranges of a texel, or behind all of them, above all where backdrops are left
@@ -6149,120 +6657,6 @@ fn facing_function(n: gnomon_moving_vector, d: gnomon_moving_vector) -> gnomon_m
     return f;
 }
 
-// motion/receiver/shutter.h -------------------------------------------------------------------------------------------
-// Shutter responses: the share of the exposure's light that a shutter has let in by time t. The light that a receiver
-// loses between two times is the difference of the shares (Palmer 2011, (2.1), with the response w(t) integrated in
-// advance).
-//
-// Three responses: a box, which opens and closes at once; a tent, which is wide open halfway; and eight equal parts of
-// the exposure with any weights, such as those of a camera's measured shutter.
-//
-// The ends of an exposure may be given in either order. An exposure of no length shows a single time (see
-// gnomon_shutter_exposure_make, which receivers begin with).
-
-/// Fraction of the exposure's light in each eighth, in order; the sum is 1 (see shutter_weights_make).
-struct shutter_weights { w0_: f32, w1_: f32, w2_: f32, w3_: f32, w4_: f32, w5_: f32, w6_: f32, w7_: f32 }
-
-/// Times at which a shutter opens and closes.
-struct shutter_exposure { begin: f32, end: f32 }
-
-const gnomon_shutter_weight_limit: f32 = 1152921504606846976.0; // 2^60: eight of them have a sum in float
-
-/// The exposure between two times, given in either order. An exposure shorter than 2^-20 lasts 2^-20 from its begin on,
-/// or until shutter close if it would end later: a range that covers that time shadows the receiver entirely.
-/// NaN: a NaN stays NaN.
-fn gnomon_shutter_exposure_make(a: f32, b: f32) -> shutter_exposure
-{
-    let least = 0.00000095367431640625;
-    let swapped = b < a;
-    let open = gnomon_select(swapped, b, a);
-    let close = gnomon_select(swapped, a, b);
-    let brief = close - open < least;
-    let early = gnomon_select(open <= 1.0, gnomon_min(open, 1.0 - least), open);
-    var r: shutter_exposure;
-    r.begin = gnomon_select(brief, early, open);
-    r.end = gnomon_select(brief, early + least, close);
-    return r;
-}
-
-/// Time at which the given share of the time from begin to end has passed. The share must lie between 0 and 1,
-/// exclusively: llvmpipe makes 0 of a product with 0, of NaN * 0, too.
-/// Domain: 0 < share < 1.
-/// Error: 3 2^-p max(|begin|, |end|).
-fn shutter_time(begin: f32, end: f32, share: f32) -> f32 { return begin * (1.0 - share) + end * share; }
-
-/// Share of the exposure's light that a shutter which opens and closes at once has let in by time t, in [0, 1]. If
-/// begin == end the share is 0 up to that time and 1 after it.
-/// Domain: begin <= end.
-/// NaN: 0.
-/// Source: Palmer 2011, Eq. 2.1
-fn shutter_box(t: f32, begin: f32, end: f32) -> f32 { return saturate_or_zero((t - begin) / (end - begin)); }
-
-/// Share of the exposure's light that a shutter which opens and closes evenly, wide open halfway, has let in by time t,
-/// in [0, 1].
-/// Domain: begin <= end.
-/// NaN: 0.
-/// Source: Palmer 2011, Eq. 2.1
-fn shutter_tent(t: f32, begin: f32, end: f32) -> f32
-{
-    let x = shutter_box(t, begin, end);
-    let left = 1.0 - x;
-    return gnomon_select(x < 0.5, 2.0 * (x * x), 1.0 - 2.0 * (left * left));
-}
-
-/// A weight limited to [0, 2^60].
-/// NaN: 0.
-fn gnomon_shutter_weight(w: f32) -> f32 { return gnomon_select(0.0 < w, gnomon_min(w, gnomon_shutter_weight_limit),
-                                                               0.0); }
-
-/// Fraction of the sum that is this weight, 1/8 if the sum is 0. In [0, 1], also where division is not correctly
-/// rounded.
-fn gnomon_shutter_share(weight: f32, sum: f32) -> f32
-{
-    return gnomon_select(0.0 < sum, saturate_or_zero(weight / sum), 0.125);
-}
-
-/// Eight weights scaled to sum to 1. Negative weights count as 0; if no weight is left, all are equal, as for a box.
-/// Call once for a shutter, not for each range.
-/// NaN: a NaN weight counts as 0.
-fn shutter_weights_make(weights: shutter_weights) -> shutter_weights
-{
-    var w: shutter_weights;
-    w.w0_ = gnomon_shutter_weight(weights.w0_);
-    w.w1_ = gnomon_shutter_weight(weights.w1_);
-    w.w2_ = gnomon_shutter_weight(weights.w2_);
-    w.w3_ = gnomon_shutter_weight(weights.w3_);
-    w.w4_ = gnomon_shutter_weight(weights.w4_);
-    w.w5_ = gnomon_shutter_weight(weights.w5_);
-    w.w6_ = gnomon_shutter_weight(weights.w6_);
-    w.w7_ = gnomon_shutter_weight(weights.w7_);
-    let sum = ((w.w0_ + w.w1_) + (w.w2_ + w.w3_)) + ((w.w4_ + w.w5_) + (w.w6_ + w.w7_));
-    w.w0_ = gnomon_shutter_share(w.w0_, sum);
-    w.w1_ = gnomon_shutter_share(w.w1_, sum);
-    w.w2_ = gnomon_shutter_share(w.w2_, sum);
-    w.w3_ = gnomon_shutter_share(w.w3_, sum);
-    w.w4_ = gnomon_shutter_share(w.w4_, sum);
-    w.w5_ = gnomon_shutter_share(w.w5_, sum);
-    w.w6_ = gnomon_shutter_share(w.w6_, sum);
-    w.w7_ = gnomon_shutter_share(w.w7_, sum);
-    return w;
-}
-
-/// Share of the exposure's light that a shutter with the weights w has let in by time t. Each eighth lets in its weight
-/// evenly. In [0, 1] for any weights, from shutter_weights_make or not, and exactly 1 from the end of the exposure on.
-/// Domain: begin <= end.
-/// Error: 16 2^-p.
-/// Source: Palmer 2011, Eq. 2.1
-fn shutter_piecewise(t: f32, begin: f32, end: f32, w: shutter_weights) -> f32
-{
-    let x = 8.0 * shutter_box(t, begin, end);
-    let early = (w.w0_ * saturate_or_zero(x) + w.w1_ * saturate_or_zero(x - 1.0)) +
-                (w.w2_ * saturate_or_zero(x - 2.0) + w.w3_ * saturate_or_zero(x - 3.0));
-    let late = (w.w4_ * saturate_or_zero(x - 4.0) + w.w5_ * saturate_or_zero(x - 5.0)) +
-               (w.w6_ * saturate_or_zero(x - 6.0) + w.w7_ * saturate_or_zero(x - 7.0));
-    return gnomon_select(x < 8.0, saturate_or_zero(early + late), 1.0);
-}
-
 // motion/receiver/static_receiver.h -----------------------------------------------------------------------------------
 // The shadow on a static receiver while the shutter is open, in closed form. Every range in front of the receiver
 // occludes it for a time that is known in closed form, and the shutter (shutter.h) turns that time into a share of the
@@ -6368,137 +6762,6 @@ fn static_receiver_is_behind(state: static_receiver, summary: range_summary) -> 
 /// (range_occluding_part) over the duration of the exposure; 4 2^-p for each range of a summary.
 /// Source: Hong & Oh 2018, Sec. 5; Palmer 2011, Sec. 4
 fn static_receiver_end(state: static_receiver) -> f32 { return saturate_or_zero(state.shadowed); }
-
-// motion/receiver/receiver_path.h -------------------------------------------------------------------------------------
-// The path of a receiver through the light's clip space while a pixel sees it, and its shadow by samples in time
-// (Palmer 2011, 2.3.2 and 4.1).
-//
-// The receiver's point and the light move along straight lines, and the light does not turn, so x, y and w are linear
-// in time. The point on the map, (x / w, y / w), moves along a straight line, too; w is 1 for an orthographic light.
-// Depth is linear in view distance, hence linear in time: depth and time are those of a range.
-//
-//     n = receiver_sample_count(path, most);
-//     state = sampled_receiver_begin(n);
-//     for k from 0 to n - 1: t = receiver_sample_time(path, k, n, jitter); in the texel at receiver_path_at(path, t),
-//     the largest range_intensity(range, t, range_depth(path.depth, t), path.depth.id, bias) of all ranges, then
-//         state = sampled_receiver_add(state, largest);     or the mean of several texels by their weights
-//     intensity = sampled_receiver_end(state);
-
-/// Times, depths and id as a range; homogeneous positions at the times t0 and t1, where x / w and y / w are in texels,
-/// texel centres at +0.5.
-struct receiver_path
-{
-    depth: depth_time_range,
-    x0_: f32, y0_: f32, w0_: f32, x1_: f32, y1_: f32, w1_: f32,
-}
-
-/// A position in texels, texel centres at +0.5.
-struct gnomon_texel_position { x: f32, y: f32 }
-
-const gnomon_receiver_sample_limit: f32 = 1048576.0; // 2^20
-
-/// Position on the map at time t, held constant before the path begins and after it ends.
-/// Domain: w > 0 at both ends.
-/// Error: 8 2^-p times the largest |x| where w is 1; in perspective that times (1 + the larger w over the smaller w).
-fn receiver_path_at(path: receiver_path, t: f32) -> gnomon_texel_position
-{
-    let passed = range_elapsed(path.depth, t);
-    let left = 1.0 - passed;
-    let w = path.w0_ * left + path.w1_ * passed;
-    var r: gnomon_texel_position;
-    r.x = (path.x0_ * left + path.x1_ * passed) / w;
-    r.y = (path.y0_ * left + path.y1_ * passed) / w;
-    return r;
-}
-
-/// The path shifted by dx and dy texels on the map.
-fn receiver_path_shift(given_path: receiver_path, dx: f32, dy: f32) -> receiver_path
-{
-    var path = given_path;
-    path.x0_ = path.x0_ + dx * path.w0_;
-    path.y0_ = path.y0_ + dy * path.w0_;
-    path.x1_ = path.x1_ + dx * path.w1_;
-    path.y1_ = path.y1_ + dy * path.w1_;
-    return path;
-}
-
-/// The part of the path between the times begin and end, such as those at which the receiver faces the light
-/// (facing.h).
-fn receiver_path_clip(path: receiver_path, begin: f32, end: f32) -> receiver_path
-{
-    let passed0 = range_elapsed(path.depth, begin);
-    let passed1 = range_elapsed(path.depth, end);
-    let left0 = 1.0 - passed0;
-    let left1 = 1.0 - passed1;
-    var c: receiver_path;
-    c.depth = range_clip(path.depth, begin, end);
-    c.x0_ = path.x0_ * left0 + path.x1_ * passed0;
-    c.y0_ = path.y0_ * left0 + path.y1_ * passed0;
-    c.w0_ = path.w0_ * left0 + path.w1_ * passed0;
-    c.x1_ = path.x0_ * left1 + path.x1_ * passed1;
-    c.y1_ = path.y0_ * left1 + path.y1_ * passed1;
-    c.w1_ = path.w0_ * left1 + path.w1_ * passed1;
-    return c;
-}
-
-/// Length of the path on the map, in texels.
-/// Domain: w > 0 at both ends.
-/// Error: 4 2^-p times the largest |x| + |y|.
-fn receiver_path_length(path: receiver_path) -> f32
-{
-    let dx = path.x1_ / path.w1_ - path.x0_ / path.w0_;
-    let dy = path.y1_ / path.w1_ - path.y0_ / path.w0_;
-    return gnomon_sqrt(dx * dx + dy * dy);
-}
-
-/// Number of samples for a path: max(2 length, 5), rounded up, at most `most`. A whole number.
-/// Domain: most is a whole number from 5 to 2^20, and is clamped to that.
-/// NaN: a NaN counts as 5.
-/// Source: Palmer 2011, Sec. 4.1
-fn receiver_sample_count(path: receiver_path, most: f32) -> f32
-{
-    let wanted = gnomon_max(2.0 * receiver_path_length(path), 5.0); // a NaN becomes 5
-    let limit = gnomon_min(gnomon_max(most, 5.0), gnomon_receiver_sample_limit);
-    let count = gnomon_min(wanted, limit);
-    let whole = nearest_integer(count);
-    return whole + gnomon_select(whole < count, 1.0, 0.0);
-}
-
-/// Time of sample k of n, k from 0, stratified: at `jitter`, in [0, 1), of the k-th of n equal parts of the time. A
-/// jitter of 0.5 is the middle of the part.
-fn receiver_sample_time(path: receiver_path, k: f32, n: f32, jitter: f32) -> f32
-{
-    let passed = saturate_or_zero((k + jitter) / n);
-    return path.depth.t0_ * (1.0 - passed) + path.depth.t1_ * passed;
-}
-
-/// Number of samples, and the sum of their shadow intensities so far.
-struct gnomon_sampled_receiver { samples: f32, shadowed: f32 }
-
-/// Begin with the number of samples to come.
-fn sampled_receiver_begin(samples: f32) -> gnomon_sampled_receiver
-{
-    var r: gnomon_sampled_receiver;
-    r.samples = samples;
-    r.shadowed = 0.0;
-    return r;
-}
-
-/// Add one sample by its shadow intensity in [0, 1].
-/// NaN: the sample is lit.
-fn sampled_receiver_add(given_state: gnomon_sampled_receiver, intensity: f32) -> gnomon_sampled_receiver
-{
-    var state = given_state;
-    state.shadowed = state.shadowed + saturate_or_zero(intensity);
-    return state;
-}
-
-/// Shadow intensity in [0, 1]: the mean of all samples.
-/// Error: that of sampling: up to 1 / n for each time at which the shadow comes or goes, half of that with samples in
-/// the middle.
-/// Source: Palmer 2011, Sec. 4.1
-fn sampled_receiver_end(state: gnomon_sampled_receiver) -> f32 { return saturate_or_zero(state.shadowed /
-                                                                                         state.samples); }
 
 // motion/receiver/texel_sweep.h ---------------------------------------------------------------------------------------
 // The texels that a moving receiver passes, in order, and the time that it spends in each (for the analytical dynamic
@@ -6812,6 +7075,53 @@ fn moving_receiver_filtered_light(state: moving_receiver, hidden: depth_time_ran
 /// moving_receiver_tap in perspective).
 /// Source: Palmer 2011, Sec. 5
 fn moving_receiver_end(state: moving_receiver) -> f32 { return saturate_or_zero(state.shadowed); }
+
+// motion/receiver/time_dependent.h ------------------------------------------------------------------------------------
+// Time-dependent shadow maps (Akenine-Moller, Munkberg & Hasselgren 2007): the shutter interval is cut into slices, and
+// each slice has a shadow map whose texels have one sample each, at a time of their own within the slice. A receiver
+// that is seen at time t_r reads the slice of that time, but the sample's time t is another one. Meanwhile the surface
+// that the sample shows has moved: by itself it would shadow itself (Andersson et al. 2015, Figure 10).
+//
+//     sample.travel = time_dependent_travel(d_x, d_y);                         when the map is made
+//     state = percentage_closer_begin(z_f - constant_bias);                    filters/percentage_closer.h
+//     for the texel of the receiver, or for 2 x 2 texels by bilinear weights, in slice slice_of(t_r, slices):
+//         state = percentage_closer_add(state, z, weight), where z is one of
+//             sample.z                                                         constant bias alone
+//             time_dependent_depth(sample, t_r)                                moved along with its surface in depth
+//             time_dependent_biased_depth(sample, t_r, slope, texels)          and spared by the surface's slope
+//     intensity = percentage_closer_end(state);
+//
+// Motion in depth alone does not spare a tilted surface: in the time between, the sample moves across the map as well,
+// and where it goes the surface is at another depth. The third depth adds the most that this can be.
+
+/// Depth z and time t of a sample, and the motion of the point that it shows over the whole shutter interval: in depth,
+/// d_z, and the length of its way over the map in texels, travel.
+struct time_dependent_sample { z: f32, t: f32, d_z: f32, travel: f32 }
+
+/// Length in texels of a motion over the map.
+/// NaN: NaN.
+/// Error: relative, 3 2^-p.
+fn time_dependent_travel(d_x: f32, d_y: f32) -> f32 { return gnomon_sqrt(d_x * d_x + d_y * d_y); }
+
+/// Depth of the sample's surface at time t_r, by its own motion in depth: the dynamic bias.
+/// NaN: NaN.
+/// Error: 2^-p (|z| + 4 |d_z|), for times in [0, 1].
+/// Source: Andersson 2015, Eq. 12
+fn time_dependent_depth(s: time_dependent_sample, t_r: f32) -> f32 { return s.z + s.d_z * (t_r - s.t); }
+
+/// Depth of the sample's surface at time t_r, plus the depth bias slope (texels + 1.5 travel |t_r - t|). slope is the
+/// change of the receiver's depth per texel, and texels the distance to the farthest place that the look-up may read:
+/// sqrt(2) for the nearest texel, 1.5 sqrt(2) for 2 x 2. A plane whose points share one motion never shadows itself;
+/// the factor of 1.5 leaves room for paths that perspective bends.
+/// Domain: slope at least 0, else 0.
+/// NaN: NaN.
+/// Error: twice that of time_dependent_depth, and 8 2^-p times the bias.
+fn time_dependent_biased_depth(s: time_dependent_sample, t_r: f32, slope: f32, texels: f32) -> f32
+{
+    let passed = gnomon_abs(t_r - s.t);
+    let reach = texels + 1.5 * (s.travel * passed);
+    return time_dependent_depth(s, t_r) + gnomon_max(0.0, slope) * reach;
+}
 
 // motion/triangle/triangle_setup.h ------------------------------------------------------------------------------------
 // The edge functions of a moving triangle over many samples: coverage and depth for all texels of a rasterizer's tile,

@@ -180,7 +180,7 @@ def layer_of(path):
     return LAYER.get("/".join(path.parts[:2]), LAYER.get(path.parts[0], len(LAYERS)))
 
 
-UNPATENTED = {"stochastic_sample.h"} # in folders of layers
+UNPATENTED = {"receiver_footprint.h", "stochastic_sample.h"} # in folders of layers
 
 
 def is_layer(path):

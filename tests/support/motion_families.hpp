@@ -2,6 +2,7 @@
 // prisms, and layers of samples.
 #pragma once
 
+#include "deep_inputs.hpp"
 #include "layer_inputs.hpp"
 #include "prisms.hpp"
 #include "situations.hpp"
@@ -134,6 +135,12 @@ inline constexpr input_family<T> motion_families[] = {
          for (std::size_t n = bits.below(3); n > 0; --n) state = range_cover_add(state, any_cover_range<T>(bits));
          put(state);
      }},
+    // Deep layers, time moments, and slices of samples.
+    {"deep_layer", 3, [](auto put, const situation& s, bit_source& bits) { put(any_deep_layer<T>(s, bits)); }},
+    {"deep_window", 12, [](auto put, const situation&, bit_source& bits) { put(any_deep_window<T>(bits)); }},
+    {"range_moments4", 6, [](auto put, const situation& s, bit_source& bits) { put(any_range_moments4<T>(s, bits)); }},
+    {"time_dependent_sample", 4,
+     [](auto put, const situation& s, bit_source& bits) { put(any_time_dependent_sample<T>(s, bits)); }},
     // Layers of moving samples.
     {"stochastic_sample", 8,
      [](auto put, const situation& s, bit_source& bits) { put(any_stochastic_sample<T>(s, bits)); }},

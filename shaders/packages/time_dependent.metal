@@ -1,0 +1,191 @@
+// Gnomon 0.1.0, time_dependent.metal: shadow filtering in Metal, this file alone.
+// Copyright (c) 2026 the Gnomon authors. SPDX-License-Identifier: MIT
+// Written by shaders/package.py from the kernels in include/gnomon: change them there.
+#ifndef GNOMON_TIME_DEPENDENT_METAL
+#define GNOMON_TIME_DEPENDENT_METAL
+
+// the language --------------------------------------------------------------------------------------------------------
+// Metal: C++14 with address spaces. Kernels are not templates, as in the other shader languages: Real is float.
+// Compile with -fno-fast-math and -ffp-contract=off for the same bits as on the CPU.
+#if !defined(__METAL_VERSION__)
+#error "gnomon: time_dependent.metal is Metal; another language's compiler reads it"
+#elif defined(GNOMON_PORTABLE_H)
+#error "gnomon: time_dependent.metal and the headers of include/gnomon exclude one another"
+#elif defined(GNOMON_PACKAGE) && GNOMON_PACKAGE != 100
+#error "gnomon: time_dependent.metal is not of the same version as a package before it"
+#endif
+#define GNOMON_PACKAGE 100 // major, minor and patch, two digits each
+
+#ifndef GNOMON_PORTABLE_MSL_H
+#define GNOMON_PORTABLE_MSL_H
+
+#if defined(__FAST_MATH__)
+#error "gnomon: fast mathematics voids the treatment of NaN: compile with -fno-fast-math, or mathMode = .safe"
+#endif
+
+#include <metal_stdlib>
+
+#if __METAL_VERSION__ >= 320 // to the end of the file
+#pragma METAL fp math_mode(safe)
+#endif
+
+namespace gnomon {
+
+constant constexpr float gnomon_pivot_floor = 9.31322574615478515625e-10f; // 2^-30
+
+inline float gnomon_select(bool mask, float a, float b) { return mask ? a : b; }
+inline bool gnomon_any(bool mask) { return mask; }
+inline float gnomon_abs(float a) { return metal::fabs(a); }
+inline float gnomon_sqrt(float a) { return metal::precise::sqrt(a); }
+// x. No compiler rewrites floating-point operations across a minimum of integers, and this one changes no value: only
+// bits of NaN are above the bound, which is one.
+inline float gnomon_kept(float x) { return as_type<float>(metal::min(as_type<int>(x), 0x7FC00000)); }
+inline float gnomon_apart(float x) { return as_type<float>(metal::min(as_type<uint>(x), 0xFFC00000u)); }
+// A compiler that knew both operands would write min() and max(), which lose a NaN. gnomon_kept would not hide an operand
+// that is kept already, since two minima of integers become one; gnomon_apart is another one.
+inline float gnomon_min(float a, float b) { return gnomon_select(a < b, a, gnomon_apart(b)); }
+inline float gnomon_max(float a, float b) { return gnomon_select(b < a, a, gnomon_apart(b)); }
+inline float gnomon_product(float a, float b) { return gnomon_kept(a * b); }
+inline float gnomon_sum(float a, float b) { return gnomon_kept(a + b); }
+inline float gnomon_difference(float a, float b) { return gnomon_kept(a - b); }
+inline float gnomon_fma(float a, float b, float c) { return gnomon_kept(metal::fma(a, b, c)); }
+// By integers, so that a NaN becomes 0 where a compiler assumes that there is none.
+inline float gnomon_saturate(float x)
+{
+    int bits = as_type<int>(x);
+    return gnomon_select(bits > 0x7F800000, 0.0f, as_type<float>(metal::min(metal::max(bits, 0), 0x3F800000)));
+}
+// a without the low half of its significand.
+inline float gnomon_high_part(float a) { return as_type<float>(as_type<uint>(a) & 0xFFFFF000u); }
+// The sum has n in its low bits, and the shift moves n into the exponent. int(NaN) would be undefined.
+inline float gnomon_power_of_two(float n) { return as_type<float>((as_type<uint>(n + 12582912.0f) << 23) + 0x3F800000u); }
+
+} // namespace gnomon
+
+#endif
+
+// numerics/select.h ---------------------------------------------------------------------------------------------------
+// Clamps with a defined result for NaN, which the built-in clamps of shader languages leave open.
+#ifndef GNOMON_NUMERICS_SELECT_H
+#define GNOMON_NUMERICS_SELECT_H
+
+namespace gnomon {
+
+/// x clamped to [low, high].
+/// NaN: stays NaN, so that the last step of a kernel can answer it.
+inline float clamp_or_nan(float x, float low, float high) { return gnomon_min(high, gnomon_max(low, x)); }
+
+/// x clamped to [low, high].
+/// NaN: high.
+inline float clamp_or_high(float x, float low, float high) { return gnomon_max(low, gnomon_min(x, high)); }
+
+/// x clamped to [0, 1]: the last step of every kernel that returns an intensity.
+/// NaN: 0, lit.
+inline float saturate_or_zero(float x) { return gnomon_saturate(x); }
+
+} // namespace gnomon
+
+#endif
+
+// filters/percentage_closer.h -----------------------------------------------------------------------------------------
+// Percentage-closer filtering (Reeves, Salesin & Cook 1987; Peters et al. 2017, 2.2): the shadow intensity is the
+// weight of the shadow-map depths in front of the receiver, Z(z < z_f) itself. This filter is exact, cannot be filtered
+// beforehand, and is what every other filter here estimates.
+//
+//     state = percentage_closer_begin(z_f);
+//     state = percentage_closer_add(state, z, weight);      for every texel of the filter region, weights summing to 1
+//     intensity = percentage_closer_end(state);
+#ifndef GNOMON_FILTERS_PERCENTAGE_CLOSER_H
+#define GNOMON_FILTERS_PERCENTAGE_CLOSER_H
+
+namespace gnomon {
+
+/// The receiver's depth, and the weight in front of the receiver so far.
+struct percentage_closer { float receiver, shadowed; };
+
+/// The state before the first texel. Subtract a depth bias from z_f first (filters/depth_bias.h).
+/// Domain: any z_f; beyond the far plane as on it, so that a map cleared to the far plane shadows nothing.
+/// NaN: lit.
+inline percentage_closer percentage_closer_begin(float z_f)
+{
+    percentage_closer r;
+    r.receiver = gnomon_min(1.0f, z_f);
+    r.shadowed = 0.0f;
+    return r;
+}
+
+/// The state after one more texel of depth z with its filter weight.
+/// Domain: any z.
+/// NaN: a texel of depth NaN casts no shadow; a weight of NaN before the receiver makes everything lit.
+inline percentage_closer percentage_closer_add(percentage_closer state, float z, float weight)
+{
+    state.shadowed = state.shadowed + gnomon_select(z < state.receiver, weight, 0.0f);
+    return state;
+}
+
+/// Shadow intensity in [0, 1], also where the weights do not sum to 1.
+/// NaN: 0, lit.
+/// Error: that of the sum of weights.
+/// Source: Reeves, Salesin & Cook 1987
+inline float percentage_closer_end(percentage_closer state) { return saturate_or_zero(state.shadowed); }
+
+} // namespace gnomon
+
+#endif
+
+// motion/receiver/time_dependent.h ------------------------------------------------------------------------------------
+// Time-dependent shadow maps (Akenine-Moller, Munkberg & Hasselgren 2007): the shutter interval is cut into slices, and
+// each slice has a shadow map whose texels have one sample each, at a time of their own within the slice. A receiver
+// that is seen at time t_r reads the slice of that time, but the sample's time t is another one. Meanwhile the surface
+// that the sample shows has moved: by itself it would shadow itself (Andersson et al. 2015, Figure 10).
+//
+//     sample.travel = time_dependent_travel(d_x, d_y);                         when the map is made
+//     state = percentage_closer_begin(z_f - constant_bias);                    filters/percentage_closer.h
+//     for the texel of the receiver, or for 2 x 2 texels by bilinear weights, in slice slice_of(t_r, slices):
+//         state = percentage_closer_add(state, z, weight), where z is one of
+//             sample.z                                                         constant bias alone
+//             time_dependent_depth(sample, t_r)                                moved along with its surface in depth
+//             time_dependent_biased_depth(sample, t_r, slope, texels)          and spared by the surface's slope
+//     intensity = percentage_closer_end(state);
+//
+// Motion in depth alone does not spare a tilted surface: in the time between, the sample moves across the map as well,
+// and where it goes the surface is at another depth. The third depth adds the most that this can be.
+#ifndef GNOMON_MOTION_RECEIVER_TIME_DEPENDENT_H
+#define GNOMON_MOTION_RECEIVER_TIME_DEPENDENT_H
+
+namespace gnomon {
+
+/// Depth z and time t of a sample, and the motion of the point that it shows over the whole shutter interval: in depth,
+/// d_z, and the length of its way over the map in texels, travel.
+struct time_dependent_sample { float z, t, d_z, travel; };
+
+/// Length in texels of a motion over the map.
+/// NaN: NaN.
+/// Error: relative, 3 2^-p.
+inline float time_dependent_travel(float d_x, float d_y) { return gnomon_sqrt(d_x * d_x + d_y * d_y); }
+
+/// Depth of the sample's surface at time t_r, by its own motion in depth: the dynamic bias.
+/// NaN: NaN.
+/// Error: 2^-p (|z| + 4 |d_z|), for times in [0, 1].
+/// Source: Andersson 2015, Eq. 12
+inline float time_dependent_depth(time_dependent_sample s, float t_r) { return s.z + s.d_z * (t_r - s.t); }
+
+/// Depth of the sample's surface at time t_r, plus the depth bias slope (texels + 1.5 travel |t_r - t|). slope is the
+/// change of the receiver's depth per texel, and texels the distance to the farthest place that the look-up may read:
+/// sqrt(2) for the nearest texel, 1.5 sqrt(2) for 2 x 2. A plane whose points share one motion never shadows itself;
+/// the factor of 1.5 leaves room for paths that perspective bends.
+/// Domain: slope at least 0, else 0.
+/// NaN: NaN.
+/// Error: twice that of time_dependent_depth, and 8 2^-p times the bias.
+inline float time_dependent_biased_depth(time_dependent_sample s, float t_r, float slope, float texels)
+{
+    float passed = gnomon_abs(t_r - s.t);
+    float reach = texels + 1.5f * (s.travel * passed);
+    return time_dependent_depth(s, t_r) + gnomon_max(0.0f, slope) * reach;
+}
+
+} // namespace gnomon
+
+#endif
+
+#endif
