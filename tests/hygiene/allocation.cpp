@@ -280,3 +280,20 @@ TEST_CASE_TEMPLATE("no pass over layers allocates", Format, gnomon::layer_varian
     CHECK(counts.blocks == 1);
     CHECK(shadow == 1);
 }
+
+TEST_CASE("no pass over samples or deep layers allocates")
+{
+    using namespace gnomon;
+    std::array<time_dependent_sample<float>, 48> slices{};
+    std::array<float, 48> depths{};
+    std::array<moments4_float::texel, 12> texels{};
+    std::array<deep_layer<float>, 12> layers{};
+    std::array<std::uint32_t, range_map<float>::texels(4, 3) + 1> first{};
+    const long before = allocations;
+    float shadow = time_dependent_intensity<time_dependent_sample<float>, float>({4, 3, 4, slices}, {2, 1, 1, 0, 0});
+    fill_range_moments<moments4_float>(range_map<float>{4, 3, first, {}}, {texels, 4, 3});
+    count_deep_layers<float>(depths, 4, 0, std::span(first).first(13));
+    fill_deep_layers<float>(depths, 4, 0, std::span(first).first(13), layers);
+    shadow += deep_intensity<float>({4, 3, std::span(first).first(13), layers}, 2, 1, 0.5f);
+    CHECK((shadow == 2 && allocations == before));
+}
