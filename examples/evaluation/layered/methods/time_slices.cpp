@@ -1,0 +1,27 @@
+// With the bias of the receiver's slope: 4 bytes for each sample.
+#include "time_slices.hpp"
+
+namespace gnomon::evaluation {
+
+namespace {
+
+const registered<time_slices<slice_depth<float>>> entry{
+    method_facts{.id = "time_slices",
+                 .family = "time_slices",
+                 .label = "time-dependent",
+                 .order = 30,
+                 .map = slices_kind->id,
+                 .format = {"f32_depth", "32 bit depth"}},
+    std::vector<layered_variant>{
+        {.parameters = {{"samples", 4}}, .comparisons = {equal_input}},
+        {.parameters = {{"samples", 8}, {"resolution", 1024}},
+         .label = "8 samples, 1024 x 1024",
+         .comparisons = {equal_time, equal_memory}},
+        {.parameters = {{"samples", 20}}, .label = "20 samples", .comparisons = {equal_time, equal_memory}},
+        {.parameters = {{"samples", 4}, {"nearest", 1}}, .label = "nearest texel", .comparisons = {of_settings}},
+        {.parameters = {{"samples", 16}}, .label = "16 samples", .comparisons = {of_settings}},
+        {.parameters = {{"samples", 32}}, .label = "32 samples", .comparisons = {of_settings}}}};
+
+} // namespace
+
+} // namespace gnomon::evaluation
