@@ -219,3 +219,31 @@ TEST_CASE("sizes of moving queries are checked, and an empty scene is lit")
     CHECK(empty.coverage.pixels == std::vector<float>(16, 0));
     CHECK(empty.colour(2, 2) == gnomon::renderer::daylight.background);
 }
+
+TEST_CASE("at any time, light through moving panes is that through the static panes of that time")
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    const moving_stage stage = moving_panes(1.5);
+    const tracer moving(stage.world);
+    std::vector<receiver> receivers;
+    for (int i = 0; i < 2000; ++i) {
+        const hit seen = moving.first_hit(ray_through(stage.eye, {uniform(random), uniform(random)}), 0.5f);
+        if (seen.valid()) receivers.push_back({{seen.position.x, 0, seen.position.z}, {0, 1, 0}});
+    }
+    receivers.push_back({receivers[0].position, {0, -1, 0}}); // faces away
+    int passed = 0, stopped = 0, different = 0;
+    for (const float t : {0.f, 0.3f, 0.5f, 1.f}) {
+        std::vector<glm::vec3> light(receivers.size()), expected(receivers.size());
+        moving.transmittance(stage.light, receivers, std::vector<float>(receivers.size(), t), light);
+        tracer(scene_at(stage.world, t)).transmittance(stage.light.at(double(t)), receivers, expected);
+        for (std::size_t i = 0; i < receivers.size(); ++i) {
+            different += glm::length(light[i] - expected[i]) > 1e-6f; // at outlines rounding decides
+            passed += 0.05f < light[i].x && light[i].x < 0.95f, stopped += light[i].x == 0;
+        }
+        CHECK(light.back() == glm::vec3(0));
+    }
+    CHECK(passed > 200);
+    CHECK(stopped > 50);
+    CHECK(different < 5);
+}

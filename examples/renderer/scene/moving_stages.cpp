@@ -186,6 +186,28 @@ moving_stage lit_ramp(double aspect)
                   {{"ramp", "ramp", {0, 0.8f, 0}, green}});
 }
 
+moving_stage moving_panes(double aspect)
+{
+    moving_scene casters{{"panes", {}}, {}};
+    mesh cube = painted("cube", clay);
+    add_box(cube, upright({-1.2f, 0.3f, 0.7f}, glm::vec3(0.6f)));
+    add(casters, cube, {0.9f, 0, 0});
+    const auto add_pane = [&](const glm::vec3& centre, float half, float opacity, const glm::vec3& motion) {
+        mesh pane = level_quad("pane", moss, centre, half, half);
+        pane.opacity = glm::vec3(opacity);
+        add(casters, pane, motion);
+    };
+    add_pane({-1.1f, 2, 0}, 0.7f, 0.4f, {1.4f, 0, 0});
+    add_pane({0, 1.5f, -1}, 0.8f, 0.6f, {0, 0, 1.2f});
+    add_pane({1.2f, 1, 0.4f}, 0.5f, 0.8f, {-0.8f, 0.3f, 0.4f});
+    moving_stage result = on_ground(casters, {{1, 7, 2.5}, {1, 7, 2.5}}, {{0, 5, 6}, {0, 0.2, 0.2}, 30}, aspect,
+                                    {{"cube", "cube", {-0.7f, 0.6f, 0.7f}, green}});
+    std::rotate(result.world.open.meshes.begin() + 1, result.world.open.meshes.end() - 1,
+                result.world.open.meshes.end());
+    std::rotate(result.world.closing.begin() + 1, result.world.closing.end() - 1, result.world.closing.end());
+    return result;
+}
+
 moving_stage trapezoid(double aspect)
 {
     moving_scene casters{{"trapezoid", {}}, {}};

@@ -37,6 +37,10 @@ moving_stage waving_sheet(double aspect, int cells);
 // so visibility is 1 everywhere. A method that forgets when the quad was where finds shadows.
 moving_stage lit_ramp(double aspect);
 
+// Level panes of dark glass at three heights that cross one another, and an opaque cube below them. Triangles of opaque
+// meshes come first: they have the same numbers where the panes are left out.
+moving_stage moving_panes(double aspect);
+
 // A quad moves along the x axis below a light so far away that the visibility is a trapezoid in x.
 moving_stage trapezoid(double aspect);
 

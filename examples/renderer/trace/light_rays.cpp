@@ -98,6 +98,31 @@ void tracer::transmittance(const camera& light, std::span<const receiver> receiv
     mean_over_light(*state_, {light, glm::dvec2(0)}, receivers, 1, result);
 }
 
+void tracer::transmittance(const moving_camera& light, std::span<const receiver> receivers,
+                           std::span<const float> times, std::span<glm::vec3> result) const
+{
+    check_room(receivers.size(), result.size());
+    check_room(receivers.size(), times.size());
+    tbb::parallel_for(std::size_t(0), (receivers.size() + 1023) / 1024, [&](std::size_t block) {
+        alignas(64) RTCRay16 rays{};
+        crossings gathered;
+        const std::size_t last = std::min((block + 1) * 1024, receivers.size());
+        for (std::size_t first = block * 1024; first < last; first += packet) {
+            alignas(64) mask valid{};
+            const std::size_t count = std::min<std::size_t>(packet, last - first);
+            for (std::size_t i = 0; i < count; ++i)
+                if (state_->aim(rays, static_cast<int>(i), receivers[first + i], light, times[first + i]) > 0)
+                    valid[i] = -1;
+            state_->trace(valid, rays, &gathered);
+            for (std::size_t i = 0; i < count; ++i) {
+                const bool lit = valid[i] && !(rays.tfar[i] < 0);
+                result[first + i] = lit ? glm::vec3(transmitted(state_->world.open, gathered[i])) : glm::vec3(0);
+                gathered[i].clear();
+            }
+        }
+    });
+}
+
 void tracer::visibility(const area_light& light, std::span<const receiver> receivers, int samples,
                         std::span<float> result) const
 {

@@ -81,6 +81,10 @@ class tracer {
     void visibility(const moving_camera& light, std::span<const receiver> receivers, std::span<const float> times,
                     std::span<float> result) const;
 
+    // The transmittance at a time of its own for each receiver; 0 for one that faces away from the light.
+    void transmittance(const moving_camera& light, std::span<const receiver> receivers, std::span<const float> times,
+                       std::span<glm::vec3> result) const;
+
     // The fraction of `samples` times, one in each of as many equal parts of [0, 1], at which a receiver sees the
     // light. A time within its part depends on the index of the receiver alone. A receiver that faces away from the
     // light does not see it. Parallel over receivers.
