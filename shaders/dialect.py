@@ -140,11 +140,11 @@ class Prelude:
         """What the prelude says itself, in the package's words."""
         return "\n" + "\n".join(self.without_unused(self.expanded(block)) for block in self.blocks) + "\n"
 
-    def spelled(self, blocks):
-        """Kernels in the package's words."""
+    def spelled(self, blocks, before):
+        """Kernels in the package's words, after the text before them."""
         texts = [self.without_unused(fold(self.expanded(block))) for block in blocks]
         for word in code_words("\n".join(texts)):
-            if word.startswith("GNOMON_") and f"#define {word}" not in "\n".join(self.frame + texts):
+            if word.startswith("GNOMON_") and f"#define {word}" not in "\n".join([before, *texts]):
                 raise DialectError(f"{word}: a word of the dialect that {self.guard} does not spell")
         texts = [laid_out(self.prefixed(text)) for text in texts if code_words(text)]
         namespace = [self.expanded(f"GNOMON_NAMESPACE_{end}\n") for end in ("BEGIN", "END")]

@@ -172,7 +172,7 @@ class Packager:
         for header, some in parts:
             comment = laid_out(prelude.prefixed(header.comment))
             for _, title, part_guard, blocks in some:
-                text += section(title, part_guard, comment, prelude.spelled(blocks))
+                text += section(title, part_guard, comment, prelude.spelled(blocks, text))
                 comment = ""
         undone = dict.fromkeys(re.findall(r"#define (\w+)", "".join(prelude.frame)))
         return text + "".join(f"#undef {macro}\n" for macro in undone) + "#endif\n"

@@ -5,6 +5,7 @@
 #define GNOMON_GNOMON_H
 #include "comparators/froxels.h"
 #include "comparators/hamburger_cholesky.h"
+#include "comparators/interval_list.h"
 #include "comparators/percentage_closer_soft.h"
 #include "comparators/prism.h"
 #include "comparators/ray_march.h"

@@ -1517,84 +1517,6 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 
 #endif
 
-// comparators/percentage_closer_soft.h --------------------------------------------------------------------------------
-// Percentage-closer soft shadows (Fernando 2005; Peters et al. 2017, Sec. 4.1): the mean depth of what is in front of
-// the receiver, from every texel of a search region. This is what the blocker search by moments (soft/blocker.h)
-// estimates.
-//
-//     search = percentage_closer_search_begin(z_f);
-//     search = percentage_closer_search_add(search, z, weight);     for every texel of the search region, weights
-// summing to 1
-//     blocker = percentage_closer_search_end(search);
-//     width = the width of the penumbra (soft/penumbra.h) for z_f and blocker.depth
-//     intensity = percentage_closer_begin, _add, _end (filters/percentage_closer.h) over a filter region of this width
-//
-// An intensity of 0 or 1 of the whole search region spares the filter region.
-#ifndef GNOMON_COMPARATORS_PERCENTAGE_CLOSER_SOFT_H
-#define GNOMON_COMPARATORS_PERCENTAGE_CLOSER_SOFT_H
-
-GNOMON_WARNINGS_OFF namespace gnomon {
-
-inline constexpr double percentage_closer_search_epsilon = 1e-3;
-
-/// The receiver's depth, the weight in front of the receiver so far, and the sum of its weighted distances to the
-/// receiver.
-template <class Real, class = require_real<Real>>
-struct percentage_closer_search { Real receiver, shadowed, distance; };
-
-/// The mean depth of the blockers, in [-1, 1] and at most z_f, and their weight in the search region, in [0, 1].
-template <class Real, class = require_real<Real>> struct percentage_closer_blocker { Real depth, intensity; };
-
-/// The state before the first texel of the search region. z_f has no bias.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: no blocker.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr percentage_closer_search<Real> percentage_closer_search_begin(Real z_f)
-{
-    percentage_closer_search<Real> r;
-    r.receiver = clamp_or_nan(z_f, Real(-1), Real(1));
-    r.shadowed = Real(0);
-    r.distance = Real(0);
-    return r;
-}
-
-/// The state after one more texel of depth z with its weight.
-/// Domain: any z; below the near plane as on it.
-/// NaN: a texel of depth NaN is no blocker; a weight of NaN before the receiver leaves no blocker at all.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr percentage_closer_search<Real>
-    percentage_closer_search_add(percentage_closer_search<Real> state, Real z, std::type_identity_t<Real> weight)
-{
-    mask_t<Real> in_front = z < state.receiver;
-    Real distance = state.receiver - gnomon_max(z, Real(-1));
-    state.shadowed = state.shadowed + gnomon_select(in_front, weight, Real(0));
-    state.distance = state.distance + gnomon_select(in_front, weight * distance, Real(0));
-    return state;
-}
-
-/// Mean depth and weight of the blockers. The mean is moved towards the receiver by a weight of 1e-3, so that few
-/// blockers count for less and none leaves the receiver's own depth.
-/// NaN: for z_f the far plane; for a weight before the receiver the receiver's depth, and an intensity of 0.
-/// Error: that of the sums of weights and of weighted distances.
-/// Source: Peters 2017, Eq. 4; Fernando 2005
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr percentage_closer_blocker<Real>
-    percentage_closer_search_end(percentage_closer_search<Real> state)
-{
-    Real weight = state.shadowed + literal<Real>(percentage_closer_search_epsilon);
-    Real receiver = clamp_or_high(state.receiver, Real(-1), Real(1));
-    percentage_closer_blocker<Real> r;
-    Real depth = gnomon_max(Real(-1), gnomon_min(receiver - state.distance / weight, receiver));
-    // Clang 14 makes one clamp, which lets a NaN pass, of this one and of that at the beginning.
-    r.depth = gnomon_select(state.receiver == state.receiver, depth, Real(1));
-    r.intensity = saturate_or_zero(state.shadowed);
-    return r;
-}
-
-GNOMON_WARNINGS_ON } // namespace gnomon
-
-#endif
-
 // motion/range/range.h ------------------------------------------------------------------------------------------------
 // Depth-time ranges. From time t0 to time t1 of the shutter interval [0, 1] a surface covers a texel of the shadow map,
 // at a depth that changes linearly from z0 to z1. The depth-time range of Hong & Oh ("Motion blurred shadows utilizing
@@ -1817,6 +1739,697 @@ GNOMON_INLINE constexpr Real range_intensity(depth_time_range<Real> r, Real t, R
     mask_t<Real> during = r.t0 <= t && t <= r.t1;
     mask_t<Real> occludes = range_depth(r, t) + bias < z && !(id == r.id);
     return gnomon_select(during && occludes, Real(1), Real(0));
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// motion/range/range_merge.h ------------------------------------------------------------------------------------------
+// A range that replaces two, for full lists of few ranges (the compression of Gribel et al. 2010). It lasts from the
+// begin of the earlier range to the end of the later one, and its depth line is in front of both, so that all that was
+// shadowed stays shadowed. To find the two most similar ranges, Gribel et al. weight the gap between them and their
+// differences in depth, slope and duration. Here a single measure without weights covers all of these: the area of the
+// plane of time and depth that becomes shadowed although no range was in front of it. Up to a factor, this is the
+// expected error for a receiver of unknown depth. The time for which a surface becomes shadowed by its own range is
+// added, since a range of two surfaces has the id of neither.
+#ifndef GNOMON_MOTION_RANGE_RANGE_MERGE_H
+#define GNOMON_MOTION_RANGE_RANGE_MERGE_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// The range that replaces two; gap, the time between the two that it fills; shift, the largest distance by which it is
+/// in front of both; and the total cost.
+template <class Real, class = require_real<Real>> struct range_pair
+{
+    depth_time_range<Real> merged;
+    Real gap, shift, cost;
+};
+
+inline constexpr double range_merge_margin = 0.000003814697265625; // 2^-18, exact
+
+/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
+/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
+/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
+/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
+/// the result is the other one, unchanged.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr depth_time_range<Real> range_merge(depth_time_range<Real> a, depth_time_range<Real> b)
+{
+    depth_time_range<Real> hull;
+    hull.t0 = gnomon_min(a.t0, b.t0);
+    hull.t1 = gnomon_max(a.t1, b.t1);
+    Real nearer0 = gnomon_min(a.z0, b.z0);
+    Real nearer1 = gnomon_min(a.z1, b.z1);
+    hull.z0 = gnomon_select(a.t0 < b.t0, a.z0, gnomon_select(b.t0 < a.t0, b.z0, nearer0));
+    hull.z1 = gnomon_select(b.t1 < a.t1, a.z1, gnomon_select(a.t1 < b.t1, b.z1, nearer1));
+    hull.id = gnomon_select(a.id == b.id, a.id, literal<Real>(range_mixed));
+
+    Real back = gnomon_max(gnomon_max(range_depth(hull, a.t0) - a.z0, range_depth(hull, a.t1) - a.z1),
+                           gnomon_max(range_depth(hull, b.t0) - b.z0, range_depth(hull, b.t1) - b.z1));
+    back = gnomon_max(back, Real(0));
+    Real size = gnomon_max(gnomon_max(gnomon_abs(a.z0), gnomon_abs(a.z1)),
+                           gnomon_max(gnomon_abs(b.z0), gnomon_abs(b.z1)));
+    Real margin = size * literal<Real>(range_merge_margin);
+    Real level = gnomon_min(nearer0, nearer1);
+    Real sloped0 = hull.z0 - back;
+    Real sloped1 = hull.z1 - back;
+    mask_t<Real> slopes = level + level < sloped0 + sloped1 && gnomon_abs(sloped0) +
+                          gnomon_abs(sloped1) < literal<Real>(range_far);
+    hull.z0 = gnomon_select(slopes, sloped0, level) - margin;
+    hull.z1 = gnomon_select(slopes, sloped1, level) - margin;
+
+    mask_t<Real> some_a = a.t0 < a.t1;
+    mask_t<Real> some_b = b.t0 < b.t1;
+    return range_select(some_a && some_b, hull, range_select(some_a, a, b));
+}
+
+/// Area between the range and the far plane, in time and depth.
+template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real range_area(depth_time_range<Real> r)
+{
+    return range_duration(r) * (Real(1) - Real(0.5) * (r.z0 + r.z1));
+}
+
+/// Largest distance of an end of r behind the range `nearer`, 0 if none is behind or r is empty.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real range_distance(depth_time_range<Real> r, depth_time_range<Real> nearer)
+{
+    Real distance0 = r.z0 - range_depth(nearer, r.t0);
+    Real distance1 = r.z1 - range_depth(nearer, r.t1);
+    return gnomon_select(r.t0 < r.t1, gnomon_max(gnomon_max(distance0, distance1), Real(0)), Real(0));
+}
+
+/// The merge of a and b, with its costs. The cost is the area behind the merged range that was behind neither a nor b,
+/// plus the time for which a surface loses its id. If one range is empty, there is nothing to merge: the cost is -1,
+/// gap and shift are 0.
+/// Error: gap and shift are exact except for rounding.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr range_pair<Real> range_pair_make(depth_time_range<Real> a, depth_time_range<Real> b)
+{
+    range_pair<Real> p;
+    p.merged = range_merge(a, b);
+    mask_t<Real> some = a.t0 < a.t1 && b.t0 < b.t1;
+    Real gap = gnomon_max(a.t0, b.t0) - gnomon_min(a.t1, b.t1);
+    p.gap = gnomon_select(some, gnomon_max(gap, Real(0)), Real(0));
+    // Ignore the parts that the other range occludes: they were in shadow already.
+    Real shift = gnomon_max(range_distance(range_trim(a, b), p.merged), range_distance(range_trim(b, a), p.merged));
+    p.shift = gnomon_select(some, shift, Real(0));
+
+    // The area behind both is that behind the farther range, at (a + b + |a - b|) / 2. The mean of |x| from x0 to x1
+    // is:
+    depth_time_range near_a = range_clip_to(a, b);
+    depth_time_range near_b = range_clip_to(b, a);
+    Real x0 = near_a.z0 - near_b.z0;
+    Real x1 = near_a.z1 - near_b.z1;
+    Real sum = gnomon_abs(x0) + gnomon_abs(x1);
+    Real apart = Real(0.5) * ((x0 * x0 + x1 * x1) + (gnomon_abs(x0 * x1) + x0 * x1)) / sum;
+    apart = gnomon_select(Real(0) < sum, apart, Real(0));
+    Real middle = Real(0.25) * ((near_a.z0 + near_a.z1) + (near_b.z0 + near_b.z1));
+    Real both = range_duration(near_a) * (Real(1) - (middle + Real(0.5) * apart));
+    Real area = range_area(p.merged) - ((range_area(a) + range_area(b)) - both);
+    Real own_a = gnomon_select(a.id == p.merged.id, Real(0), range_duration(a));
+    Real own_b = gnomon_select(b.id == p.merged.id, Real(0), range_duration(b));
+    p.cost = gnomon_select(some, gnomon_max(area, Real(0)) + (own_a + own_b), Real(-1));
+    return p;
+}
+
+/// r alone, at a cost above that of any pair: the start of a search for the cheapest pair.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr range_pair<Real> range_pair_empty(depth_time_range<Real> r)
+{
+    range_pair<Real> p;
+    p.merged = r;
+    p.gap = Real(0);
+    p.shift = Real(0);
+    p.cost = literal<Real>(range_far) * literal<Real>(range_far);
+    return p;
+}
+
+/// The pair with the lower cost; a if the costs are equal.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr range_pair<Real> range_pair_cheaper(range_pair<Real> a, range_pair<Real> b)
+{
+    mask_t<Real> cheaper = b.cost < a.cost;
+    range_pair<Real> p;
+    p.merged = range_select(cheaper, b.merged, a.merged);
+    p.gap = gnomon_select(cheaper, b.gap, a.gap);
+    p.shift = gnomon_select(cheaper, b.shift, a.shift);
+    p.cost = gnomon_select(cheaper, b.cost, a.cost);
+    return p;
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// motion/range/range_list.h -------------------------------------------------------------------------------------------
+// Lists of a few depth-time ranges, one list for a texel: the surfaces that pass the texel while the shutter is open
+// (Gribel et al. 2010; Hong & Oh 2017), and the lower envelope of the list, which is visible from the light at each
+// time (the resolve of Palmer 2011, 2.4).
+//
+//     list = range_list_make(range);                  list = range_list_insert(list, range) for every other range
+//     intensity = range_list_intensity(list, t, z, id, bias);    shadow test at one time
+//     resolved = range_list_resolve(list);                       lower envelope, for receivers in closed form
+//     for (t = 0; t < 1; t = span.t1) span = range_list_front(list, t);    the same, span by span
+//
+// A list stores inserted ranges unchanged and drops those that another range provably occludes (range_occludes). Until
+// the list overflows, neither its contents nor its resolved form depend on the order of insertion or on rounding. On
+// overflow it first drops ranges that several others jointly occlude. If there is still no room, it merges the two most
+// similar ranges into one in front of both (range_merge.h): shadows stay, and the shadow that merging adds is counted.
+//
+// Occluded ranges are dropped regardless of their ids. So a receiver gets the answer of all ranges, unless a range of
+// its own id lies in front of it by more than its bias: that range does not shadow the receiver, and ranges that it
+// occluded are no longer in the list. Hence one id should be a surface none of whose points is ever behind another: a
+// triangle, a plane, the lit side of a convex part. With one id for a whole object, its far sides lose the shadows that
+// other objects cast on them.
+//
+// The capacity is GNOMON_RANGE_CAPACITY, if defined before inclusion, else 8. In C++ the capacity is a template
+// parameter with this default.
+#ifndef GNOMON_MOTION_RANGE_RANGE_LIST_H
+#define GNOMON_MOTION_RANGE_RANGE_LIST_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+#ifndef GNOMON_RANGE_CAPACITY
+#define GNOMON_RANGE_CAPACITY 8
+#endif
+
+/// Ranges in the order of range_less, with empty ranges between them, and upper bounds of the cost of merging: except
+/// for a total time of time_added, wherever the list has a range, some inserted range was there, too, at most
+/// depth_added behind it.
+template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>> struct range_list
+{
+    depth_time_range<Real> ranges[capacity];
+    Real time_added, depth_added;
+};
+
+/// r in the canonical form of a list. An empty range if r is empty, leaves [0, 1], has a NaN, or has a depth beyond
+/// 2^60.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr depth_time_range<Real> range_canonical(depth_time_range<Real> r)
+{
+    r.id = gnomon_max(r.id, literal<Real>(range_mixed));
+    mask_t<Real> known = gnomon_abs(r.z0) + gnomon_abs(r.z1) < literal<Real>(range_far);
+    return range_keep_if(Real(0) <= r.t0 && r.t0 < r.t1 && r.t1 <= Real(1) && known, r);
+}
+
+/// r moved towards the light, or away from it where side is 1 instead of -1. The distance exceeds the accumulated
+/// rounding of up to 18 cuts: 2^-16, since depths at the cuts are rounded, plus the change of depth within a time of
+/// 2^-21, since times are rounded. For two ranges together that rounding is 268 2^-p of depth and 4 2^-p of time.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr depth_time_range<Real> range_offset(depth_time_range<Real> r, std::type_identity_t<Real> side)
+{
+    Real change = gnomon_abs(r.z1 - r.z0);
+    Real brief = gnomon_min(change * Real(0.000000476837158203125) / (r.t1 - r.t0), change);
+    Real by = side * (Real(0.0000152587890625) + brief);
+    r.z0 = r.z0 + by;
+    r.z1 = r.z1 + by;
+    return r;
+}
+
+/// Add the cost of a merge to the list's counts.
+template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
+GNOMON_INLINE constexpr range_list<Real, capacity> range_list_count_merge(range_list<Real, capacity> list,
+                                                                          range_pair<Real> p)
+{
+    list.time_added = saturate_or_zero(list.time_added + p.gap);
+    list.depth_added = gnomon_max(list.depth_added + p.shift, Real(0));
+    return list;
+}
+
+/// Insert r at its place in the order, into a list that has an empty range (see range_list_insert).
+template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
+GNOMON_INLINE constexpr range_list<Real, capacity> range_list_place(range_list<Real, capacity> list,
+                                                                    depth_time_range<Real> r)
+{
+    for (int i = 0; i + 1 < capacity; ++i) { // the first empty one goes to the end
+        depth_time_range s = list.ranges[i];
+        depth_time_range next = list.ranges[i + 1];
+        mask_t<Real> empty = s.t1 <= s.t0 && r.t0 < r.t1;
+        list.ranges[i] = range_select(empty, next, s);
+        list.ranges[i + 1] = range_select(empty, s, next);
+    }
+    for (int k = 0; k + 1 < capacity; ++k) {
+        depth_time_range s = list.ranges[k];
+        mask_t<Real> here = s.t0 < s.t1 && range_less(r, s);
+        list.ranges[k] = range_select(here, r, s);
+        r = range_select(here, s, r);
+    }
+    depth_time_range last = list.ranges[capacity - 1];
+    list.ranges[capacity - 1] = range_select(r.t0 < r.t1, r, last);
+    return list;
+}
+
+/// Insert r, clipped to times in [0, 1]. Without an overflow the ranges of the list do not depend on the order of
+/// insertion, bit for bit, except for the sign of a zero. With an overflow they do, but at no time is the front farther
+/// than that of all inserted ranges. That holds strictly, for exact depth lines, however steep and brief the ranges
+/// are.
+/// Domain: times in [0, 1], depths in [-1, 1], a capacity of at most 16.
+/// NaN: a range with a NaN, or with a depth beyond 2^60, is not inserted.
+/// Source: Gribel 2010; Hong & Oh 2017
+template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
+GNOMON_INLINE constexpr range_list<Real, capacity> range_list_insert(range_list<Real, capacity> list,
+                                                                     depth_time_range<Real> r)
+{
+    r = range_canonical(range_clip(r, Real(0), Real(1)));
+    list = range_list_count_merge(list, range_pair_empty(r)); // counts that are NaN become 0
+    Real room = Real(0);
+    for (int i = 0; i < capacity; ++i) {
+        depth_time_range s = range_canonical(list.ranges[i]);
+        r = range_keep_if(!range_occludes(s, r), r);
+        s = range_keep_if(!range_occludes(r, s), s);
+        list.ranges[i] = s;
+        room = gnomon_select(s.t0 < s.t1, room, Real(1));
+    }
+    mask_t<Real> full = r.t0 < r.t1 && room < Real(1);
+    if (gnomon_any(full)) {
+        // Drop ranges that the others jointly occlude, even if the range were a margin nearer and the others a margin
+        // farther.
+        range_list occluders = list;
+        for (int h = 0; h < capacity; ++h) occluders.ranges[h] = range_offset(list.ranges[h], Real(1));
+        depth_time_range farther = range_offset(r, Real(1));
+        for (int j = 0; j < capacity; ++j) {
+            depth_time_range s = range_trim(range_offset(list.ranges[j], Real(-1)), farther);
+            for (int k = 0; k < capacity; ++k) s = range_trim(s, occluders.ranges[k]);
+            mask_t<Real> seen = !full || s.t0 < s.t1;
+            list.ranges[j] = range_keep_if(seen, list.ranges[j]);
+            occluders.ranges[j] = range_keep_if(seen, occluders.ranges[j]);
+        }
+        depth_time_range left = range_offset(r, Real(-1));
+        for (int m = 0; m < capacity; ++m) left = range_trim(left, occluders.ranges[m]);
+        r = range_keep_if(!full || left.t0 < left.t1, r);
+
+        // Find the most similar pair; r has place -1. If there is room now, one range of the pair is empty.
+        range_pair best = range_pair_empty(r);
+        Real first = Real(-1);
+        Real second = Real(-1);
+        Real place = Real(0);
+        for (int a = 0; a < capacity; ++a) {
+            depth_time_range other = r;
+            Real other_place = Real(-1);
+            for (int b = 0; b <= a; ++b) {
+                range_pair pair = range_pair_make(list.ranges[a], other);
+                first = gnomon_select(pair.cost < best.cost, place, first);
+                second = gnomon_select(pair.cost < best.cost, other_place, second);
+                best = range_pair_cheaper(best, pair);
+                other = list.ranges[b];
+                other_place = other_place + Real(1);
+            }
+            place = place + Real(1);
+        }
+        place = Real(0);
+        for (int n = 0; n < capacity; ++n) {
+            mask_t<Real> merged = full && (place == first || place == second);
+            list.ranges[n] = range_keep_if(!merged, list.ranges[n]);
+            place = place + Real(1);
+        }
+        r = range_keep_if(!(full && second < Real(0)), r);
+        best.merged = range_keep_if(full, best.merged);
+        best.gap = gnomon_select(full, best.gap, Real(0));
+        best.shift = gnomon_select(full, best.shift, Real(0));
+        list = range_list_place(range_list_count_merge(list, best), best.merged);
+    }
+    return range_list_place(list, r);
+}
+
+/// The list of one range; an empty list if the range is empty.
+template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
+GNOMON_INLINE constexpr range_list<Real, capacity> range_list_make(depth_time_range<Real> r)
+{
+    range_list<Real, capacity> list;
+    for (int i = 0; i < capacity; ++i) list.ranges[i] = range_keep_if(r.t0 < r.t0, r);
+    list.time_added = Real(0);
+    list.depth_added = Real(0);
+    return range_list_insert(list, r);
+}
+
+/// Span of the lower envelope from time t on: the range in front just after t, until it ends or another range passes in
+/// front. If no range lasts just after t, the span has the id range_nothing, the depth of the far plane, and lasts
+/// until the next begin. The span ends after t unless t is 1. From 0 to 1 there are at most (N + 1) (N + 2) / 2 spans,
+/// N the capacity, since each ends at a begin, an end or a crossing. A t outside of [0, 1] is clamped.
+/// NaN: t is then 0.
+template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
+GNOMON_INLINE constexpr depth_time_range<Real> range_list_front(range_list<Real, capacity> list, Real t)
+{
+    Real begin = saturate_or_zero(t);
+    depth_time_range front = range_keep_if(begin < begin, list.ranges[0]);
+    Real unchanged = Real(1); // until when all comparisons of this loop come out the same
+    for (int i = 0; i < capacity; ++i) {
+        depth_time_range r = range_canonical(list.ranges[i]);
+        depth_time_range ahead = range_visible_part(r, front);
+        mask_t<Real> during = r.t0 <= begin && begin < r.t1;
+        mask_t<Real> alone = front.t1 <= front.t0;
+        mask_t<Real> nearer = ahead.t0 <= begin && begin < ahead.t1;
+        Real change = gnomon_select(begin < ahead.t0, ahead.t0, gnomon_select(nearer, ahead.t1, Real(1)));
+        change = gnomon_min(change, gnomon_min(front.t1, r.t1));
+        unchanged = gnomon_select(during && !alone, gnomon_min(unchanged, change), unchanged);
+        front = range_select(nearer || (during && alone), r, front);
+    }
+    mask_t<Real> some = front.t0 < front.t1;
+    Real end = gnomon_select(some, front.t1, Real(1));
+    for (int k = 0; k < capacity; ++k) {
+        depth_time_range r = range_canonical(list.ranges[k]);
+        depth_time_range ahead = range_visible_part(r, front);
+        Real next = gnomon_select(some, ahead.t0, r.t0);
+        end = gnomon_select(begin < next, gnomon_min(end, next), end);
+        // Rounding may put each of three ranges that meet in front of the next. The tie lasts as long as all
+        // comparisons do.
+        mask_t<Real> circle = ahead.t0 <= begin && begin < ahead.t1;
+        end = gnomon_select(circle, gnomon_min(end, unchanged), end);
+    }
+    depth_time_range span = range_clip(front, begin, end);
+    span.t0 = begin;
+    span.t1 = end;
+    return span;
+}
+
+/// Append r, which begins after all ranges of the list, disjoint and in order of time. If there is no room, merge two
+/// neighbours.
+template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
+GNOMON_INLINE constexpr range_list<Real, capacity> range_list_append(range_list<Real, capacity> list,
+                                                                     depth_time_range<Real> r)
+{
+    // The last range and r are neighbours, too. Places count from the end; of all pairs one with an empty range is
+    // merged first.
+    range_pair best = range_pair_empty(r);
+    Real at = Real(0);
+    Real place = Real(0);
+    depth_time_range next = r;
+    for (int i = 0; i < capacity; ++i) {
+        depth_time_range s = list.ranges[capacity - 1 - i];
+        range_pair pair = range_pair_make(s, next);
+        at = gnomon_select(pair.cost < best.cost, place, at);
+        best = range_pair_cheaper(best, pair);
+        next = s;
+        place = place + Real(1);
+    }
+    place = Real(0);
+    next = r;
+    for (int k = 0; k < capacity; ++k) {
+        depth_time_range s = list.ranges[capacity - 1 - k];
+        depth_time_range here = range_select(place == at, best.merged, s);
+        list.ranges[capacity - 1 - k] = range_select(place < at, next, here);
+        next = s;
+        place = place + Real(1);
+    }
+    return range_list_count_merge(list, best);
+}
+
+/// The lower envelope of the list: disjoint ranges in order of time, which static_receiver.h adds up. Ranges that do
+/// not fit are merged with a neighbour, and counted. Empty ranges come first.
+/// Source: Palmer 2011, Sec. 2.4
+template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
+GNOMON_INLINE constexpr range_list<Real, capacity> range_list_resolve(range_list<Real, capacity> list)
+{
+    Real t = Real(0);
+    range_list resolved = list;
+    for (int i = 0; i < capacity; ++i) resolved.ranges[i] = range_keep_if(t < t, list.ranges[i]);
+    for (int k = 0; k < (capacity + 1) * (capacity + 2) / 2; ++k) {
+        if (gnomon_any(t < Real(1))) {
+            depth_time_range span = range_list_front(list, t);
+            mask_t<Real> some = literal<Real>(range_nothing) < span.id;
+            resolved = range_list_append(resolved, range_keep_if(some, span));
+            t = span.t1;
+        }
+    }
+    return resolved;
+}
+
+/// Shadow intensity, 0 or 1, at time t and depth z on the surface with the given id (see range_intensity).
+/// NaN: 0, lit.
+template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
+GNOMON_INLINE constexpr Real range_list_intensity(range_list<Real, capacity> list, Real t, Real z, Real id,
+                                                  std::type_identity_t<Real> bias)
+{
+    Real intensity = Real(0);
+    for (int i = 0; i < capacity; ++i) intensity = gnomon_max(intensity,
+                                                              range_intensity(list.ranges[i], t, z, id, bias));
+    return intensity;
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// comparators/interval_list.h -----------------------------------------------------------------------------------------
+// Lists of a few intervals as Gribel et al. 2010 compress them: a full list merges the two intervals of the least cost,
+// a weighted sum of the gap in time between them, their differences in depth and in slope, and their durations. The
+// merged interval is the line from the begin of the earlier one to the end of the later one. It may be behind either of
+// them, so that what was shadowed becomes lit; range_list.h merges into a line in front of both, and has no weights.
+//
+// Costs and merges can be chosen apart, to tell what each of them does: the weight `area` is that of the cost of
+// range_merge.h, and `conservative` above 0 takes the line in front of both.
+//
+//     list = range_list_make(range);   list = interval_list_insert(list, range, weights, 0) for every other range
+//     resolved = interval_list_resolve(list, weights, 0)
+#ifndef GNOMON_COMPARATORS_INTERVAL_LIST_H
+#define GNOMON_COMPARATORS_INTERVAL_LIST_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// Weights of the area that becomes shadowed (range_pair_make), of the gap in time, of the differences in depth and in
+/// slope, and of the durations.
+template <class Real, class = require_real<Real>> struct interval_weights { Real area, gap, depth, slope, duration; };
+
+/// The interval from the begin of the earlier of a and b to the end of the later one, on the line between the depths
+/// there. Of two begins or ends at one time the nearer counts. The id is that of both, or range_mixed if they differ.
+/// If one is empty, the result is the other one, unchanged.
+/// Source: Gribel 2010
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr depth_time_range<Real> interval_merge(depth_time_range<Real> a, depth_time_range<Real> b)
+{
+    depth_time_range<Real> both;
+    both.t0 = gnomon_min(a.t0, b.t0);
+    both.t1 = gnomon_max(a.t1, b.t1);
+    Real nearer0 = gnomon_min(a.z0, b.z0);
+    Real nearer1 = gnomon_min(a.z1, b.z1);
+    both.z0 = gnomon_select(a.t0 < b.t0, a.z0, gnomon_select(b.t0 < a.t0, b.z0, nearer0));
+    both.z1 = gnomon_select(b.t1 < a.t1, a.z1, gnomon_select(a.t1 < b.t1, b.z1, nearer1));
+    both.id = gnomon_select(a.id == b.id, a.id, literal<Real>(range_mixed));
+    mask_t<Real> some_a = a.t0 < a.t1;
+    mask_t<Real> some_b = b.t0 < b.t1;
+    return range_select(some_a && some_b, both, range_select(some_a, a, b));
+}
+
+/// Cost of merging a and b, at most 2^60; -1 if one is empty. The difference in depth is that between the end of the
+/// earlier one and the begin of the later one.
+/// NaN: 2^60.
+/// Source: Gribel 2010
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real interval_cost(depth_time_range<Real> a, depth_time_range<Real> b,
+                                           interval_weights<Real> weights)
+{
+    range_pair p = range_pair_make(a, b);
+    depth_time_range first = range_select(b.t0 < a.t0, b, a);
+    depth_time_range second = range_select(b.t0 < a.t0, a, b);
+    Real gap = gnomon_max(second.t0 - first.t1, Real(0));
+    Real slopes = (first.z1 - first.z0) / (first.t1 - first.t0) - (second.z1 - second.z0) / (second.t1 - second.t0);
+    Real steeper = gnomon_min(gnomon_abs(slopes), literal<Real>(range_far));
+    Real lasting = range_duration(a) + range_duration(b);
+    Real cost = (weights.area * p.cost + weights.gap * gap) +
+                (weights.depth * gnomon_abs(second.z0 - first.z1) + weights.slope * steeper) + weights.duration *
+                lasting;
+    mask_t<Real> some = a.t0 < a.t1 && b.t0 < b.t1;
+    return gnomon_select(some, gnomon_max(gnomon_min(cost, literal<Real>(range_far)), Real(0)), Real(-1));
+}
+
+/// The merge of a and b, with its costs.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr range_pair<Real> interval_pair_make(depth_time_range<Real> a, depth_time_range<Real> b,
+                                                            interval_weights<Real> weights,
+                                                            std::type_identity_t<Real> conservative)
+{
+    range_pair p = range_pair_make(a, b);
+    p.merged = range_select(Real(0) < conservative, p.merged, interval_merge(a, b));
+    p.cost = interval_cost(a, b, weights);
+    return p;
+}
+
+/// Insert r, clipped to times in [0, 1]. On overflow the pair of the least cost is merged, and the list counts its cost
+/// as range_list_insert does, as if the merge were conservative.
+/// Domain: times in [0, 1], depths in [-1, 1], a capacity of at most 16, weights of 0 or more.
+/// NaN: a range with a NaN, or with a depth beyond 2^60, is not inserted.
+/// Source: Gribel 2010
+template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
+GNOMON_INLINE constexpr range_list<Real, capacity> interval_list_insert(range_list<Real, capacity> list,
+                                                                        depth_time_range<Real> r,
+                                                                        interval_weights<Real> weights,
+                                                                        std::type_identity_t<Real> conservative)
+{
+    r = range_canonical(range_clip(r, Real(0), Real(1)));
+    list = range_list_count_merge(list, range_pair_empty(r)); // counts that are NaN become 0
+    Real room = Real(0);
+    for (int i = 0; i < capacity; ++i) {
+        depth_time_range s = range_canonical(list.ranges[i]);
+        r = range_keep_if(!range_occludes(s, r), r);
+        s = range_keep_if(!range_occludes(r, s), s);
+        list.ranges[i] = s;
+        room = gnomon_select(s.t0 < s.t1, room, Real(1));
+    }
+    mask_t<Real> full = r.t0 < r.t1 && room < Real(1);
+    if (gnomon_any(full)) {
+        range_pair best = range_pair_empty(r);
+        Real first = Real(-1);
+        Real second = Real(-1);
+        Real place = Real(0);
+        for (int a = 0; a < capacity; ++a) {
+            depth_time_range other = r; // which has place -1
+            Real other_place = Real(-1);
+            for (int b = 0; b <= a; ++b) {
+                range_pair pair = interval_pair_make(list.ranges[a], other, weights, conservative);
+                first = gnomon_select(pair.cost < best.cost, place, first);
+                second = gnomon_select(pair.cost < best.cost, other_place, second);
+                best = range_pair_cheaper(best, pair);
+                other = list.ranges[b];
+                other_place = other_place + Real(1);
+            }
+            place = place + Real(1);
+        }
+        place = Real(0);
+        for (int n = 0; n < capacity; ++n) {
+            mask_t<Real> merged = full && (place == first || place == second);
+            list.ranges[n] = range_keep_if(!merged, list.ranges[n]);
+            place = place + Real(1);
+        }
+        r = range_keep_if(!(full && second < Real(0)), r);
+        best.merged = range_keep_if(full, best.merged);
+        best.gap = gnomon_select(full, best.gap, Real(0));
+        best.shift = gnomon_select(full, best.shift, Real(0));
+        list = range_list_place(range_list_count_merge(list, best), best.merged);
+    }
+    return range_list_place(list, r);
+}
+
+/// Append r, which begins after all ranges of the list. If there is no room, merge two neighbours.
+template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
+GNOMON_INLINE constexpr range_list<Real, capacity> interval_list_append(range_list<Real, capacity> list,
+                                                                        depth_time_range<Real> r,
+                                                                        interval_weights<Real> weights,
+                                                                        std::type_identity_t<Real> conservative)
+{
+    // Places count from the end; of all pairs one with an empty range is merged first.
+    range_pair best = range_pair_empty(r);
+    Real at = Real(0);
+    Real place = Real(0);
+    depth_time_range next = r;
+    for (int i = 0; i < capacity; ++i) {
+        depth_time_range s = list.ranges[capacity - 1 - i];
+        range_pair pair = interval_pair_make(s, next, weights, conservative);
+        at = gnomon_select(pair.cost < best.cost, place, at);
+        best = range_pair_cheaper(best, pair);
+        next = s;
+        place = place + Real(1);
+    }
+    place = Real(0);
+    next = r;
+    for (int k = 0; k < capacity; ++k) {
+        depth_time_range s = list.ranges[capacity - 1 - k];
+        depth_time_range here = range_select(place == at, best.merged, s);
+        list.ranges[capacity - 1 - k] = range_select(place < at, next, here);
+        next = s;
+        place = place + Real(1);
+    }
+    return range_list_count_merge(list, best);
+}
+
+/// The lower envelope of the list: disjoint ranges in order of time. Ranges that do not fit are merged with a
+/// neighbour. Empty ranges come first.
+/// Source: Gribel 2010; Palmer 2011, Sec. 2.4
+template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
+GNOMON_INLINE constexpr range_list<Real, capacity> interval_list_resolve(range_list<Real, capacity> list,
+                                                                         interval_weights<Real> weights,
+                                                                         std::type_identity_t<Real> conservative)
+{
+    Real t = Real(0);
+    range_list resolved = list;
+    for (int i = 0; i < capacity; ++i) resolved.ranges[i] = range_keep_if(t < t, list.ranges[i]);
+    for (int k = 0; k < (capacity + 1) * (capacity + 2) / 2; ++k) {
+        if (gnomon_any(t < Real(1))) {
+            depth_time_range span = range_list_front(list, t);
+            mask_t<Real> some = literal<Real>(range_nothing) < span.id;
+            resolved = interval_list_append(resolved, range_keep_if(some, span), weights, conservative);
+            t = span.t1;
+        }
+    }
+    return resolved;
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// comparators/percentage_closer_soft.h --------------------------------------------------------------------------------
+// Percentage-closer soft shadows (Fernando 2005; Peters et al. 2017, Sec. 4.1): the mean depth of what is in front of
+// the receiver, from every texel of a search region. This is what the blocker search by moments (soft/blocker.h)
+// estimates.
+//
+//     search = percentage_closer_search_begin(z_f);
+//     search = percentage_closer_search_add(search, z, weight);     for every texel of the search region, weights
+// summing to 1
+//     blocker = percentage_closer_search_end(search);
+//     width = the width of the penumbra (soft/penumbra.h) for z_f and blocker.depth
+//     intensity = percentage_closer_begin, _add, _end (filters/percentage_closer.h) over a filter region of this width
+//
+// An intensity of 0 or 1 of the whole search region spares the filter region.
+#ifndef GNOMON_COMPARATORS_PERCENTAGE_CLOSER_SOFT_H
+#define GNOMON_COMPARATORS_PERCENTAGE_CLOSER_SOFT_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+inline constexpr double percentage_closer_search_epsilon = 1e-3;
+
+/// The receiver's depth, the weight in front of the receiver so far, and the sum of its weighted distances to the
+/// receiver.
+template <class Real, class = require_real<Real>>
+struct percentage_closer_search { Real receiver, shadowed, distance; };
+
+/// The mean depth of the blockers, in [-1, 1] and at most z_f, and their weight in the search region, in [0, 1].
+template <class Real, class = require_real<Real>> struct percentage_closer_blocker { Real depth, intensity; };
+
+/// The state before the first texel of the search region. z_f has no bias.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: no blocker.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr percentage_closer_search<Real> percentage_closer_search_begin(Real z_f)
+{
+    percentage_closer_search<Real> r;
+    r.receiver = clamp_or_nan(z_f, Real(-1), Real(1));
+    r.shadowed = Real(0);
+    r.distance = Real(0);
+    return r;
+}
+
+/// The state after one more texel of depth z with its weight.
+/// Domain: any z; below the near plane as on it.
+/// NaN: a texel of depth NaN is no blocker; a weight of NaN before the receiver leaves no blocker at all.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr percentage_closer_search<Real>
+    percentage_closer_search_add(percentage_closer_search<Real> state, Real z, std::type_identity_t<Real> weight)
+{
+    mask_t<Real> in_front = z < state.receiver;
+    Real distance = state.receiver - gnomon_max(z, Real(-1));
+    state.shadowed = state.shadowed + gnomon_select(in_front, weight, Real(0));
+    state.distance = state.distance + gnomon_select(in_front, weight * distance, Real(0));
+    return state;
+}
+
+/// Mean depth and weight of the blockers. The mean is moved towards the receiver by a weight of 1e-3, so that few
+/// blockers count for less and none leaves the receiver's own depth.
+/// NaN: for z_f the far plane; for a weight before the receiver the receiver's depth, and an intensity of 0.
+/// Error: that of the sums of weights and of weighted distances.
+/// Source: Peters 2017, Eq. 4; Fernando 2005
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr percentage_closer_blocker<Real>
+    percentage_closer_search_end(percentage_closer_search<Real> state)
+{
+    Real weight = state.shadowed + literal<Real>(percentage_closer_search_epsilon);
+    Real receiver = clamp_or_high(state.receiver, Real(-1), Real(1));
+    percentage_closer_blocker<Real> r;
+    Real depth = gnomon_max(Real(-1), gnomon_min(receiver - state.distance / weight, receiver));
+    // Clang 14 makes one clamp, which lets a NaN pass, of this one and of that at the beginning.
+    r.depth = gnomon_select(state.receiver == state.receiver, depth, Real(1));
+    r.intensity = saturate_or_zero(state.shadowed);
+    return r;
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon
@@ -7462,432 +8075,6 @@ GNOMON_INLINE constexpr cover_answer<Real> range_cover_answer(depth_time_range<R
     mask_t<Real> lit = z + literal<Real>(cover_margin) <= behind;
     r.decided = gnomon_select(Real(0) <= cover.id && (lit || Real(0) < r.intensity), Real(1), Real(0));
     return r;
-}
-
-GNOMON_WARNINGS_ON } // namespace gnomon
-
-#endif
-
-// motion/range/range_merge.h ------------------------------------------------------------------------------------------
-// A range that replaces two, for full lists of few ranges (the compression of Gribel et al. 2010). It lasts from the
-// begin of the earlier range to the end of the later one, and its depth line is in front of both, so that all that was
-// shadowed stays shadowed. To find the two most similar ranges, Gribel et al. weight the gap between them and their
-// differences in depth, slope and duration. Here a single measure without weights covers all of these: the area of the
-// plane of time and depth that becomes shadowed although no range was in front of it. Up to a factor, this is the
-// expected error for a receiver of unknown depth. The time for which a surface becomes shadowed by its own range is
-// added, since a range of two surfaces has the id of neither.
-#ifndef GNOMON_MOTION_RANGE_RANGE_MERGE_H
-#define GNOMON_MOTION_RANGE_RANGE_MERGE_H
-
-GNOMON_WARNINGS_OFF namespace gnomon {
-
-/// The range that replaces two; gap, the time between the two that it fills; shift, the largest distance by which it is
-/// in front of both; and the total cost.
-template <class Real, class = require_real<Real>> struct range_pair
-{
-    depth_time_range<Real> merged;
-    Real gap, shift, cost;
-};
-
-inline constexpr double range_merge_margin = 0.000003814697265625; // 2^-18, exact
-
-/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
-/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
-/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
-/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
-/// the result is the other one, unchanged.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr depth_time_range<Real> range_merge(depth_time_range<Real> a, depth_time_range<Real> b)
-{
-    depth_time_range<Real> hull;
-    hull.t0 = gnomon_min(a.t0, b.t0);
-    hull.t1 = gnomon_max(a.t1, b.t1);
-    Real nearer0 = gnomon_min(a.z0, b.z0);
-    Real nearer1 = gnomon_min(a.z1, b.z1);
-    hull.z0 = gnomon_select(a.t0 < b.t0, a.z0, gnomon_select(b.t0 < a.t0, b.z0, nearer0));
-    hull.z1 = gnomon_select(b.t1 < a.t1, a.z1, gnomon_select(a.t1 < b.t1, b.z1, nearer1));
-    hull.id = gnomon_select(a.id == b.id, a.id, literal<Real>(range_mixed));
-
-    Real back = gnomon_max(gnomon_max(range_depth(hull, a.t0) - a.z0, range_depth(hull, a.t1) - a.z1),
-                           gnomon_max(range_depth(hull, b.t0) - b.z0, range_depth(hull, b.t1) - b.z1));
-    back = gnomon_max(back, Real(0));
-    Real size = gnomon_max(gnomon_max(gnomon_abs(a.z0), gnomon_abs(a.z1)),
-                           gnomon_max(gnomon_abs(b.z0), gnomon_abs(b.z1)));
-    Real margin = size * literal<Real>(range_merge_margin);
-    Real level = gnomon_min(nearer0, nearer1);
-    Real sloped0 = hull.z0 - back;
-    Real sloped1 = hull.z1 - back;
-    mask_t<Real> slopes = level + level < sloped0 + sloped1 && gnomon_abs(sloped0) +
-                          gnomon_abs(sloped1) < literal<Real>(range_far);
-    hull.z0 = gnomon_select(slopes, sloped0, level) - margin;
-    hull.z1 = gnomon_select(slopes, sloped1, level) - margin;
-
-    mask_t<Real> some_a = a.t0 < a.t1;
-    mask_t<Real> some_b = b.t0 < b.t1;
-    return range_select(some_a && some_b, hull, range_select(some_a, a, b));
-}
-
-/// Area between the range and the far plane, in time and depth.
-template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real range_area(depth_time_range<Real> r)
-{
-    return range_duration(r) * (Real(1) - Real(0.5) * (r.z0 + r.z1));
-}
-
-/// Largest distance of an end of r behind the range `nearer`, 0 if none is behind or r is empty.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real range_distance(depth_time_range<Real> r, depth_time_range<Real> nearer)
-{
-    Real distance0 = r.z0 - range_depth(nearer, r.t0);
-    Real distance1 = r.z1 - range_depth(nearer, r.t1);
-    return gnomon_select(r.t0 < r.t1, gnomon_max(gnomon_max(distance0, distance1), Real(0)), Real(0));
-}
-
-/// The merge of a and b, with its costs. The cost is the area behind the merged range that was behind neither a nor b,
-/// plus the time for which a surface loses its id. If one range is empty, there is nothing to merge: the cost is -1,
-/// gap and shift are 0.
-/// Error: gap and shift are exact except for rounding.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr range_pair<Real> range_pair_make(depth_time_range<Real> a, depth_time_range<Real> b)
-{
-    range_pair<Real> p;
-    p.merged = range_merge(a, b);
-    mask_t<Real> some = a.t0 < a.t1 && b.t0 < b.t1;
-    Real gap = gnomon_max(a.t0, b.t0) - gnomon_min(a.t1, b.t1);
-    p.gap = gnomon_select(some, gnomon_max(gap, Real(0)), Real(0));
-    // Ignore the parts that the other range occludes: they were in shadow already.
-    Real shift = gnomon_max(range_distance(range_trim(a, b), p.merged), range_distance(range_trim(b, a), p.merged));
-    p.shift = gnomon_select(some, shift, Real(0));
-
-    // The area behind both is that behind the farther range, at (a + b + |a - b|) / 2. The mean of |x| from x0 to x1
-    // is:
-    depth_time_range near_a = range_clip_to(a, b);
-    depth_time_range near_b = range_clip_to(b, a);
-    Real x0 = near_a.z0 - near_b.z0;
-    Real x1 = near_a.z1 - near_b.z1;
-    Real sum = gnomon_abs(x0) + gnomon_abs(x1);
-    Real apart = Real(0.5) * ((x0 * x0 + x1 * x1) + (gnomon_abs(x0 * x1) + x0 * x1)) / sum;
-    apart = gnomon_select(Real(0) < sum, apart, Real(0));
-    Real middle = Real(0.25) * ((near_a.z0 + near_a.z1) + (near_b.z0 + near_b.z1));
-    Real both = range_duration(near_a) * (Real(1) - (middle + Real(0.5) * apart));
-    Real area = range_area(p.merged) - ((range_area(a) + range_area(b)) - both);
-    Real own_a = gnomon_select(a.id == p.merged.id, Real(0), range_duration(a));
-    Real own_b = gnomon_select(b.id == p.merged.id, Real(0), range_duration(b));
-    p.cost = gnomon_select(some, gnomon_max(area, Real(0)) + (own_a + own_b), Real(-1));
-    return p;
-}
-
-/// r alone, at a cost above that of any pair: the start of a search for the cheapest pair.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr range_pair<Real> range_pair_empty(depth_time_range<Real> r)
-{
-    range_pair<Real> p;
-    p.merged = r;
-    p.gap = Real(0);
-    p.shift = Real(0);
-    p.cost = literal<Real>(range_far) * literal<Real>(range_far);
-    return p;
-}
-
-/// The pair with the lower cost; a if the costs are equal.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr range_pair<Real> range_pair_cheaper(range_pair<Real> a, range_pair<Real> b)
-{
-    mask_t<Real> cheaper = b.cost < a.cost;
-    range_pair<Real> p;
-    p.merged = range_select(cheaper, b.merged, a.merged);
-    p.gap = gnomon_select(cheaper, b.gap, a.gap);
-    p.shift = gnomon_select(cheaper, b.shift, a.shift);
-    p.cost = gnomon_select(cheaper, b.cost, a.cost);
-    return p;
-}
-
-GNOMON_WARNINGS_ON } // namespace gnomon
-
-#endif
-
-// motion/range/range_list.h -------------------------------------------------------------------------------------------
-// Lists of a few depth-time ranges, one list for a texel: the surfaces that pass the texel while the shutter is open
-// (Gribel et al. 2010; Hong & Oh 2017), and the lower envelope of the list, which is visible from the light at each
-// time (the resolve of Palmer 2011, 2.4).
-//
-//     list = range_list_make(range);                  list = range_list_insert(list, range) for every other range
-//     intensity = range_list_intensity(list, t, z, id, bias);    shadow test at one time
-//     resolved = range_list_resolve(list);                       lower envelope, for receivers in closed form
-//     for (t = 0; t < 1; t = span.t1) span = range_list_front(list, t);    the same, span by span
-//
-// A list stores inserted ranges unchanged and drops those that another range provably occludes (range_occludes). Until
-// the list overflows, neither its contents nor its resolved form depend on the order of insertion or on rounding. On
-// overflow it first drops ranges that several others jointly occlude. If there is still no room, it merges the two most
-// similar ranges into one in front of both (range_merge.h): shadows stay, and the shadow that merging adds is counted.
-//
-// Occluded ranges are dropped regardless of their ids. So a receiver gets the answer of all ranges, unless a range of
-// its own id lies in front of it by more than its bias: that range does not shadow the receiver, and ranges that it
-// occluded are no longer in the list. Hence one id should be a surface none of whose points is ever behind another: a
-// triangle, a plane, the lit side of a convex part. With one id for a whole object, its far sides lose the shadows that
-// other objects cast on them.
-//
-// The capacity is GNOMON_RANGE_CAPACITY, if defined before inclusion, else 8. In C++ the capacity is a template
-// parameter with this default.
-#ifndef GNOMON_MOTION_RANGE_RANGE_LIST_H
-#define GNOMON_MOTION_RANGE_RANGE_LIST_H
-
-GNOMON_WARNINGS_OFF namespace gnomon {
-
-#ifndef GNOMON_RANGE_CAPACITY
-#define GNOMON_RANGE_CAPACITY 8
-#endif
-
-/// Ranges in the order of range_less, with empty ranges between them, and upper bounds of the cost of merging: except
-/// for a total time of time_added, wherever the list has a range, some inserted range was there, too, at most
-/// depth_added behind it.
-template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>> struct range_list
-{
-    depth_time_range<Real> ranges[capacity];
-    Real time_added, depth_added;
-};
-
-/// r in the canonical form of a list. An empty range if r is empty, leaves [0, 1], has a NaN, or has a depth beyond
-/// 2^60.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr depth_time_range<Real> range_canonical(depth_time_range<Real> r)
-{
-    r.id = gnomon_max(r.id, literal<Real>(range_mixed));
-    mask_t<Real> known = gnomon_abs(r.z0) + gnomon_abs(r.z1) < literal<Real>(range_far);
-    return range_keep_if(Real(0) <= r.t0 && r.t0 < r.t1 && r.t1 <= Real(1) && known, r);
-}
-
-/// r moved towards the light, or away from it where side is 1 instead of -1. The distance exceeds the accumulated
-/// rounding of up to 18 cuts: 2^-16, since depths at the cuts are rounded, plus the change of depth within a time of
-/// 2^-21, since times are rounded. For two ranges together that rounding is 268 2^-p of depth and 4 2^-p of time.
-template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr depth_time_range<Real> range_offset(depth_time_range<Real> r, std::type_identity_t<Real> side)
-{
-    Real change = gnomon_abs(r.z1 - r.z0);
-    Real brief = gnomon_min(change * Real(0.000000476837158203125) / (r.t1 - r.t0), change);
-    Real by = side * (Real(0.0000152587890625) + brief);
-    r.z0 = r.z0 + by;
-    r.z1 = r.z1 + by;
-    return r;
-}
-
-/// Add the cost of a merge to the list's counts.
-template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
-GNOMON_INLINE constexpr range_list<Real, capacity> range_list_count_merge(range_list<Real, capacity> list,
-                                                                          range_pair<Real> p)
-{
-    list.time_added = saturate_or_zero(list.time_added + p.gap);
-    list.depth_added = gnomon_max(list.depth_added + p.shift, Real(0));
-    return list;
-}
-
-/// Insert r at its place in the order, into a list that has an empty range (see range_list_insert).
-template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
-GNOMON_INLINE constexpr range_list<Real, capacity> range_list_place(range_list<Real, capacity> list,
-                                                                    depth_time_range<Real> r)
-{
-    for (int i = 0; i + 1 < capacity; ++i) { // the first empty one goes to the end
-        depth_time_range s = list.ranges[i];
-        depth_time_range next = list.ranges[i + 1];
-        mask_t<Real> empty = s.t1 <= s.t0 && r.t0 < r.t1;
-        list.ranges[i] = range_select(empty, next, s);
-        list.ranges[i + 1] = range_select(empty, s, next);
-    }
-    for (int k = 0; k + 1 < capacity; ++k) {
-        depth_time_range s = list.ranges[k];
-        mask_t<Real> here = s.t0 < s.t1 && range_less(r, s);
-        list.ranges[k] = range_select(here, r, s);
-        r = range_select(here, s, r);
-    }
-    depth_time_range last = list.ranges[capacity - 1];
-    list.ranges[capacity - 1] = range_select(r.t0 < r.t1, r, last);
-    return list;
-}
-
-/// Insert r, clipped to times in [0, 1]. Without an overflow the ranges of the list do not depend on the order of
-/// insertion, bit for bit, except for the sign of a zero. With an overflow they do, but at no time is the front farther
-/// than that of all inserted ranges. That holds strictly, for exact depth lines, however steep and brief the ranges
-/// are.
-/// Domain: times in [0, 1], depths in [-1, 1], a capacity of at most 16.
-/// NaN: a range with a NaN, or with a depth beyond 2^60, is not inserted.
-/// Source: Gribel 2010; Hong & Oh 2017
-template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
-GNOMON_INLINE constexpr range_list<Real, capacity> range_list_insert(range_list<Real, capacity> list,
-                                                                     depth_time_range<Real> r)
-{
-    r = range_canonical(range_clip(r, Real(0), Real(1)));
-    list = range_list_count_merge(list, range_pair_empty(r)); // counts that are NaN become 0
-    Real room = Real(0);
-    for (int i = 0; i < capacity; ++i) {
-        depth_time_range s = range_canonical(list.ranges[i]);
-        r = range_keep_if(!range_occludes(s, r), r);
-        s = range_keep_if(!range_occludes(r, s), s);
-        list.ranges[i] = s;
-        room = gnomon_select(s.t0 < s.t1, room, Real(1));
-    }
-    mask_t<Real> full = r.t0 < r.t1 && room < Real(1);
-    if (gnomon_any(full)) {
-        // Drop ranges that the others jointly occlude, even if the range were a margin nearer and the others a margin
-        // farther.
-        range_list occluders = list;
-        for (int h = 0; h < capacity; ++h) occluders.ranges[h] = range_offset(list.ranges[h], Real(1));
-        depth_time_range farther = range_offset(r, Real(1));
-        for (int j = 0; j < capacity; ++j) {
-            depth_time_range s = range_trim(range_offset(list.ranges[j], Real(-1)), farther);
-            for (int k = 0; k < capacity; ++k) s = range_trim(s, occluders.ranges[k]);
-            mask_t<Real> seen = !full || s.t0 < s.t1;
-            list.ranges[j] = range_keep_if(seen, list.ranges[j]);
-            occluders.ranges[j] = range_keep_if(seen, occluders.ranges[j]);
-        }
-        depth_time_range left = range_offset(r, Real(-1));
-        for (int m = 0; m < capacity; ++m) left = range_trim(left, occluders.ranges[m]);
-        r = range_keep_if(!full || left.t0 < left.t1, r);
-
-        // Find the most similar pair; r has place -1. If there is room now, one range of the pair is empty.
-        range_pair best = range_pair_empty(r);
-        Real first = Real(-1);
-        Real second = Real(-1);
-        Real place = Real(0);
-        for (int a = 0; a < capacity; ++a) {
-            depth_time_range other = r;
-            Real other_place = Real(-1);
-            for (int b = 0; b <= a; ++b) {
-                range_pair pair = range_pair_make(list.ranges[a], other);
-                first = gnomon_select(pair.cost < best.cost, place, first);
-                second = gnomon_select(pair.cost < best.cost, other_place, second);
-                best = range_pair_cheaper(best, pair);
-                other = list.ranges[b];
-                other_place = other_place + Real(1);
-            }
-            place = place + Real(1);
-        }
-        place = Real(0);
-        for (int n = 0; n < capacity; ++n) {
-            mask_t<Real> merged = full && (place == first || place == second);
-            list.ranges[n] = range_keep_if(!merged, list.ranges[n]);
-            place = place + Real(1);
-        }
-        r = range_keep_if(!(full && second < Real(0)), r);
-        best.merged = range_keep_if(full, best.merged);
-        best.gap = gnomon_select(full, best.gap, Real(0));
-        best.shift = gnomon_select(full, best.shift, Real(0));
-        list = range_list_place(range_list_count_merge(list, best), best.merged);
-    }
-    return range_list_place(list, r);
-}
-
-/// The list of one range; an empty list if the range is empty.
-template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
-GNOMON_INLINE constexpr range_list<Real, capacity> range_list_make(depth_time_range<Real> r)
-{
-    range_list<Real, capacity> list;
-    for (int i = 0; i < capacity; ++i) list.ranges[i] = range_keep_if(r.t0 < r.t0, r);
-    list.time_added = Real(0);
-    list.depth_added = Real(0);
-    return range_list_insert(list, r);
-}
-
-/// Span of the lower envelope from time t on: the range in front just after t, until it ends or another range passes in
-/// front. If no range lasts just after t, the span has the id range_nothing, the depth of the far plane, and lasts
-/// until the next begin. The span ends after t unless t is 1. From 0 to 1 there are at most (N + 1) (N + 2) / 2 spans,
-/// N the capacity, since each ends at a begin, an end or a crossing. A t outside of [0, 1] is clamped.
-/// NaN: t is then 0.
-template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
-GNOMON_INLINE constexpr depth_time_range<Real> range_list_front(range_list<Real, capacity> list, Real t)
-{
-    Real begin = saturate_or_zero(t);
-    depth_time_range front = range_keep_if(begin < begin, list.ranges[0]);
-    Real unchanged = Real(1); // until when all comparisons of this loop come out the same
-    for (int i = 0; i < capacity; ++i) {
-        depth_time_range r = range_canonical(list.ranges[i]);
-        depth_time_range ahead = range_visible_part(r, front);
-        mask_t<Real> during = r.t0 <= begin && begin < r.t1;
-        mask_t<Real> alone = front.t1 <= front.t0;
-        mask_t<Real> nearer = ahead.t0 <= begin && begin < ahead.t1;
-        Real change = gnomon_select(begin < ahead.t0, ahead.t0, gnomon_select(nearer, ahead.t1, Real(1)));
-        change = gnomon_min(change, gnomon_min(front.t1, r.t1));
-        unchanged = gnomon_select(during && !alone, gnomon_min(unchanged, change), unchanged);
-        front = range_select(nearer || (during && alone), r, front);
-    }
-    mask_t<Real> some = front.t0 < front.t1;
-    Real end = gnomon_select(some, front.t1, Real(1));
-    for (int k = 0; k < capacity; ++k) {
-        depth_time_range r = range_canonical(list.ranges[k]);
-        depth_time_range ahead = range_visible_part(r, front);
-        Real next = gnomon_select(some, ahead.t0, r.t0);
-        end = gnomon_select(begin < next, gnomon_min(end, next), end);
-        // Rounding may put each of three ranges that meet in front of the next. The tie lasts as long as all
-        // comparisons do.
-        mask_t<Real> circle = ahead.t0 <= begin && begin < ahead.t1;
-        end = gnomon_select(circle, gnomon_min(end, unchanged), end);
-    }
-    depth_time_range span = range_clip(front, begin, end);
-    span.t0 = begin;
-    span.t1 = end;
-    return span;
-}
-
-/// Append r, which begins after all ranges of the list, disjoint and in order of time. If there is no room, merge two
-/// neighbours.
-template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
-GNOMON_INLINE constexpr range_list<Real, capacity> range_list_append(range_list<Real, capacity> list,
-                                                                     depth_time_range<Real> r)
-{
-    // The last range and r are neighbours, too. Places count from the end; of all pairs one with an empty range is
-    // merged first.
-    range_pair best = range_pair_empty(r);
-    Real at = Real(0);
-    Real place = Real(0);
-    depth_time_range next = r;
-    for (int i = 0; i < capacity; ++i) {
-        depth_time_range s = list.ranges[capacity - 1 - i];
-        range_pair pair = range_pair_make(s, next);
-        at = gnomon_select(pair.cost < best.cost, place, at);
-        best = range_pair_cheaper(best, pair);
-        next = s;
-        place = place + Real(1);
-    }
-    place = Real(0);
-    next = r;
-    for (int k = 0; k < capacity; ++k) {
-        depth_time_range s = list.ranges[capacity - 1 - k];
-        depth_time_range here = range_select(place == at, best.merged, s);
-        list.ranges[capacity - 1 - k] = range_select(place < at, next, here);
-        next = s;
-        place = place + Real(1);
-    }
-    return range_list_count_merge(list, best);
-}
-
-/// The lower envelope of the list: disjoint ranges in order of time, which static_receiver.h adds up. Ranges that do
-/// not fit are merged with a neighbour, and counted. Empty ranges come first.
-/// Source: Palmer 2011, Sec. 2.4
-template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
-GNOMON_INLINE constexpr range_list<Real, capacity> range_list_resolve(range_list<Real, capacity> list)
-{
-    Real t = Real(0);
-    range_list resolved = list;
-    for (int i = 0; i < capacity; ++i) resolved.ranges[i] = range_keep_if(t < t, list.ranges[i]);
-    for (int k = 0; k < (capacity + 1) * (capacity + 2) / 2; ++k) {
-        if (gnomon_any(t < Real(1))) {
-            depth_time_range span = range_list_front(list, t);
-            mask_t<Real> some = literal<Real>(range_nothing) < span.id;
-            resolved = range_list_append(resolved, range_keep_if(some, span));
-            t = span.t1;
-        }
-    }
-    return resolved;
-}
-
-/// Shadow intensity, 0 or 1, at time t and depth z on the surface with the given id (see range_intensity).
-/// NaN: 0, lit.
-template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
-GNOMON_INLINE constexpr Real range_list_intensity(range_list<Real, capacity> list, Real t, Real z, Real id,
-                                                  std::type_identity_t<Real> bias)
-{
-    Real intensity = Real(0);
-    for (int i = 0; i < capacity; ++i) intensity = gnomon_max(intensity,
-                                                              range_intensity(list.ranges[i], t, z, id, bias));
-    return intensity;
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon

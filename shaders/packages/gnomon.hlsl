@@ -950,74 +950,6 @@ float hamburger6_cholesky_intensity(moments6 b, float z_f)
 
 #endif
 
-// comparators/percentage_closer_soft.h --------------------------------------------------------------------------------
-// Percentage-closer soft shadows (Fernando 2005; Peters et al. 2017, Sec. 4.1): the mean depth of what is in front of
-// the receiver, from every texel of a search region. This is what the blocker search by moments (soft/blocker.h)
-// estimates.
-//
-//     search = percentage_closer_search_begin(z_f);
-//     search = percentage_closer_search_add(search, z, weight);     for every texel of the search region, weights
-// summing to 1
-//     blocker = percentage_closer_search_end(search);
-//     width = the width of the penumbra (soft/penumbra.h) for z_f and blocker.depth
-//     intensity = percentage_closer_begin, _add, _end (filters/percentage_closer.h) over a filter region of this width
-//
-// An intensity of 0 or 1 of the whole search region spares the filter region.
-#ifndef GNOMON_COMPARATORS_PERCENTAGE_CLOSER_SOFT_H
-#define GNOMON_COMPARATORS_PERCENTAGE_CLOSER_SOFT_H
-
-static const float percentage_closer_search_epsilon = 1e-3;
-
-/// The receiver's depth, the weight in front of the receiver so far, and the sum of its weighted distances to the
-/// receiver.
-struct percentage_closer_search { float receiver, shadowed, distance; };
-
-/// The mean depth of the blockers, in [-1, 1] and at most z_f, and their weight in the search region, in [0, 1].
-struct percentage_closer_blocker { float depth, intensity; };
-
-/// The state before the first texel of the search region. z_f has no bias.
-/// Domain: any z_f, limited to [-1, 1].
-/// NaN: no blocker.
-percentage_closer_search percentage_closer_search_begin(float z_f)
-{
-    percentage_closer_search r;
-    r.receiver = clamp_or_nan(z_f, -1.0, 1.0);
-    r.shadowed = 0.0;
-    r.distance = 0.0;
-    return r;
-}
-
-/// The state after one more texel of depth z with its weight.
-/// Domain: any z; below the near plane as on it.
-/// NaN: a texel of depth NaN is no blocker; a weight of NaN before the receiver leaves no blocker at all.
-percentage_closer_search percentage_closer_search_add(percentage_closer_search state, float z, float weight)
-{
-    bool in_front = z < state.receiver;
-    float distance = state.receiver - gnomon_max(z, -1.0);
-    state.shadowed = state.shadowed + gnomon_select(in_front, weight, 0.0);
-    state.distance = state.distance + gnomon_select(in_front, weight * distance, 0.0);
-    return state;
-}
-
-/// Mean depth and weight of the blockers. The mean is moved towards the receiver by a weight of 1e-3, so that few
-/// blockers count for less and none leaves the receiver's own depth.
-/// NaN: for z_f the far plane; for a weight before the receiver the receiver's depth, and an intensity of 0.
-/// Error: that of the sums of weights and of weighted distances.
-/// Source: Peters 2017, Eq. 4; Fernando 2005
-percentage_closer_blocker percentage_closer_search_end(percentage_closer_search state)
-{
-    float weight = state.shadowed + percentage_closer_search_epsilon;
-    float receiver = clamp_or_high(state.receiver, -1.0, 1.0);
-    percentage_closer_blocker r;
-    float depth = gnomon_max(-1.0, gnomon_min(receiver - state.distance / weight, receiver));
-    // Clang 14 makes one clamp, which lets a NaN pass, of this one and of that at the beginning.
-    r.depth = gnomon_select(state.receiver == state.receiver, depth, 1.0);
-    r.intensity = saturate_or_zero(state.shadowed);
-    return r;
-}
-
-#endif
-
 // motion/range/range.h ------------------------------------------------------------------------------------------------
 // Depth-time ranges. From time t0 to time t1 of the shutter interval [0, 1] a surface covers a texel of the shadow map,
 // at a depth that changes linearly from z0 to z1. The depth-time range of Hong & Oh ("Motion blurred shadows utilizing
@@ -1213,6 +1145,640 @@ float range_intensity(depth_time_range r, float t, float z, float id, float bias
     bool during = r.t0 <= t && t <= r.t1;
     bool occludes = range_depth(r, t) + bias < z && !(id == r.id);
     return gnomon_select(during && occludes, 1.0, 0.0);
+}
+
+#endif
+
+// motion/range/range_merge.h ------------------------------------------------------------------------------------------
+// A range that replaces two, for full lists of few ranges (the compression of Gribel et al. 2010). It lasts from the
+// begin of the earlier range to the end of the later one, and its depth line is in front of both, so that all that was
+// shadowed stays shadowed. To find the two most similar ranges, Gribel et al. weight the gap between them and their
+// differences in depth, slope and duration. Here a single measure without weights covers all of these: the area of the
+// plane of time and depth that becomes shadowed although no range was in front of it. Up to a factor, this is the
+// expected error for a receiver of unknown depth. The time for which a surface becomes shadowed by its own range is
+// added, since a range of two surfaces has the id of neither.
+#ifndef GNOMON_MOTION_RANGE_RANGE_MERGE_H
+#define GNOMON_MOTION_RANGE_RANGE_MERGE_H
+
+/// The range that replaces two; gap, the time between the two that it fills; shift, the largest distance by which it is
+/// in front of both; and the total cost.
+struct range_pair
+{
+    depth_time_range merged;
+    float gap, shift, cost;
+};
+
+static const float gnomon_range_merge_margin = 0.000003814697265625; // 2^-18, exact
+
+/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
+/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
+/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
+/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
+/// the result is the other one, unchanged.
+depth_time_range gnomon_range_merge(depth_time_range a, depth_time_range b)
+{
+    depth_time_range hull;
+    hull.t0 = gnomon_min(a.t0, b.t0);
+    hull.t1 = gnomon_max(a.t1, b.t1);
+    float nearer0 = gnomon_min(a.z0, b.z0);
+    float nearer1 = gnomon_min(a.z1, b.z1);
+    hull.z0 = gnomon_select(a.t0 < b.t0, a.z0, gnomon_select(b.t0 < a.t0, b.z0, nearer0));
+    hull.z1 = gnomon_select(b.t1 < a.t1, a.z1, gnomon_select(a.t1 < b.t1, b.z1, nearer1));
+    hull.id = gnomon_select(a.id == b.id, a.id, range_mixed);
+
+    float back = gnomon_max(gnomon_max(range_depth(hull, a.t0) - a.z0, range_depth(hull, a.t1) - a.z1),
+                            gnomon_max(range_depth(hull, b.t0) - b.z0, range_depth(hull, b.t1) - b.z1));
+    back = gnomon_max(back, 0.0);
+    float size = gnomon_max(gnomon_max(gnomon_abs(a.z0), gnomon_abs(a.z1)),
+                            gnomon_max(gnomon_abs(b.z0), gnomon_abs(b.z1)));
+    float margin = size * gnomon_range_merge_margin;
+    float level = gnomon_min(nearer0, nearer1);
+    float sloped0 = hull.z0 - back;
+    float sloped1 = hull.z1 - back;
+    bool slopes = level + level < sloped0 + sloped1 && gnomon_abs(sloped0) + gnomon_abs(sloped1) < range_far;
+    hull.z0 = gnomon_select(slopes, sloped0, level) - margin;
+    hull.z1 = gnomon_select(slopes, sloped1, level) - margin;
+
+    bool some_a = a.t0 < a.t1;
+    bool some_b = b.t0 < b.t1;
+    return gnomon_range_select(some_a && some_b, hull, gnomon_range_select(some_a, a, b));
+}
+
+/// Area between the range and the far plane, in time and depth.
+float gnomon_range_area(depth_time_range r) { return range_duration(r) * (1.0 - 0.5 * (r.z0 + r.z1)); }
+
+/// Largest distance of an end of r behind the range `nearer`, 0 if none is behind or r is empty.
+float gnomon_range_distance(depth_time_range r, depth_time_range nearer)
+{
+    float distance0 = r.z0 - range_depth(nearer, r.t0);
+    float distance1 = r.z1 - range_depth(nearer, r.t1);
+    return gnomon_select(r.t0 < r.t1, gnomon_max(gnomon_max(distance0, distance1), 0.0), 0.0);
+}
+
+/// The merge of a and b, with its costs. The cost is the area behind the merged range that was behind neither a nor b,
+/// plus the time for which a surface loses its id. If one range is empty, there is nothing to merge: the cost is -1,
+/// gap and shift are 0.
+/// Error: gap and shift are exact except for rounding.
+range_pair gnomon_range_pair_make(depth_time_range a, depth_time_range b)
+{
+    range_pair p;
+    p.merged = gnomon_range_merge(a, b);
+    bool some = a.t0 < a.t1 && b.t0 < b.t1;
+    float gap = gnomon_max(a.t0, b.t0) - gnomon_min(a.t1, b.t1);
+    p.gap = gnomon_select(some, gnomon_max(gap, 0.0), 0.0);
+    // Ignore the parts that the other range occludes: they were in shadow already.
+    float shift = gnomon_max(gnomon_range_distance(gnomon_range_trim(a, b), p.merged),
+                             gnomon_range_distance(gnomon_range_trim(b, a), p.merged));
+    p.shift = gnomon_select(some, shift, 0.0);
+
+    // The area behind both is that behind the farther range, at (a + b + |a - b|) / 2. The mean of |x| from x0 to x1
+    // is:
+    depth_time_range near_a = gnomon_range_clip_to(a, b);
+    depth_time_range near_b = gnomon_range_clip_to(b, a);
+    float x0 = near_a.z0 - near_b.z0;
+    float x1 = near_a.z1 - near_b.z1;
+    float sum = gnomon_abs(x0) + gnomon_abs(x1);
+    float apart = 0.5 * ((x0 * x0 + x1 * x1) + (gnomon_abs(x0 * x1) + x0 * x1)) / sum;
+    apart = gnomon_select(0.0 < sum, apart, 0.0);
+    float middle = 0.25 * ((near_a.z0 + near_a.z1) + (near_b.z0 + near_b.z1));
+    float both = range_duration(near_a) * (1.0 - (middle + 0.5 * apart));
+    float area = gnomon_range_area(p.merged) - ((gnomon_range_area(a) + gnomon_range_area(b)) - both);
+    float own_a = gnomon_select(a.id == p.merged.id, 0.0, range_duration(a));
+    float own_b = gnomon_select(b.id == p.merged.id, 0.0, range_duration(b));
+    p.cost = gnomon_select(some, gnomon_max(area, 0.0) + (own_a + own_b), -1.0);
+    return p;
+}
+
+/// r alone, at a cost above that of any pair: the start of a search for the cheapest pair.
+range_pair gnomon_range_pair_empty(depth_time_range r)
+{
+    range_pair p;
+    p.merged = r;
+    p.gap = 0.0;
+    p.shift = 0.0;
+    p.cost = range_far * range_far;
+    return p;
+}
+
+/// The pair with the lower cost; a if the costs are equal.
+range_pair gnomon_range_pair_cheaper(range_pair a, range_pair b)
+{
+    bool cheaper = b.cost < a.cost;
+    range_pair p;
+    p.merged = gnomon_range_select(cheaper, b.merged, a.merged);
+    p.gap = gnomon_select(cheaper, b.gap, a.gap);
+    p.shift = gnomon_select(cheaper, b.shift, a.shift);
+    p.cost = gnomon_select(cheaper, b.cost, a.cost);
+    return p;
+}
+
+#endif
+
+// motion/range/range_list.h -------------------------------------------------------------------------------------------
+// Lists of a few depth-time ranges, one list for a texel: the surfaces that pass the texel while the shutter is open
+// (Gribel et al. 2010; Hong & Oh 2017), and the lower envelope of the list, which is visible from the light at each
+// time (the resolve of Palmer 2011, 2.4).
+//
+//     list = range_list_make(range);                  list = range_list_insert(list, range) for every other range
+//     intensity = range_list_intensity(list, t, z, id, bias);    shadow test at one time
+//     resolved = range_list_resolve(list);                       lower envelope, for receivers in closed form
+//     for (t = 0; t < 1; t = span.t1) span = range_list_front(list, t);    the same, span by span
+//
+// A list stores inserted ranges unchanged and drops those that another range provably occludes (gnomon_range_occludes).
+// Until the list overflows, neither its contents nor its resolved form depend on the order of insertion or on rounding.
+// On overflow it first drops ranges that several others jointly occlude. If there is still no room, it merges the two
+// most similar ranges into one in front of both (gnomon_range_merge.h): shadows stay, and the shadow that merging adds
+// is counted.
+//
+// Occluded ranges are dropped regardless of their ids. So a receiver gets the answer of all ranges, unless a range of
+// its own id lies in front of it by more than its bias: that range does not shadow the receiver, and ranges that it
+// occluded are no longer in the list. Hence one id should be a surface none of whose points is ever behind another: a
+// triangle, a plane, the lit side of a convex part. With one id for a whole object, its far sides lose the shadows that
+// other objects cast on them.
+//
+// The capacity is GNOMON_RANGE_CAPACITY, if defined before inclusion, else 8. In C++ the capacity is a template
+// parameter with this default.
+#ifndef GNOMON_MOTION_RANGE_RANGE_LIST_H
+#define GNOMON_MOTION_RANGE_RANGE_LIST_H
+
+#ifndef GNOMON_RANGE_CAPACITY
+#define GNOMON_RANGE_CAPACITY 8
+#endif
+
+/// Ranges in the order of gnomon_range_less, with empty ranges between them, and upper bounds of the cost of merging:
+/// except for a total time of time_added, wherever the list has a range, some inserted range was there, too, at most
+/// depth_added behind it.
+struct range_list
+{
+    depth_time_range ranges[GNOMON_RANGE_CAPACITY];
+    float time_added, depth_added;
+};
+
+/// r in the canonical form of a list. An empty range if r is empty, leaves [0, 1], has a NaN, or has a depth beyond
+/// 2^60.
+depth_time_range gnomon_range_canonical(depth_time_range r)
+{
+    r.id = gnomon_max(r.id, range_mixed);
+    bool known = gnomon_abs(r.z0) + gnomon_abs(r.z1) < range_far;
+    return gnomon_range_keep_if(0.0 <= r.t0 && r.t0 < r.t1 && r.t1 <= 1.0 && known, r);
+}
+
+/// r moved towards the light, or away from it where side is 1 instead of -1. The distance exceeds the accumulated
+/// rounding of up to 18 cuts: 2^-16, since depths at the cuts are rounded, plus the change of depth within a time of
+/// 2^-21, since times are rounded. For two ranges together that rounding is 268 2^-p of depth and 4 2^-p of time.
+depth_time_range gnomon_range_offset(depth_time_range r, float side)
+{
+    float change = gnomon_abs(r.z1 - r.z0);
+    float brief = gnomon_min(change * 0.000000476837158203125 / (r.t1 - r.t0), change);
+    float by = side * (0.0000152587890625 + brief);
+    r.z0 = r.z0 + by;
+    r.z1 = r.z1 + by;
+    return r;
+}
+
+/// Add the cost of a merge to the list's counts.
+range_list gnomon_range_list_count_merge(range_list list, range_pair p)
+{
+    list.time_added = saturate_or_zero(list.time_added + p.gap);
+    list.depth_added = gnomon_max(list.depth_added + p.shift, 0.0);
+    return list;
+}
+
+/// Insert r at its place in the order, into a list that has an empty range (see range_list_insert).
+range_list gnomon_range_list_place(range_list list, depth_time_range r)
+{
+    for (int i = 0; i + 1 < GNOMON_RANGE_CAPACITY; ++i) { // the first empty one goes to the end
+        depth_time_range s = list.ranges[i];
+        depth_time_range next = list.ranges[i + 1];
+        bool empty = s.t1 <= s.t0 && r.t0 < r.t1;
+        list.ranges[i] = gnomon_range_select(empty, next, s);
+        list.ranges[i + 1] = gnomon_range_select(empty, s, next);
+    }
+    for (int k = 0; k + 1 < GNOMON_RANGE_CAPACITY; ++k) {
+        depth_time_range s = list.ranges[k];
+        bool here = s.t0 < s.t1 && gnomon_range_less(r, s);
+        list.ranges[k] = gnomon_range_select(here, r, s);
+        r = gnomon_range_select(here, s, r);
+    }
+    depth_time_range last = list.ranges[GNOMON_RANGE_CAPACITY - 1];
+    list.ranges[GNOMON_RANGE_CAPACITY - 1] = gnomon_range_select(r.t0 < r.t1, r, last);
+    return list;
+}
+
+/// Insert r, clipped to times in [0, 1]. Without an overflow the ranges of the list do not depend on the order of
+/// insertion, bit for bit, except for the sign of a zero. With an overflow they do, but at no time is the front farther
+/// than that of all inserted ranges. That holds strictly, for exact depth lines, however steep and brief the ranges
+/// are.
+/// Domain: times in [0, 1], depths in [-1, 1], a capacity of at most 16.
+/// NaN: a range with a NaN, or with a depth beyond 2^60, is not inserted.
+/// Source: Gribel 2010; Hong & Oh 2017
+range_list range_list_insert(range_list list, depth_time_range r)
+{
+    r = gnomon_range_canonical(range_clip(r, 0.0, 1.0));
+    list = gnomon_range_list_count_merge(list, gnomon_range_pair_empty(r)); // counts that are NaN become 0
+    float room = 0.0;
+    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) {
+        depth_time_range s = gnomon_range_canonical(list.ranges[i]);
+        r = gnomon_range_keep_if(!gnomon_range_occludes(s, r), r);
+        s = gnomon_range_keep_if(!gnomon_range_occludes(r, s), s);
+        list.ranges[i] = s;
+        room = gnomon_select(s.t0 < s.t1, room, 1.0);
+    }
+    bool full = r.t0 < r.t1 && room < 1.0;
+    if (gnomon_any(full)) {
+        // Drop ranges that the others jointly occlude, even if the range were a margin nearer and the others a margin
+        // farther.
+        range_list occluders = list;
+        for (int h = 0; h < GNOMON_RANGE_CAPACITY; ++h) occluders.ranges[h] = gnomon_range_offset(list.ranges[h], 1.0);
+        depth_time_range farther = gnomon_range_offset(r, 1.0);
+        for (int j = 0; j < GNOMON_RANGE_CAPACITY; ++j) {
+            depth_time_range s = gnomon_range_trim(gnomon_range_offset(list.ranges[j], -1.0), farther);
+            for (int k = 0; k < GNOMON_RANGE_CAPACITY; ++k) s = gnomon_range_trim(s, occluders.ranges[k]);
+            bool seen = !full || s.t0 < s.t1;
+            list.ranges[j] = gnomon_range_keep_if(seen, list.ranges[j]);
+            occluders.ranges[j] = gnomon_range_keep_if(seen, occluders.ranges[j]);
+        }
+        depth_time_range left = gnomon_range_offset(r, -1.0);
+        for (int m = 0; m < GNOMON_RANGE_CAPACITY; ++m) left = gnomon_range_trim(left, occluders.ranges[m]);
+        r = gnomon_range_keep_if(!full || left.t0 < left.t1, r);
+
+        // Find the most similar pair; r has place -1. If there is room now, one range of the pair is empty.
+        range_pair best = gnomon_range_pair_empty(r);
+        float first = -1.0;
+        float second = -1.0;
+        float place = 0.0;
+        for (int a = 0; a < GNOMON_RANGE_CAPACITY; ++a) {
+            depth_time_range other = r;
+            float other_place = -1.0;
+            for (int b = 0; b <= a; ++b) {
+                range_pair pair = gnomon_range_pair_make(list.ranges[a], other);
+                first = gnomon_select(pair.cost < best.cost, place, first);
+                second = gnomon_select(pair.cost < best.cost, other_place, second);
+                best = gnomon_range_pair_cheaper(best, pair);
+                other = list.ranges[b];
+                other_place = other_place + 1.0;
+            }
+            place = place + 1.0;
+        }
+        place = 0.0;
+        for (int n = 0; n < GNOMON_RANGE_CAPACITY; ++n) {
+            bool merged = full && (place == first || place == second);
+            list.ranges[n] = gnomon_range_keep_if(!merged, list.ranges[n]);
+            place = place + 1.0;
+        }
+        r = gnomon_range_keep_if(!(full && second < 0.0), r);
+        best.merged = gnomon_range_keep_if(full, best.merged);
+        best.gap = gnomon_select(full, best.gap, 0.0);
+        best.shift = gnomon_select(full, best.shift, 0.0);
+        list = gnomon_range_list_place(gnomon_range_list_count_merge(list, best), best.merged);
+    }
+    return gnomon_range_list_place(list, r);
+}
+
+/// The list of one range; an empty list if the range is empty.
+range_list range_list_make(depth_time_range r)
+{
+    range_list list;
+    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) list.ranges[i] = gnomon_range_keep_if(r.t0 < r.t0, r);
+    list.time_added = 0.0;
+    list.depth_added = 0.0;
+    return range_list_insert(list, r);
+}
+
+/// Span of the lower envelope from time t on: the range in front just after t, until it ends or another range passes in
+/// front. If no range lasts just after t, the span has the id range_nothing, the depth of the far plane, and lasts
+/// until the next begin. The span ends after t unless t is 1. From 0 to 1 there are at most (N + 1) (N + 2) / 2 spans,
+/// N the capacity, since each ends at a begin, an end or a crossing. A t outside of [0, 1] is clamped.
+/// NaN: t is then 0.
+depth_time_range range_list_front(range_list list, float t)
+{
+    float begin = saturate_or_zero(t);
+    depth_time_range front = gnomon_range_keep_if(begin < begin, list.ranges[0]);
+    float unchanged = 1.0; // until when all comparisons of this loop come out the same
+    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) {
+        depth_time_range r = gnomon_range_canonical(list.ranges[i]);
+        depth_time_range ahead = gnomon_range_visible_part(r, front);
+        bool during = r.t0 <= begin && begin < r.t1;
+        bool alone = front.t1 <= front.t0;
+        bool nearer = ahead.t0 <= begin && begin < ahead.t1;
+        float change = gnomon_select(begin < ahead.t0, ahead.t0, gnomon_select(nearer, ahead.t1, 1.0));
+        change = gnomon_min(change, gnomon_min(front.t1, r.t1));
+        unchanged = gnomon_select(during && !alone, gnomon_min(unchanged, change), unchanged);
+        front = gnomon_range_select(nearer || (during && alone), r, front);
+    }
+    bool some = front.t0 < front.t1;
+    float end = gnomon_select(some, front.t1, 1.0);
+    for (int k = 0; k < GNOMON_RANGE_CAPACITY; ++k) {
+        depth_time_range r = gnomon_range_canonical(list.ranges[k]);
+        depth_time_range ahead = gnomon_range_visible_part(r, front);
+        float next = gnomon_select(some, ahead.t0, r.t0);
+        end = gnomon_select(begin < next, gnomon_min(end, next), end);
+        // Rounding may put each of three ranges that meet in front of the next. The tie lasts as long as all
+        // comparisons do.
+        bool circle = ahead.t0 <= begin && begin < ahead.t1;
+        end = gnomon_select(circle, gnomon_min(end, unchanged), end);
+    }
+    depth_time_range span = range_clip(front, begin, end);
+    span.t0 = begin;
+    span.t1 = end;
+    return span;
+}
+
+/// Append r, which begins after all ranges of the list, disjoint and in order of time. If there is no room, merge two
+/// neighbours.
+range_list gnomon_range_list_append(range_list list, depth_time_range r)
+{
+    // The last range and r are neighbours, too. Places count from the end; of all pairs one with an empty range is
+    // merged first.
+    range_pair best = gnomon_range_pair_empty(r);
+    float at = 0.0;
+    float place = 0.0;
+    depth_time_range next = r;
+    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) {
+        depth_time_range s = list.ranges[GNOMON_RANGE_CAPACITY - 1 - i];
+        range_pair pair = gnomon_range_pair_make(s, next);
+        at = gnomon_select(pair.cost < best.cost, place, at);
+        best = gnomon_range_pair_cheaper(best, pair);
+        next = s;
+        place = place + 1.0;
+    }
+    place = 0.0;
+    next = r;
+    for (int k = 0; k < GNOMON_RANGE_CAPACITY; ++k) {
+        depth_time_range s = list.ranges[GNOMON_RANGE_CAPACITY - 1 - k];
+        depth_time_range here = gnomon_range_select(place == at, best.merged, s);
+        list.ranges[GNOMON_RANGE_CAPACITY - 1 - k] = gnomon_range_select(place < at, next, here);
+        next = s;
+        place = place + 1.0;
+    }
+    return gnomon_range_list_count_merge(list, best);
+}
+
+/// The lower envelope of the list: disjoint ranges in order of time, which static_receiver.h adds up. Ranges that do
+/// not fit are merged with a neighbour, and counted. Empty ranges come first.
+/// Source: Palmer 2011, Sec. 2.4
+range_list range_list_resolve(range_list list)
+{
+    float t = 0.0;
+    range_list resolved = list;
+    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) resolved.ranges[i] = gnomon_range_keep_if(t < t, list.ranges[i]);
+    for (int k = 0; k < (GNOMON_RANGE_CAPACITY + 1) * (GNOMON_RANGE_CAPACITY + 2) / 2; ++k) {
+        if (gnomon_any(t < 1.0)) {
+            depth_time_range span = range_list_front(list, t);
+            bool some = range_nothing < span.id;
+            resolved = gnomon_range_list_append(resolved, gnomon_range_keep_if(some, span));
+            t = span.t1;
+        }
+    }
+    return resolved;
+}
+
+/// Shadow intensity, 0 or 1, at time t and depth z on the surface with the given id (see range_intensity).
+/// NaN: 0, lit.
+float range_list_intensity(range_list list, float t, float z, float id, float bias)
+{
+    float intensity = 0.0;
+    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) intensity = gnomon_max(intensity,
+                                                                           range_intensity(list.ranges[i], t, z, id,
+                                                                                           bias));
+    return intensity;
+}
+
+#endif
+
+// comparators/interval_list.h -----------------------------------------------------------------------------------------
+// Lists of a few intervals as Gribel et al. 2010 compress them: a full list merges the two intervals of the least cost,
+// a weighted sum of the gap in time between them, their differences in depth and in slope, and their durations. The
+// merged interval is the line from the begin of the earlier one to the end of the later one. It may be behind either of
+// them, so that what was shadowed becomes lit; range_list.h merges into a line in front of both, and has no weights.
+//
+// Costs and merges can be chosen apart, to tell what each of them does: the weight `area` is that of the cost of
+// gnomon_range_merge.h, and `conservative` above 0 takes the line in front of both.
+//
+//     list = range_list_make(range);   list = interval_list_insert(list, range, weights, 0) for every other range
+//     resolved = interval_list_resolve(list, weights, 0)
+#ifndef GNOMON_COMPARATORS_INTERVAL_LIST_H
+#define GNOMON_COMPARATORS_INTERVAL_LIST_H
+
+/// Weights of the area that becomes shadowed (gnomon_range_pair_make), of the gap in time, of the differences in depth
+/// and in slope, and of the durations.
+struct gnomon_interval_weights { float area, gap, depth, slope, duration; };
+
+/// The interval from the begin of the earlier of a and b to the end of the later one, on the line between the depths
+/// there. Of two begins or ends at one time the nearer counts. The id is that of both, or range_mixed if they differ.
+/// If one is empty, the result is the other one, unchanged.
+/// Source: Gribel 2010
+depth_time_range interval_merge(depth_time_range a, depth_time_range b)
+{
+    depth_time_range both;
+    both.t0 = gnomon_min(a.t0, b.t0);
+    both.t1 = gnomon_max(a.t1, b.t1);
+    float nearer0 = gnomon_min(a.z0, b.z0);
+    float nearer1 = gnomon_min(a.z1, b.z1);
+    both.z0 = gnomon_select(a.t0 < b.t0, a.z0, gnomon_select(b.t0 < a.t0, b.z0, nearer0));
+    both.z1 = gnomon_select(b.t1 < a.t1, a.z1, gnomon_select(a.t1 < b.t1, b.z1, nearer1));
+    both.id = gnomon_select(a.id == b.id, a.id, range_mixed);
+    bool some_a = a.t0 < a.t1;
+    bool some_b = b.t0 < b.t1;
+    return gnomon_range_select(some_a && some_b, both, gnomon_range_select(some_a, a, b));
+}
+
+/// Cost of merging a and b, at most 2^60; -1 if one is empty. The difference in depth is that between the end of the
+/// earlier one and the begin of the later one.
+/// NaN: 2^60.
+/// Source: Gribel 2010
+float interval_cost(depth_time_range a, depth_time_range b, gnomon_interval_weights weights)
+{
+    range_pair p = gnomon_range_pair_make(a, b);
+    depth_time_range first = gnomon_range_select(b.t0 < a.t0, b, a);
+    depth_time_range second = gnomon_range_select(b.t0 < a.t0, a, b);
+    float gap = gnomon_max(second.t0 - first.t1, 0.0);
+    float slopes = (first.z1 - first.z0) / (first.t1 - first.t0) - (second.z1 - second.z0) / (second.t1 - second.t0);
+    float steeper = gnomon_min(gnomon_abs(slopes), range_far);
+    float lasting = range_duration(a) + range_duration(b);
+    float cost = (weights.area * p.cost + weights.gap * gap) +
+                 (weights.depth * gnomon_abs(second.z0 - first.z1) + weights.slope * steeper) + weights.duration *
+                 lasting;
+    bool some = a.t0 < a.t1 && b.t0 < b.t1;
+    return gnomon_select(some, gnomon_max(gnomon_min(cost, range_far), 0.0), -1.0);
+}
+
+/// The merge of a and b, with its costs.
+range_pair gnomon_interval_pair_make(depth_time_range a, depth_time_range b, gnomon_interval_weights weights,
+                                     float conservative)
+{
+    range_pair p = gnomon_range_pair_make(a, b);
+    p.merged = gnomon_range_select(0.0 < conservative, p.merged, interval_merge(a, b));
+    p.cost = interval_cost(a, b, weights);
+    return p;
+}
+
+/// Insert r, clipped to times in [0, 1]. On overflow the pair of the least cost is merged, and the list counts its cost
+/// as range_list_insert does, as if the merge were conservative.
+/// Domain: times in [0, 1], depths in [-1, 1], a capacity of at most 16, weights of 0 or more.
+/// NaN: a range with a NaN, or with a depth beyond 2^60, is not inserted.
+/// Source: Gribel 2010
+range_list interval_list_insert(range_list list, depth_time_range r, gnomon_interval_weights weights,
+                                float conservative)
+{
+    r = gnomon_range_canonical(range_clip(r, 0.0, 1.0));
+    list = gnomon_range_list_count_merge(list, gnomon_range_pair_empty(r)); // counts that are NaN become 0
+    float room = 0.0;
+    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) {
+        depth_time_range s = gnomon_range_canonical(list.ranges[i]);
+        r = gnomon_range_keep_if(!gnomon_range_occludes(s, r), r);
+        s = gnomon_range_keep_if(!gnomon_range_occludes(r, s), s);
+        list.ranges[i] = s;
+        room = gnomon_select(s.t0 < s.t1, room, 1.0);
+    }
+    bool full = r.t0 < r.t1 && room < 1.0;
+    if (gnomon_any(full)) {
+        range_pair best = gnomon_range_pair_empty(r);
+        float first = -1.0;
+        float second = -1.0;
+        float place = 0.0;
+        for (int a = 0; a < GNOMON_RANGE_CAPACITY; ++a) {
+            depth_time_range other = r; // which has place -1
+            float other_place = -1.0;
+            for (int b = 0; b <= a; ++b) {
+                range_pair pair = gnomon_interval_pair_make(list.ranges[a], other, weights, conservative);
+                first = gnomon_select(pair.cost < best.cost, place, first);
+                second = gnomon_select(pair.cost < best.cost, other_place, second);
+                best = gnomon_range_pair_cheaper(best, pair);
+                other = list.ranges[b];
+                other_place = other_place + 1.0;
+            }
+            place = place + 1.0;
+        }
+        place = 0.0;
+        for (int n = 0; n < GNOMON_RANGE_CAPACITY; ++n) {
+            bool merged = full && (place == first || place == second);
+            list.ranges[n] = gnomon_range_keep_if(!merged, list.ranges[n]);
+            place = place + 1.0;
+        }
+        r = gnomon_range_keep_if(!(full && second < 0.0), r);
+        best.merged = gnomon_range_keep_if(full, best.merged);
+        best.gap = gnomon_select(full, best.gap, 0.0);
+        best.shift = gnomon_select(full, best.shift, 0.0);
+        list = gnomon_range_list_place(gnomon_range_list_count_merge(list, best), best.merged);
+    }
+    return gnomon_range_list_place(list, r);
+}
+
+/// Append r, which begins after all ranges of the list. If there is no room, merge two neighbours.
+range_list gnomon_interval_list_append(range_list list, depth_time_range r, gnomon_interval_weights weights,
+                                       float conservative)
+{
+    // Places count from the end; of all pairs one with an empty range is merged first.
+    range_pair best = gnomon_range_pair_empty(r);
+    float at = 0.0;
+    float place = 0.0;
+    depth_time_range next = r;
+    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) {
+        depth_time_range s = list.ranges[GNOMON_RANGE_CAPACITY - 1 - i];
+        range_pair pair = gnomon_interval_pair_make(s, next, weights, conservative);
+        at = gnomon_select(pair.cost < best.cost, place, at);
+        best = gnomon_range_pair_cheaper(best, pair);
+        next = s;
+        place = place + 1.0;
+    }
+    place = 0.0;
+    next = r;
+    for (int k = 0; k < GNOMON_RANGE_CAPACITY; ++k) {
+        depth_time_range s = list.ranges[GNOMON_RANGE_CAPACITY - 1 - k];
+        depth_time_range here = gnomon_range_select(place == at, best.merged, s);
+        list.ranges[GNOMON_RANGE_CAPACITY - 1 - k] = gnomon_range_select(place < at, next, here);
+        next = s;
+        place = place + 1.0;
+    }
+    return gnomon_range_list_count_merge(list, best);
+}
+
+/// The lower envelope of the list: disjoint ranges in order of time. Ranges that do not fit are merged with a
+/// neighbour. Empty ranges come first.
+/// Source: Gribel 2010; Palmer 2011, Sec. 2.4
+range_list interval_list_resolve(range_list list, gnomon_interval_weights weights, float conservative)
+{
+    float t = 0.0;
+    range_list resolved = list;
+    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) resolved.ranges[i] = gnomon_range_keep_if(t < t, list.ranges[i]);
+    for (int k = 0; k < (GNOMON_RANGE_CAPACITY + 1) * (GNOMON_RANGE_CAPACITY + 2) / 2; ++k) {
+        if (gnomon_any(t < 1.0)) {
+            depth_time_range span = range_list_front(list, t);
+            bool some = range_nothing < span.id;
+            resolved = gnomon_interval_list_append(resolved, gnomon_range_keep_if(some, span), weights, conservative);
+            t = span.t1;
+        }
+    }
+    return resolved;
+}
+
+#endif
+
+// comparators/percentage_closer_soft.h --------------------------------------------------------------------------------
+// Percentage-closer soft shadows (Fernando 2005; Peters et al. 2017, Sec. 4.1): the mean depth of what is in front of
+// the receiver, from every texel of a search region. This is what the blocker search by moments (soft/blocker.h)
+// estimates.
+//
+//     search = percentage_closer_search_begin(z_f);
+//     search = percentage_closer_search_add(search, z, weight);     for every texel of the search region, weights
+// summing to 1
+//     blocker = percentage_closer_search_end(search);
+//     width = the width of the penumbra (soft/penumbra.h) for z_f and blocker.depth
+//     intensity = percentage_closer_begin, _add, _end (filters/percentage_closer.h) over a filter region of this width
+//
+// An intensity of 0 or 1 of the whole search region spares the filter region.
+#ifndef GNOMON_COMPARATORS_PERCENTAGE_CLOSER_SOFT_H
+#define GNOMON_COMPARATORS_PERCENTAGE_CLOSER_SOFT_H
+
+static const float percentage_closer_search_epsilon = 1e-3;
+
+/// The receiver's depth, the weight in front of the receiver so far, and the sum of its weighted distances to the
+/// receiver.
+struct percentage_closer_search { float receiver, shadowed, distance; };
+
+/// The mean depth of the blockers, in [-1, 1] and at most z_f, and their weight in the search region, in [0, 1].
+struct percentage_closer_blocker { float depth, intensity; };
+
+/// The state before the first texel of the search region. z_f has no bias.
+/// Domain: any z_f, limited to [-1, 1].
+/// NaN: no blocker.
+percentage_closer_search percentage_closer_search_begin(float z_f)
+{
+    percentage_closer_search r;
+    r.receiver = clamp_or_nan(z_f, -1.0, 1.0);
+    r.shadowed = 0.0;
+    r.distance = 0.0;
+    return r;
+}
+
+/// The state after one more texel of depth z with its weight.
+/// Domain: any z; below the near plane as on it.
+/// NaN: a texel of depth NaN is no blocker; a weight of NaN before the receiver leaves no blocker at all.
+percentage_closer_search percentage_closer_search_add(percentage_closer_search state, float z, float weight)
+{
+    bool in_front = z < state.receiver;
+    float distance = state.receiver - gnomon_max(z, -1.0);
+    state.shadowed = state.shadowed + gnomon_select(in_front, weight, 0.0);
+    state.distance = state.distance + gnomon_select(in_front, weight * distance, 0.0);
+    return state;
+}
+
+/// Mean depth and weight of the blockers. The mean is moved towards the receiver by a weight of 1e-3, so that few
+/// blockers count for less and none leaves the receiver's own depth.
+/// NaN: for z_f the far plane; for a weight before the receiver the receiver's depth, and an intensity of 0.
+/// Error: that of the sums of weights and of weighted distances.
+/// Source: Peters 2017, Eq. 4; Fernando 2005
+percentage_closer_blocker percentage_closer_search_end(percentage_closer_search state)
+{
+    float weight = state.shadowed + percentage_closer_search_epsilon;
+    float receiver = clamp_or_high(state.receiver, -1.0, 1.0);
+    percentage_closer_blocker r;
+    float depth = gnomon_max(-1.0, gnomon_min(receiver - state.distance / weight, receiver));
+    // Clang 14 makes one clamp, which lets a NaN pass, of this one and of that at the beginning.
+    r.depth = gnomon_select(state.receiver == state.receiver, depth, 1.0);
+    r.intensity = saturate_or_zero(state.shadowed);
+    return r;
 }
 
 #endif
@@ -6254,403 +6820,6 @@ gnomon_cover_answer range_cover_answer(depth_time_range cover, float t, float z,
     bool lit = z + gnomon_cover_margin <= behind;
     r.decided = gnomon_select(0.0 <= cover.id && (lit || 0.0 < r.intensity), 1.0, 0.0);
     return r;
-}
-
-#endif
-
-// motion/range/range_merge.h ------------------------------------------------------------------------------------------
-// A range that replaces two, for full lists of few ranges (the compression of Gribel et al. 2010). It lasts from the
-// begin of the earlier range to the end of the later one, and its depth line is in front of both, so that all that was
-// shadowed stays shadowed. To find the two most similar ranges, Gribel et al. weight the gap between them and their
-// differences in depth, slope and duration. Here a single measure without weights covers all of these: the area of the
-// plane of time and depth that becomes shadowed although no range was in front of it. Up to a factor, this is the
-// expected error for a receiver of unknown depth. The time for which a surface becomes shadowed by its own range is
-// added, since a range of two surfaces has the id of neither.
-#ifndef GNOMON_MOTION_RANGE_RANGE_MERGE_H
-#define GNOMON_MOTION_RANGE_RANGE_MERGE_H
-
-/// The range that replaces two; gap, the time between the two that it fills; shift, the largest distance by which it is
-/// in front of both; and the total cost.
-struct range_pair
-{
-    depth_time_range merged;
-    float gap, shift, cost;
-};
-
-static const float gnomon_range_merge_margin = 0.000003814697265625; // 2^-18, exact
-
-/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
-/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
-/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
-/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
-/// the result is the other one, unchanged.
-depth_time_range gnomon_range_merge(depth_time_range a, depth_time_range b)
-{
-    depth_time_range hull;
-    hull.t0 = gnomon_min(a.t0, b.t0);
-    hull.t1 = gnomon_max(a.t1, b.t1);
-    float nearer0 = gnomon_min(a.z0, b.z0);
-    float nearer1 = gnomon_min(a.z1, b.z1);
-    hull.z0 = gnomon_select(a.t0 < b.t0, a.z0, gnomon_select(b.t0 < a.t0, b.z0, nearer0));
-    hull.z1 = gnomon_select(b.t1 < a.t1, a.z1, gnomon_select(a.t1 < b.t1, b.z1, nearer1));
-    hull.id = gnomon_select(a.id == b.id, a.id, range_mixed);
-
-    float back = gnomon_max(gnomon_max(range_depth(hull, a.t0) - a.z0, range_depth(hull, a.t1) - a.z1),
-                            gnomon_max(range_depth(hull, b.t0) - b.z0, range_depth(hull, b.t1) - b.z1));
-    back = gnomon_max(back, 0.0);
-    float size = gnomon_max(gnomon_max(gnomon_abs(a.z0), gnomon_abs(a.z1)),
-                            gnomon_max(gnomon_abs(b.z0), gnomon_abs(b.z1)));
-    float margin = size * gnomon_range_merge_margin;
-    float level = gnomon_min(nearer0, nearer1);
-    float sloped0 = hull.z0 - back;
-    float sloped1 = hull.z1 - back;
-    bool slopes = level + level < sloped0 + sloped1 && gnomon_abs(sloped0) + gnomon_abs(sloped1) < range_far;
-    hull.z0 = gnomon_select(slopes, sloped0, level) - margin;
-    hull.z1 = gnomon_select(slopes, sloped1, level) - margin;
-
-    bool some_a = a.t0 < a.t1;
-    bool some_b = b.t0 < b.t1;
-    return gnomon_range_select(some_a && some_b, hull, gnomon_range_select(some_a, a, b));
-}
-
-/// Area between the range and the far plane, in time and depth.
-float gnomon_range_area(depth_time_range r) { return range_duration(r) * (1.0 - 0.5 * (r.z0 + r.z1)); }
-
-/// Largest distance of an end of r behind the range `nearer`, 0 if none is behind or r is empty.
-float gnomon_range_distance(depth_time_range r, depth_time_range nearer)
-{
-    float distance0 = r.z0 - range_depth(nearer, r.t0);
-    float distance1 = r.z1 - range_depth(nearer, r.t1);
-    return gnomon_select(r.t0 < r.t1, gnomon_max(gnomon_max(distance0, distance1), 0.0), 0.0);
-}
-
-/// The merge of a and b, with its costs. The cost is the area behind the merged range that was behind neither a nor b,
-/// plus the time for which a surface loses its id. If one range is empty, there is nothing to merge: the cost is -1,
-/// gap and shift are 0.
-/// Error: gap and shift are exact except for rounding.
-range_pair gnomon_range_pair_make(depth_time_range a, depth_time_range b)
-{
-    range_pair p;
-    p.merged = gnomon_range_merge(a, b);
-    bool some = a.t0 < a.t1 && b.t0 < b.t1;
-    float gap = gnomon_max(a.t0, b.t0) - gnomon_min(a.t1, b.t1);
-    p.gap = gnomon_select(some, gnomon_max(gap, 0.0), 0.0);
-    // Ignore the parts that the other range occludes: they were in shadow already.
-    float shift = gnomon_max(gnomon_range_distance(gnomon_range_trim(a, b), p.merged),
-                             gnomon_range_distance(gnomon_range_trim(b, a), p.merged));
-    p.shift = gnomon_select(some, shift, 0.0);
-
-    // The area behind both is that behind the farther range, at (a + b + |a - b|) / 2. The mean of |x| from x0 to x1
-    // is:
-    depth_time_range near_a = gnomon_range_clip_to(a, b);
-    depth_time_range near_b = gnomon_range_clip_to(b, a);
-    float x0 = near_a.z0 - near_b.z0;
-    float x1 = near_a.z1 - near_b.z1;
-    float sum = gnomon_abs(x0) + gnomon_abs(x1);
-    float apart = 0.5 * ((x0 * x0 + x1 * x1) + (gnomon_abs(x0 * x1) + x0 * x1)) / sum;
-    apart = gnomon_select(0.0 < sum, apart, 0.0);
-    float middle = 0.25 * ((near_a.z0 + near_a.z1) + (near_b.z0 + near_b.z1));
-    float both = range_duration(near_a) * (1.0 - (middle + 0.5 * apart));
-    float area = gnomon_range_area(p.merged) - ((gnomon_range_area(a) + gnomon_range_area(b)) - both);
-    float own_a = gnomon_select(a.id == p.merged.id, 0.0, range_duration(a));
-    float own_b = gnomon_select(b.id == p.merged.id, 0.0, range_duration(b));
-    p.cost = gnomon_select(some, gnomon_max(area, 0.0) + (own_a + own_b), -1.0);
-    return p;
-}
-
-/// r alone, at a cost above that of any pair: the start of a search for the cheapest pair.
-range_pair gnomon_range_pair_empty(depth_time_range r)
-{
-    range_pair p;
-    p.merged = r;
-    p.gap = 0.0;
-    p.shift = 0.0;
-    p.cost = range_far * range_far;
-    return p;
-}
-
-/// The pair with the lower cost; a if the costs are equal.
-range_pair gnomon_range_pair_cheaper(range_pair a, range_pair b)
-{
-    bool cheaper = b.cost < a.cost;
-    range_pair p;
-    p.merged = gnomon_range_select(cheaper, b.merged, a.merged);
-    p.gap = gnomon_select(cheaper, b.gap, a.gap);
-    p.shift = gnomon_select(cheaper, b.shift, a.shift);
-    p.cost = gnomon_select(cheaper, b.cost, a.cost);
-    return p;
-}
-
-#endif
-
-// motion/range/range_list.h -------------------------------------------------------------------------------------------
-// Lists of a few depth-time ranges, one list for a texel: the surfaces that pass the texel while the shutter is open
-// (Gribel et al. 2010; Hong & Oh 2017), and the lower envelope of the list, which is visible from the light at each
-// time (the resolve of Palmer 2011, 2.4).
-//
-//     list = range_list_make(range);                  list = range_list_insert(list, range) for every other range
-//     intensity = range_list_intensity(list, t, z, id, bias);    shadow test at one time
-//     resolved = range_list_resolve(list);                       lower envelope, for receivers in closed form
-//     for (t = 0; t < 1; t = span.t1) span = range_list_front(list, t);    the same, span by span
-//
-// A list stores inserted ranges unchanged and drops those that another range provably occludes (gnomon_range_occludes).
-// Until the list overflows, neither its contents nor its resolved form depend on the order of insertion or on rounding.
-// On overflow it first drops ranges that several others jointly occlude. If there is still no room, it merges the two
-// most similar ranges into one in front of both (gnomon_range_merge.h): shadows stay, and the shadow that merging adds
-// is counted.
-//
-// Occluded ranges are dropped regardless of their ids. So a receiver gets the answer of all ranges, unless a range of
-// its own id lies in front of it by more than its bias: that range does not shadow the receiver, and ranges that it
-// occluded are no longer in the list. Hence one id should be a surface none of whose points is ever behind another: a
-// triangle, a plane, the lit side of a convex part. With one id for a whole object, its far sides lose the shadows that
-// other objects cast on them.
-//
-// The capacity is GNOMON_RANGE_CAPACITY, if defined before inclusion, else 8. In C++ the capacity is a template
-// parameter with this default.
-#ifndef GNOMON_MOTION_RANGE_RANGE_LIST_H
-#define GNOMON_MOTION_RANGE_RANGE_LIST_H
-
-#ifndef GNOMON_RANGE_CAPACITY
-#define GNOMON_RANGE_CAPACITY 8
-#endif
-
-/// Ranges in the order of gnomon_range_less, with empty ranges between them, and upper bounds of the cost of merging:
-/// except for a total time of time_added, wherever the list has a range, some inserted range was there, too, at most
-/// depth_added behind it.
-struct range_list
-{
-    depth_time_range ranges[GNOMON_RANGE_CAPACITY];
-    float time_added, depth_added;
-};
-
-/// r in the canonical form of a list. An empty range if r is empty, leaves [0, 1], has a NaN, or has a depth beyond
-/// 2^60.
-depth_time_range gnomon_range_canonical(depth_time_range r)
-{
-    r.id = gnomon_max(r.id, range_mixed);
-    bool known = gnomon_abs(r.z0) + gnomon_abs(r.z1) < range_far;
-    return gnomon_range_keep_if(0.0 <= r.t0 && r.t0 < r.t1 && r.t1 <= 1.0 && known, r);
-}
-
-/// r moved towards the light, or away from it where side is 1 instead of -1. The distance exceeds the accumulated
-/// rounding of up to 18 cuts: 2^-16, since depths at the cuts are rounded, plus the change of depth within a time of
-/// 2^-21, since times are rounded. For two ranges together that rounding is 268 2^-p of depth and 4 2^-p of time.
-depth_time_range gnomon_range_offset(depth_time_range r, float side)
-{
-    float change = gnomon_abs(r.z1 - r.z0);
-    float brief = gnomon_min(change * 0.000000476837158203125 / (r.t1 - r.t0), change);
-    float by = side * (0.0000152587890625 + brief);
-    r.z0 = r.z0 + by;
-    r.z1 = r.z1 + by;
-    return r;
-}
-
-/// Add the cost of a merge to the list's counts.
-range_list gnomon_range_list_count_merge(range_list list, range_pair p)
-{
-    list.time_added = saturate_or_zero(list.time_added + p.gap);
-    list.depth_added = gnomon_max(list.depth_added + p.shift, 0.0);
-    return list;
-}
-
-/// Insert r at its place in the order, into a list that has an empty range (see range_list_insert).
-range_list gnomon_range_list_place(range_list list, depth_time_range r)
-{
-    for (int i = 0; i + 1 < GNOMON_RANGE_CAPACITY; ++i) { // the first empty one goes to the end
-        depth_time_range s = list.ranges[i];
-        depth_time_range next = list.ranges[i + 1];
-        bool empty = s.t1 <= s.t0 && r.t0 < r.t1;
-        list.ranges[i] = gnomon_range_select(empty, next, s);
-        list.ranges[i + 1] = gnomon_range_select(empty, s, next);
-    }
-    for (int k = 0; k + 1 < GNOMON_RANGE_CAPACITY; ++k) {
-        depth_time_range s = list.ranges[k];
-        bool here = s.t0 < s.t1 && gnomon_range_less(r, s);
-        list.ranges[k] = gnomon_range_select(here, r, s);
-        r = gnomon_range_select(here, s, r);
-    }
-    depth_time_range last = list.ranges[GNOMON_RANGE_CAPACITY - 1];
-    list.ranges[GNOMON_RANGE_CAPACITY - 1] = gnomon_range_select(r.t0 < r.t1, r, last);
-    return list;
-}
-
-/// Insert r, clipped to times in [0, 1]. Without an overflow the ranges of the list do not depend on the order of
-/// insertion, bit for bit, except for the sign of a zero. With an overflow they do, but at no time is the front farther
-/// than that of all inserted ranges. That holds strictly, for exact depth lines, however steep and brief the ranges
-/// are.
-/// Domain: times in [0, 1], depths in [-1, 1], a capacity of at most 16.
-/// NaN: a range with a NaN, or with a depth beyond 2^60, is not inserted.
-/// Source: Gribel 2010; Hong & Oh 2017
-range_list range_list_insert(range_list list, depth_time_range r)
-{
-    r = gnomon_range_canonical(range_clip(r, 0.0, 1.0));
-    list = gnomon_range_list_count_merge(list, gnomon_range_pair_empty(r)); // counts that are NaN become 0
-    float room = 0.0;
-    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) {
-        depth_time_range s = gnomon_range_canonical(list.ranges[i]);
-        r = gnomon_range_keep_if(!gnomon_range_occludes(s, r), r);
-        s = gnomon_range_keep_if(!gnomon_range_occludes(r, s), s);
-        list.ranges[i] = s;
-        room = gnomon_select(s.t0 < s.t1, room, 1.0);
-    }
-    bool full = r.t0 < r.t1 && room < 1.0;
-    if (gnomon_any(full)) {
-        // Drop ranges that the others jointly occlude, even if the range were a margin nearer and the others a margin
-        // farther.
-        range_list occluders = list;
-        for (int h = 0; h < GNOMON_RANGE_CAPACITY; ++h) occluders.ranges[h] = gnomon_range_offset(list.ranges[h], 1.0);
-        depth_time_range farther = gnomon_range_offset(r, 1.0);
-        for (int j = 0; j < GNOMON_RANGE_CAPACITY; ++j) {
-            depth_time_range s = gnomon_range_trim(gnomon_range_offset(list.ranges[j], -1.0), farther);
-            for (int k = 0; k < GNOMON_RANGE_CAPACITY; ++k) s = gnomon_range_trim(s, occluders.ranges[k]);
-            bool seen = !full || s.t0 < s.t1;
-            list.ranges[j] = gnomon_range_keep_if(seen, list.ranges[j]);
-            occluders.ranges[j] = gnomon_range_keep_if(seen, occluders.ranges[j]);
-        }
-        depth_time_range left = gnomon_range_offset(r, -1.0);
-        for (int m = 0; m < GNOMON_RANGE_CAPACITY; ++m) left = gnomon_range_trim(left, occluders.ranges[m]);
-        r = gnomon_range_keep_if(!full || left.t0 < left.t1, r);
-
-        // Find the most similar pair; r has place -1. If there is room now, one range of the pair is empty.
-        range_pair best = gnomon_range_pair_empty(r);
-        float first = -1.0;
-        float second = -1.0;
-        float place = 0.0;
-        for (int a = 0; a < GNOMON_RANGE_CAPACITY; ++a) {
-            depth_time_range other = r;
-            float other_place = -1.0;
-            for (int b = 0; b <= a; ++b) {
-                range_pair pair = gnomon_range_pair_make(list.ranges[a], other);
-                first = gnomon_select(pair.cost < best.cost, place, first);
-                second = gnomon_select(pair.cost < best.cost, other_place, second);
-                best = gnomon_range_pair_cheaper(best, pair);
-                other = list.ranges[b];
-                other_place = other_place + 1.0;
-            }
-            place = place + 1.0;
-        }
-        place = 0.0;
-        for (int n = 0; n < GNOMON_RANGE_CAPACITY; ++n) {
-            bool merged = full && (place == first || place == second);
-            list.ranges[n] = gnomon_range_keep_if(!merged, list.ranges[n]);
-            place = place + 1.0;
-        }
-        r = gnomon_range_keep_if(!(full && second < 0.0), r);
-        best.merged = gnomon_range_keep_if(full, best.merged);
-        best.gap = gnomon_select(full, best.gap, 0.0);
-        best.shift = gnomon_select(full, best.shift, 0.0);
-        list = gnomon_range_list_place(gnomon_range_list_count_merge(list, best), best.merged);
-    }
-    return gnomon_range_list_place(list, r);
-}
-
-/// The list of one range; an empty list if the range is empty.
-range_list range_list_make(depth_time_range r)
-{
-    range_list list;
-    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) list.ranges[i] = gnomon_range_keep_if(r.t0 < r.t0, r);
-    list.time_added = 0.0;
-    list.depth_added = 0.0;
-    return range_list_insert(list, r);
-}
-
-/// Span of the lower envelope from time t on: the range in front just after t, until it ends or another range passes in
-/// front. If no range lasts just after t, the span has the id range_nothing, the depth of the far plane, and lasts
-/// until the next begin. The span ends after t unless t is 1. From 0 to 1 there are at most (N + 1) (N + 2) / 2 spans,
-/// N the capacity, since each ends at a begin, an end or a crossing. A t outside of [0, 1] is clamped.
-/// NaN: t is then 0.
-depth_time_range range_list_front(range_list list, float t)
-{
-    float begin = saturate_or_zero(t);
-    depth_time_range front = gnomon_range_keep_if(begin < begin, list.ranges[0]);
-    float unchanged = 1.0; // until when all comparisons of this loop come out the same
-    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) {
-        depth_time_range r = gnomon_range_canonical(list.ranges[i]);
-        depth_time_range ahead = gnomon_range_visible_part(r, front);
-        bool during = r.t0 <= begin && begin < r.t1;
-        bool alone = front.t1 <= front.t0;
-        bool nearer = ahead.t0 <= begin && begin < ahead.t1;
-        float change = gnomon_select(begin < ahead.t0, ahead.t0, gnomon_select(nearer, ahead.t1, 1.0));
-        change = gnomon_min(change, gnomon_min(front.t1, r.t1));
-        unchanged = gnomon_select(during && !alone, gnomon_min(unchanged, change), unchanged);
-        front = gnomon_range_select(nearer || (during && alone), r, front);
-    }
-    bool some = front.t0 < front.t1;
-    float end = gnomon_select(some, front.t1, 1.0);
-    for (int k = 0; k < GNOMON_RANGE_CAPACITY; ++k) {
-        depth_time_range r = gnomon_range_canonical(list.ranges[k]);
-        depth_time_range ahead = gnomon_range_visible_part(r, front);
-        float next = gnomon_select(some, ahead.t0, r.t0);
-        end = gnomon_select(begin < next, gnomon_min(end, next), end);
-        // Rounding may put each of three ranges that meet in front of the next. The tie lasts as long as all
-        // comparisons do.
-        bool circle = ahead.t0 <= begin && begin < ahead.t1;
-        end = gnomon_select(circle, gnomon_min(end, unchanged), end);
-    }
-    depth_time_range span = range_clip(front, begin, end);
-    span.t0 = begin;
-    span.t1 = end;
-    return span;
-}
-
-/// Append r, which begins after all ranges of the list, disjoint and in order of time. If there is no room, merge two
-/// neighbours.
-range_list gnomon_range_list_append(range_list list, depth_time_range r)
-{
-    // The last range and r are neighbours, too. Places count from the end; of all pairs one with an empty range is
-    // merged first.
-    range_pair best = gnomon_range_pair_empty(r);
-    float at = 0.0;
-    float place = 0.0;
-    depth_time_range next = r;
-    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) {
-        depth_time_range s = list.ranges[GNOMON_RANGE_CAPACITY - 1 - i];
-        range_pair pair = gnomon_range_pair_make(s, next);
-        at = gnomon_select(pair.cost < best.cost, place, at);
-        best = gnomon_range_pair_cheaper(best, pair);
-        next = s;
-        place = place + 1.0;
-    }
-    place = 0.0;
-    next = r;
-    for (int k = 0; k < GNOMON_RANGE_CAPACITY; ++k) {
-        depth_time_range s = list.ranges[GNOMON_RANGE_CAPACITY - 1 - k];
-        depth_time_range here = gnomon_range_select(place == at, best.merged, s);
-        list.ranges[GNOMON_RANGE_CAPACITY - 1 - k] = gnomon_range_select(place < at, next, here);
-        next = s;
-        place = place + 1.0;
-    }
-    return gnomon_range_list_count_merge(list, best);
-}
-
-/// The lower envelope of the list: disjoint ranges in order of time, which static_receiver.h adds up. Ranges that do
-/// not fit are merged with a neighbour, and counted. Empty ranges come first.
-/// Source: Palmer 2011, Sec. 2.4
-range_list range_list_resolve(range_list list)
-{
-    float t = 0.0;
-    range_list resolved = list;
-    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) resolved.ranges[i] = gnomon_range_keep_if(t < t, list.ranges[i]);
-    for (int k = 0; k < (GNOMON_RANGE_CAPACITY + 1) * (GNOMON_RANGE_CAPACITY + 2) / 2; ++k) {
-        if (gnomon_any(t < 1.0)) {
-            depth_time_range span = range_list_front(list, t);
-            bool some = range_nothing < span.id;
-            resolved = gnomon_range_list_append(resolved, gnomon_range_keep_if(some, span));
-            t = span.t1;
-        }
-    }
-    return resolved;
-}
-
-/// Shadow intensity, 0 or 1, at time t and depth z on the surface with the given id (see range_intensity).
-/// NaN: 0, lit.
-float range_list_intensity(range_list list, float t, float z, float id, float bias)
-{
-    float intensity = 0.0;
-    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) intensity = gnomon_max(intensity,
-                                                                           range_intensity(list.ranges[i], t, z, id,
-                                                                                           bias));
-    return intensity;
 }
 
 #endif
