@@ -38,7 +38,7 @@ struct sample_place {
 // The places and times of the samples of a texel.
 class sample_source {
   public:
-    explicit sample_source(const sample_options& how) : how_(how), count_(float(how.samples))
+    explicit sample_source(const sample_options& how) : how_(how), count_(float(how.samples)), stratum_(1 / count_)
     {
         if (how.samples < 1 || how.samples > int(texel_limit))
             throw std::invalid_argument(
@@ -57,8 +57,8 @@ class sample_source {
             sample_place at{0.5f, 0.5f, stratified_time(float(k), count_, jitter(bits, 0))};
             if (how_.pattern != sample_pattern::centres) at.x = jitter(bits, 20), at.y = jitter(bits, 40);
             if (how_.pattern == sample_pattern::stratified) {
-                at.x = (float(strata_[strata + k].x) + at.x) / count_;
-                at.y = (float(strata_[strata + k].y) + at.y) / count_;
+                at.x = (float(strata_[strata + k].x) + at.x) * stratum_;
+                at.y = (float(strata_[strata + k].y) + at.y) * stratum_;
             }
             put(k, at);
         }
@@ -91,7 +91,7 @@ class sample_source {
     }
 
     const sample_options how_;
-    const float count_;
+    const float count_, stratum_;
     std::vector<glm::ivec2> strata_; // sample k of pattern p is number p samples + k
 };
 
@@ -103,42 +103,76 @@ struct sample_pack {
 
 constexpr float none = -1;
 
-// Puts a triangle into the samples that see it, in front of what they have seen so far.
-template <class Coverage>
-GNOMON_INLINE void put_facing(const Coverage& coverage, float facing, float number, sample_pack& s)
+// The lanes that a side of a triangle covers at their times. Most triangles are outside of an edge in all lanes. Out of
+// line, so that compilers do not fill the stack with the coefficients of edges that are not needed.
+[[gnu::noinline]] auto covered(const triangle_setup<float>& edges, bool linear, float facing, const sample_pack& s)
 {
-    const auto inside = [&](const moving_edge<texel_pack>& e) { return texel_pack(facing) * moving_edge_at(e, s.t); };
-    const texel_pack least =
-        gnomon_min(gnomon_min(inside(coverage.edges.a), inside(coverage.edges.b)), inside(coverage.edges.c));
-    const auto covered = texel_pack(0.f) <= least;
-    if (!gnomon_any(covered)) return;
-    const texel_pack z = coverage.depth(s.t);
-    const auto nearer = covered && texel_pack(-1.f) < z && z < s.z;
-    s.z = gnomon_select(nearer, z, s.z);
-    s.triangle = gnomon_select(nearer, texel_pack(number), s.triangle);
+    const auto inside = [&](const edge_equation<float>& edge) {
+        const moving_edge<texel_pack> e =
+            linear ? linear_edge_at(broadcast(edge), s.x, s.y) : edge_equation_at(broadcast(edge), s.x, s.y);
+        return texel_pack(0.f) <= texel_pack(facing) * moving_edge_at(e, s.t);
+    };
+    auto lanes = inside(edges.a);
+    if (gnomon_any(lanes)) lanes = lanes && inside(edges.b);
+    if (gnomon_any(lanes)) lanes = lanes && inside(edges.c);
+    return lanes;
 }
 
+// Puts a triangle into the samples that see it, in front of what they have seen so far.
 void put(const tile_triangle& triangle, float number, moving_samples at, std::span<sample_pack> samples)
 {
     const moving_setup& setup = triangle.setup();
-    for (sample_pack& s : samples) {
-        at.x = s.x, at.y = s.y;
-        for (const float facing : {1.f, -1.f}) {
-            if (!(facing > 0 ? setup.positive : setup.negative)) continue;
-            if (setup.linear) put_facing(triangle.linear(at, facing), facing, number, s);
-            else put_facing(triangle.quadratic(at, facing), facing, number, s);
+    for (const float facing : {1.f, -1.f}) {
+        if (!(facing > 0 ? setup.positive : setup.negative)) continue;
+        const triangle_setup<float> other = facing < 0 ? triangle.negative() : triangle_setup<float>();
+        const triangle_setup<float>& edges = facing < 0 ? other : triangle.positive();
+        for (sample_pack& s : samples) {
+            if (!gnomon_any(texel_pack(setup.nearest) < s.z)) continue;
+            const auto seen = covered(edges, setup.linear, facing, s);
+            if (!gnomon_any(seen)) continue;
+            at.x = s.x, at.y = s.y;
+            const texel_pack z =
+                setup.linear ? triangle.linear(at, facing).depth(s.t) : triangle.quadratic(at, facing).depth(s.t);
+            const auto nearer = seen && texel_pack(-1.f) < z && z < s.z;
+            s.z = gnomon_select(nearer, z, s.z);
+            s.triangle = gnomon_select(nearer, texel_pack(number), s.triangle);
         }
     }
 }
 
-// The sample of a triangle, in double precision.
-stochastic_sample<float> seen(const moving_setup& triangle, float x, float y, float t)
+struct seen_lanes {
+    texel_lanes d_x, d_y, d_z, z, id;
+};
+
+// The seen points of a pack: one triangle after the other, in all lanes that see it.
+seen_lanes seen(const tile_bins& bins, const glm::dvec2& middle, const sample_pack& s)
 {
-    const moving_triangle<double>& m = triangle.corners;
-    const moving_edges<double> edges = moving_triangle_edges(m, double(x), double(y));
-    const triangle_motion<double> d = moving_triangle_motion(m, edges, double(t), 0.0);
-    const auto z = float(moving_depth_at(m, edges, double(t), 0.0));
-    return {x, y, t, z, float(d.d_x), float(d.d_y), float(d.d_z), float(triangle.number)};
+    texel_pack d_x(0.f), d_y(0.f), d_z(0.f), id(static_cast<float>(stochastic_nothing));
+    texel_lanes triangles;
+    s.triangle.store_unaligned(triangles.data());
+    for (std::uint64_t left = bits_of(texel_pack(0.f) <= s.triangle); left != 0;) {
+        const float index = triangles[std::size_t(std::countr_zero(left))];
+        const tile_triangle& triangle = bins[std::size_t(index)];
+        const moving_setup& setup = triangle.setup();
+        const auto corner = [&](const moving_vertex<double>& v) {
+            return rounded_to<texel_pack>(moving_vertex_translate(v, middle.x, middle.y));
+        };
+        const moving_triangle<texel_pack> corners{corner(setup.corners.a), corner(setup.corners.b),
+                                                  corner(setup.corners.c)};
+        const moving_edges<texel_pack> edges = triangle_setup_edges(broadcast(triangle.exact()), s.x, s.y);
+        const triangle_motion<texel_pack> d = moving_triangle_motion(corners, edges, s.t, texel_pack(0.f));
+        const auto here = s.triangle == texel_pack(index);
+        d_x = gnomon_select(here, d.d_x, d_x);
+        d_y = gnomon_select(here, d.d_y, d_y);
+        d_z = gnomon_select(here, d.d_z, d_z);
+        id = gnomon_select(here, texel_pack(float(setup.number)), id);
+        left &= ~bits_of(here);
+    }
+    seen_lanes result;
+    d_x.store_unaligned(result.d_x.data()), d_y.store_unaligned(result.d_y.data());
+    d_z.store_unaligned(result.d_z.data()), id.store_unaligned(result.id.data());
+    s.z.store_unaligned(result.z.data());
+    return result;
 }
 
 struct scratch {
@@ -162,9 +196,11 @@ void rasterize_tile(const tiled_triangles& scenery, std::size_t number, const sa
         for (std::size_t lane = 0; lane < texel_pack::size; ++lane) {
             const glm::ivec2 texel = tile.corner + at.place(lane);
             source(texel, [&](std::size_t k, sample_place place) {
-                // Rounding may not move a place into the next texel.
-                const glm::vec2 low(texel), inside(std::nextafter(low.x + 1, 0.f), std::nextafter(low.y + 1, 0.f));
-                place.x = std::min(low.x + place.x, inside.x), place.y = std::min(low.y + place.y, inside.y);
+                // Rounding may not move a place into the next texel: the number below that one is the most.
+                constexpr float below = 1 - 0x1p-24f;
+                const glm::vec2 low(texel);
+                place.x = std::min(low.x + place.x, (low.x + 1) * below);
+                place.y = std::min(low.y + place.y, (low.y + 1) * below);
                 own.places[k * texel_pack::size + lane] = place;
             });
         }
@@ -180,15 +216,19 @@ void rasterize_tile(const tiled_triangles& scenery, std::size_t number, const sa
             put(triangle, float(own.bins.index_of(triangle)), at, own.packs);
         });
         for (std::size_t k = 0; k < count; ++k) {
-            texel_lanes triangle;
-            own.packs[k].triangle.store_unaligned(triangle.data());
+            const seen_lanes surface = seen(own.bins, glm::dvec2(middle), own.packs[k]);
             for (std::size_t lane = 0; lane < texel_pack::size; ++lane) {
                 const glm::ivec2 inside = at.place(lane);
                 if (inside.x >= tile.size.x || inside.y >= tile.size.y) continue;
                 const sample_place& p = own.places[k * texel_pack::size + lane];
-                to.of[tile.pixel(inside) * count + k] =
-                    triangle[lane] < 0 ? stochastic_background(p.x, p.y, p.t)
-                                       : seen(own.bins[std::size_t(triangle[lane])].setup(), p.x, p.y, p.t);
+                to.of[tile.pixel(inside) * count + k] = {p.x,
+                                                         p.y,
+                                                         p.t,
+                                                         surface.z[lane],
+                                                         surface.d_x[lane],
+                                                         surface.d_y[lane],
+                                                         surface.d_z[lane],
+                                                         surface.id[lane]};
             }
         }
     }

@@ -292,8 +292,7 @@ class tile_triangle {
         const std::uint64_t ends = std::uint64_t(1) << number(low_) | std::uint64_t(1) << number(high_);
         if (high_.x - low_.x + high_.y - low_.y < 2)
             return ends; // one block, or two neighbours: the triangle reaches into both
-        const cell_test touched(widen(wide_, errors_, -1), errors_, *setup_,
-                                0.5f * float(moving_block_size - 1) + reach + margin);
+        const cell_test touched(exact(), errors_, *setup_, 0.5f * float(moving_block_size - 1) + reach + margin);
         const std::size_t lanes = texel_pack::size, end = std::size_t((high_.y + 1) * moving_blocks);
         std::uint64_t blocks = 0;
         for (std::size_t i = std::size_t(low_.y * moving_blocks) / lanes * lanes; i < end; i += lanes)
@@ -316,6 +315,11 @@ class tile_triangle {
         return {edges, curve(s, edges, facing)};
     }
 
+    // The equations but for rounding, and widened for the facing 1, and for -1.
+    triangle_setup<float> exact() const { return widen(wide_, errors_, -1); }
+    const triangle_setup<float>& positive() const { return wide_; }
+    triangle_setup<float> negative() const { return widen(wide_, errors_, -2); }
+
     // True if all of the tile lies in the picture.
     bool whole() const { return whole_; }
 
@@ -332,9 +336,6 @@ class tile_triangle {
 
   private:
     tile_triangle(const moving_setup& s, const moving_tile& where, const triangle_setup<double>& equations);
-
-    // The equations widened for the facing -1.
-    triangle_setup<float> negative() const { return widen(wide_, errors_, -2); }
 
     // Depth over time. The edges are widened, so their sum exceeds the true one by the sum of the margins.
     GNOMON_INLINE depth_curve<texel_pack> curve(const moving_samples& s, const moving_edges<texel_pack>& edges,
