@@ -820,16 +820,25 @@ layer_grid layer_grid_make(gnomon_layer_motion mean, float guard, float texels)
 /// A place on a layer's grid, in its texels, texel centres at +0.5.
 struct gnomon_layer_place { float u, v; };
 
+/// The vector (x, y) of the map in the grid's directions, in texels of the map. GCC 12 fuses a sum and a difference of
+/// products side by side even with contraction off, hence gnomon_product.
+gnomon_layer_place gnomon_layer_grid_turned(layer_grid grid, float x, float y)
+{
+    gnomon_layer_place r;
+    r.u = gnomon_product(x, grid.axis_x) + gnomon_product(y, grid.axis_y);
+    r.v = gnomon_product(y, grid.axis_x) - gnomon_product(x, grid.axis_y);
+    return r;
+}
+
 /// The place on the grid of (x, y) at time t, in texels of the map from the tile's centre.
 /// Error: 4 2^-p (s_u (|x| + |y| + |d|) + o) for u, the same with s_v and without |d| for v.
 /// Source: Andersson 2015, Eq. 6
 gnomon_layer_place layer_grid_place(layer_grid grid, float x, float y, float t)
 {
-    float along = x * grid.axis_x + y * grid.axis_y;
-    float across = y * grid.axis_x - x * grid.axis_y;
+    gnomon_layer_place turned = gnomon_layer_grid_turned(grid, x, y);
     gnomon_layer_place r;
-    r.u = grid.scale_u * (along + grid.motion * (0.5 - t)) + grid.middle;
-    r.v = grid.scale_v * across + grid.middle;
+    r.u = grid.scale_u * (turned.u + grid.motion * (0.5 - t)) + grid.middle;
+    r.v = grid.scale_v * turned.v + grid.middle;
     return r;
 }
 
@@ -888,7 +897,7 @@ struct gnomon_layer_footprint { float u, v, along_u, along_v, probes, level; };
 /// The footprint of a world point that the light sees at (x0, y0) at time t0 and at (x1, y1) at time t1. (cross_x,
 /// cross_y) is the second axis, the extent of a pixel on the map. Both ends are limited to the grid. The footprint is
 /// at least `widening` texels of the map wide in either direction.
-/// NaN: stays NaN; one probe at level 0.
+/// NaN: stays NaN in the place, with one probe; a NaN in the widths counts for nothing.
 /// Source: Andersson 2015, Sec. 4.2
 gnomon_layer_footprint layer_footprint_make(layer_grid grid, float x0, float y0, float t0, float x1, float y1, float t1,
                                             float cross_x, float cross_y, float widening)
@@ -902,8 +911,9 @@ gnomon_layer_footprint layer_footprint_make(layer_grid grid, float x0, float y0,
     p1.v = clamp_or_nan(p1.v, 0.5, last);
     float time_u = p1.u - p0.u;
     float time_v = p1.v - p0.v;
-    float cross_u = grid.scale_u * (cross_x * grid.axis_x + cross_y * grid.axis_y);
-    float cross_v = grid.scale_v * (cross_y * grid.axis_x - cross_x * grid.axis_y);
+    gnomon_layer_place second = gnomon_layer_grid_turned(grid, cross_x, cross_y);
+    float cross_u = grid.scale_u * second.u;
+    float cross_v = grid.scale_v * second.v;
     float time_length = gnomon_sqrt(time_u * time_u + time_v * time_v);
     float cross_length = gnomon_sqrt(cross_u * cross_u + cross_v * cross_v);
 
@@ -924,7 +934,8 @@ gnomon_layer_footprint layer_footprint_make(layer_grid grid, float x0, float y0,
     r.along_v = v1 - v0;
     float longer = gnomon_sqrt(r.along_u * r.along_u + r.along_v * r.along_v);
     float shorter = gnomon_max(gnomon_min(cross_length, time_length), widening * grid.scale_v);
-    float width = gnomon_max(gnomon_max(0.0625 * longer, shorter), 1.0);
+    float width = gnomon_max(gnomon_max(0.0625 * longer, shorter), 1.0); // a NaN becomes 1
+    width = gnomon_min(width, grid.middle + grid.middle);
     float probes = -1.0 * texel_below(-1.0 * (longer / width)); // rounded up
     r.probes = gnomon_max(gnomon_min(probes, gnomon_layer_most_probes), 1.0);
     r.level = gnomon_max(polynomial_log(width) * gnomon_exp_log2_e, 0.0);
@@ -968,9 +979,10 @@ float layer_bias(layer_grid grid, float slope_along, float slope_across, float t
 /// Error: 2 2^-p (|x| + |y|).
 depth_gradient layer_slope(layer_grid grid, depth_gradient gradient)
 {
+    gnomon_layer_place turned = gnomon_layer_grid_turned(grid, gradient.x, gradient.y);
     depth_gradient r;
-    r.x = gradient.x * grid.axis_x + gradient.y * grid.axis_y;
-    r.y = gradient.y * grid.axis_x - gradient.x * grid.axis_y;
+    r.x = turned.u;
+    r.y = turned.v;
     return r;
 }
 

@@ -31,7 +31,7 @@ GNOMON_STRUCT(layer_footprint) { Real u, v, along_u, along_v, probes, level; };
 /// The footprint of a world point that the light sees at (x0, y0) at time t0 and at (x1, y1) at time t1. (cross_x, cross_y)
 /// is the second axis, the extent of a pixel on the map. Both ends are limited to the grid. The footprint is at least
 /// `widening` texels of the map wide in either direction.
-/// NaN: stays NaN; one probe at level 0.
+/// NaN: stays NaN in the place, with one probe; a NaN in the widths counts for nothing.
 /// Source: Andersson 2015, Sec. 4.2
 GNOMON_KERNEL GNOMON_T(layer_footprint) layer_footprint_make(GNOMON_T(layer_grid) grid, Real x0, Real y0, Real t0,
                                                              Real x1, Real y1, Real t1, Real cross_x, Real cross_y,
@@ -46,8 +46,9 @@ GNOMON_KERNEL GNOMON_T(layer_footprint) layer_footprint_make(GNOMON_T(layer_grid
     p1.v = clamp_or_nan(p1.v, Real(0.5), last);
     Real time_u = p1.u - p0.u;
     Real time_v = p1.v - p0.v;
-    Real cross_u = grid.scale_u * (cross_x * grid.axis_x + cross_y * grid.axis_y);
-    Real cross_v = grid.scale_v * (cross_y * grid.axis_x - cross_x * grid.axis_y);
+    layer_place second = layer_grid_turned(grid, cross_x, cross_y);
+    Real cross_u = grid.scale_u * second.u;
+    Real cross_v = grid.scale_v * second.v;
     Real time_length = gnomon_sqrt(time_u * time_u + time_v * time_v);
     Real cross_length = gnomon_sqrt(cross_u * cross_u + cross_v * cross_v);
 
@@ -68,7 +69,8 @@ GNOMON_KERNEL GNOMON_T(layer_footprint) layer_footprint_make(GNOMON_T(layer_grid
     r.along_v = v1 - v0;
     Real longer = gnomon_sqrt(r.along_u * r.along_u + r.along_v * r.along_v);
     Real shorter = gnomon_max(gnomon_min(cross_length, time_length), widening * grid.scale_v);
-    Real width = gnomon_max(gnomon_max(Real(0.0625) * longer, shorter), Real(1));
+    Real width = gnomon_max(gnomon_max(Real(0.0625) * longer, shorter), Real(1)); // a NaN becomes 1
+    width = gnomon_min(width, grid.middle + grid.middle);
     Real probes = Real(-1) * texel_below(Real(-1) * (longer / width)); // rounded up
     r.probes = gnomon_max(gnomon_min(probes, GNOMON_LITERAL(layer_most_probes)), Real(1));
     r.level = gnomon_max(polynomial_log(width) * GNOMON_LITERAL(exp_log2_e), Real(0));
@@ -113,9 +115,10 @@ GNOMON_KERNEL Real layer_bias(GNOMON_T(layer_grid) grid, Real slope_along, Real 
 /// Error: 2 2^-p (|x| + |y|).
 GNOMON_KERNEL GNOMON_T(depth_gradient) layer_slope(GNOMON_T(layer_grid) grid, GNOMON_T(depth_gradient) gradient)
 {
+    layer_place turned = layer_grid_turned(grid, gradient.x, gradient.y);
     GNOMON_T(depth_gradient) r;
-    r.x = gradient.x * grid.axis_x + gradient.y * grid.axis_y;
-    r.y = gradient.y * grid.axis_x - gradient.x * grid.axis_y;
+    r.x = turned.u;
+    r.y = turned.v;
     return r;
 }
 
