@@ -85,14 +85,18 @@ template <class Format> struct layers_of {
           first(clusters.size() + 1),
           blocks(tiles_along(width, layer_block) * tiles_along(height, layer_block))
     {
-        const row_range all{0, tiles_along(height, s.tile)};
-        layer_cluster(samples, s, clusters, all);
-        counts = layer_allocate(s, clusters, width, height, first, blocks);
+        fill(samples);
+    }
+    row_range rows() const { return {0, tiles_along(height, settings.tile)}; }
+    void fill(const sample_map<float>& samples)
+    {
+        layer_cluster(samples, settings, clusters, rows());
+        counts = layer_allocate(settings, clusters, width, height, first, blocks);
         grids.resize(counts.layers);
-        texels.resize(counts.layers * layer_texels(s));
-        plain.resize(counts.blocks * block_texels(s));
-        layer_accumulate<Format>(samples, clusters, map(), all);
-        layer_mips<Format>(map(), all);
+        texels.resize(counts.layers * layer_texels(settings));
+        plain.resize(counts.blocks * block_texels(settings));
+        layer_accumulate<Format>(samples, clusters, map(), rows());
+        layer_mips<Format>(map(), rows());
     }
     layer_map<texel> map() { return {width, height, settings, first, blocks, grids, texels, plain}; }
     float intensity(const layer_receiver<float>& r, const layer_look_up& look_up = {}) const

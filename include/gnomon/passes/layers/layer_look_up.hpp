@@ -35,24 +35,12 @@ struct layer_look_up {
 
 namespace detail {
 
-/// Add weight times the bilinear sums of a level of extent columns x rows, of which at(i, j) gives the texel, or none.
-template <layer_format Format, border_mode mode>
-void add_bilinear(channel_array<Format>& sums, float weight, float x, float y, std::size_t columns, std::size_t rows,
-                  const auto& at)
+/// Add to sums a texel's, times a weight.
+template <layer_format Format>
+GNOMON_INLINE void add_texel(channel_array<Format>& sums, const format_texel<Format>& texel, float weight)
 {
-    const neighbours nx = neighbours_of<mode>(x - 0.5f, columns);
-    const neighbours ny = neighbours_of<mode>(y - 0.5f, rows);
-    const auto add = [&](std::size_t i, std::size_t j, float part) {
-        const format_texel<Format>* const texel = at(i, j);
-        if (texel == nullptr) return;
-        const auto c = load_channels<Format>(*texel);
-        for (std::size_t k = 0; k < c.size(); ++k) sums[k] += part * c[k];
-    };
-    const float upper = weight * ny.fraction, lower = weight - upper;
-    add(nx.lower, ny.lower, lower * (1 - nx.fraction));
-    add(nx.upper, ny.lower, lower * nx.fraction);
-    add(nx.lower, ny.upper, upper * (1 - nx.fraction));
-    add(nx.upper, ny.upper, upper * nx.fraction);
+    const auto c = load_channels<Format>(texel);
+    for (std::size_t k = 0; k < c.size(); ++k) sums[k] += weight * c[k];
 }
 
 /// The mips of a layer.
@@ -62,37 +50,70 @@ template <class Texel> struct square_mips {
 
     std::size_t levels() const { return mip_levels(side, side); }
     template <layer_format Format>
-    void add(channel_array<Format>& sums, float weight, float u, float v, std::size_t level) const
+    GNOMON_INLINE void add(channel_array<Format>& sums, float weight, float u, float v, std::size_t level) const
     {
         const std::size_t extent = side >> level;
         const float scale = 1 / float(std::size_t(1) << level);
+        const neighbours nu = neighbours_of<border_mode::clamp>(u * scale - 0.5f, extent);
+        const neighbours nv = neighbours_of<border_mode::clamp>(v * scale - 0.5f, extent);
         const Texel* const begin = texels + square_mip_begin(side, level);
-        add_bilinear<Format, border_mode::clamp>(
-            sums, weight, u * scale, v * scale, extent, extent,
-            [&](std::size_t i, std::size_t j) { return begin + (j * extent + i); });
+        const float upper = weight * nv.fraction, lower = weight - upper;
+        add_texel<Format>(sums, begin[nv.lower * extent + nu.lower], lower * (1 - nu.fraction));
+        add_texel<Format>(sums, begin[nv.lower * extent + nu.upper], lower * nu.fraction);
+        add_texel<Format>(sums, begin[nv.upper * extent + nu.lower], upper * (1 - nu.fraction));
+        add_texel<Format>(sums, begin[nv.upper * extent + nu.upper], upper * nu.fraction);
     }
 };
 
 /// The plain map, by places from a corner of a tile's window.
 template <class Texel> struct plain_mips {
-    const layer_map<const Texel>* map;
+    const layer_map<const Texel>& map;
     float x, y;
 
-    std::size_t levels() const { return block_levels(map->settings); }
+    std::size_t levels() const { return block_levels(map.settings); }
     template <layer_format Format>
-    void add(channel_array<Format>& sums, float weight, float u, float v, std::size_t level) const
+    GNOMON_INLINE void add(channel_array<Format>& sums, float weight, float u, float v, std::size_t level) const
     {
         const std::size_t side = layer_block >> level, unit = std::size_t(1) << level;
-        const std::size_t columns = tiles_along(map->width, unit), rows = tiles_along(map->height, unit);
-        const std::size_t each = block_texels(map->settings), begin = square_mip_begin(layer_block, level);
-        const std::size_t blocks = tiles_along(map->width, layer_block);
-        const auto at = [&](std::size_t i, std::size_t j) -> const Texel* {
-            if (!(i < columns && j < rows)) return nullptr; // beside the map
-            const std::uint32_t block = map->blocks[j / side * blocks + i / side];
-            return block == layer_no_block ? nullptr : &map->plain[block * each + begin + j % side * side + i % side];
-        };
+        const std::size_t columns = (map.width + unit - 1) >> level, rows = (map.height + unit - 1) >> level;
         const float scale = 1 / float(unit);
-        add_bilinear<Format, border_mode::lit>(sums, weight, (x + u) * scale, (y + v) * scale, columns, rows, at);
+        const neighbours nx = neighbours_of<border_mode::lit>((x + u) * scale - 0.5f, columns);
+        const neighbours ny = neighbours_of<border_mode::lit>((y + v) * scale - 0.5f, rows);
+        const float upper = weight * ny.fraction, lower = weight - upper;
+        const std::array<float, 4> weights{lower * (1 - nx.fraction), lower * nx.fraction, upper * (1 - nx.fraction),
+                                           upper * nx.fraction};
+        const std::size_t i = nx.lower & (side - 1), j = ny.lower & (side - 1);
+        if (nx.lower < columns && ny.lower < rows && i + 1 < side && j + 1 < side) { // in one block
+            const std::uint32_t block = block_of(nx.lower, ny.lower, level);
+            if (block == layer_no_block) return;
+            const Texel* const texel = texels_of(block, level) + (j * side + i);
+            const std::size_t right = nx.upper - nx.lower, down = (ny.upper - ny.lower) * side;
+            add_texel<Format>(sums, texel[0], weights[0]);
+            add_texel<Format>(sums, texel[right], weights[1]);
+            add_texel<Format>(sums, texel[down], weights[2]);
+            add_texel<Format>(sums, texel[down + right], weights[3]);
+            return;
+        }
+        const std::array<std::size_t, 2> across{nx.lower, nx.upper}, along{ny.lower, ny.upper};
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::size_t column = across[k & 1], row = along[k >> 1];
+            if (!(column < columns && row < rows)) continue; // beside the map
+            const std::uint32_t block = block_of(column, row, level);
+            if (block != layer_no_block)
+                add_texel<Format>(sums, texels_of(block, level)[(row & (side - 1)) * side + (column & (side - 1))],
+                                  weights[k]);
+        }
+    }
+
+  private:
+    std::uint32_t block_of(std::size_t column, std::size_t row, std::size_t level) const
+    {
+        return map.blocks[(row << level) / layer_block * tiles_along(map.width, layer_block) +
+                          (column << level) / layer_block];
+    }
+    const Texel* texels_of(std::uint32_t block, std::size_t level) const
+    {
+        return map.plain.data() + block * block_texels(map.settings) + square_mip_begin(layer_block, level);
     }
 };
 
@@ -152,7 +173,7 @@ float visibility_in(const layer_map<const format_texel<Format>>& map, std::size_
     if (map.first[i] == map.first[i + 1]) {
         if (map.plain.empty()) return 1;
         const layer_grid<float> grid = plain_grid(float(s.guard));
-        const plain_mips<format_texel<Format>> mips{&map, x - grid.middle, y - grid.middle};
+        const plain_mips<format_texel<Format>> mips{map, x - grid.middle, y - grid.middle};
         return visibility_through<Format>(grid, mips, x, y, r, look_up);
     }
     float visibility = 1;
@@ -189,6 +210,12 @@ float layer_intensity(const layer_map<const format_texel<Format>>& map, const la
     if (look_up.tiles == layer_tiles::random)
         return saturate_or_zero(1 - detail::visibility_in<Format>(map, r.random_x < x_weight ? beside : column,
                                                                   r.random_y < y_weight ? beyond : row, r, look_up));
+    const auto is_plain = [&](std::size_t at_column, std::size_t at_row) {
+        const std::size_t i = at_row * map.columns() + at_column;
+        return map.first[i] == map.first[i + 1];
+    };
+    if (is_plain(column, row) && is_plain(beside, row) && is_plain(column, beyond) && is_plain(beside, beyond))
+        return saturate_or_zero(1 - detail::visibility_in<Format>(map, column, row, r, look_up)); // they have no border
     float shadow = 0;
     const auto add = [&](std::size_t at_column, std::size_t at_row, float weight) {
         if (weight > 0) shadow += weight * (1 - detail::visibility_in<Format>(map, at_column, at_row, r, look_up));
