@@ -20,8 +20,8 @@ double error(std::size_t tile, std::size_t guard, std::size_t texels, double spe
 std::vector<sweep_layer> layers()
 {
     std::vector<sweep_layer> result;
-    for (const std::size_t guard : {2, 3})
-        for (const std::size_t texels : {1, 2})
+    for (const std::size_t guard : {2u, 3u})
+        for (const std::size_t texels : {1u, 2u})
             result.push_back(
                 {"window_" + std::to_string(guard) + "_texels_" + std::to_string(texels),
                  "windows " + std::to_string(guard) + ", layers " + std::to_string(texels) + " times a tile",
