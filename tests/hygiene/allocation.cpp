@@ -227,6 +227,9 @@ TEST_CASE("no pass over ranges allocates")
     sort_into_lists<float>(texels, some, first, ranges);
     const map lists{12, 9, first, ranges};
     static_intensities<float>(lists, receivers, shadows);
+    std::array<stochastic_sample<float>, 12 * 9 * 2> samples{};
+    const auto still = [](float, float, float, float) { return triangle_motion<float>{0, 0, 0}; };
+    sample_ranges<map, float>(lists, 2, still, samples, {0, 9});
     const float shadow = static_intensity(lists, 0.5f, 0.5f, static_receiver_begin(0.f, 4.f, 0.f, 1.f)) +
                          moving_intensity(lists, path, 0.f, 1.f) + sampled_intensity(lists, path, 0.f, 16.f);
     some.fill({});
@@ -263,14 +266,10 @@ TEST_CASE_TEMPLATE("no pass over layers allocates", Format, gnomon::layer_varian
     const sample_map<float> light{12, 8, 1, samples};
     layer_cluster(light, settings, clusters, {0, 2});
     const layer_counts counts = layer_allocate(settings, clusters, 12, 8, first, blocks);
-    const layer_map<typename Format::texel> map{12,
-                                                8,
-                                                settings,
-                                                first,
-                                                blocks,
-                                                std::span(grids).first(counts.layers),
-                                                std::span(texels).first(counts.layers * layer_texels(settings)),
-                                                std::span(plain).first(counts.blocks * block_texels(settings))};
+    const auto some = std::span(grids).first(counts.layers);
+    const auto in_layers = std::span(texels).first(counts.layers * layer_texels(settings));
+    const auto in_blocks = std::span(plain).first(counts.blocks * block_texels(settings));
+    const layer_map<typename Format::texel> map{12, 8, settings, first, blocks, some, in_layers, in_blocks};
     layer_accumulate<Format>(light, clusters, map, {0, 2});
     layer_mips<Format>(map, {0, 2});
     const layer_receiver<float> receiver{3, 3, 0.5f, 0.5f, 3, 3, 0.4f, 3, 3, 0.6f, 1, 0, 0, 0, 0};

@@ -49,6 +49,30 @@ TEST_CASE_TEMPLATE("the mean over receiver times is the covered time", Format, l
         }
 }
 
+TEST_CASE("sums that are evened out are less biased where motion is not much longer than the window")
+{
+    bit_source bits(6);
+    const quad_scene scene{{0.8f, 0}, {{32, 32, 6, 9, -0.2f, 20, 0, 0}}};
+    for (layer_settings settings : {quality, speed}) {
+        double bias[2] = {};
+        for (int seed = 0; seed < 24; ++seed) {
+            const auto samples = sample_quads(scene, 64, 64, 4, bits);
+            for (const bool even : {false, true}) {
+                settings.even = even;
+                const layers_of<layer_variance_float> layers(samples, settings);
+                for (int k = 0; k < 256; ++k) {
+                    const float t = (float(k) + float(bits.uniform(0, 1))) / 256;
+                    const float x = float(bits.uniform(30, 34)), y = float(bits.uniform(30, 34));
+                    bias[even] += double(layers.intensity(still_receiver(x, y, 0.7f, t, bits))) -
+                                  double(scene.is_covered(x, y, t, 0.7f));
+                }
+            }
+        }
+        INFO("bias " << bias[0] / 24 / 256 << ", evened out " << bias[1] / 24 / 256);
+        CHECK(std::abs(bias[1]) < 0.75 * std::abs(bias[0]));
+    }
+}
+
 TEST_CASE("without motion, with one layer and a texel per texel, layers are the plain map")
 {
     bit_source bits(2);

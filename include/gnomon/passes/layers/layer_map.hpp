@@ -26,11 +26,11 @@ GNOMON_NAMESPACE_BEGIN
 
 /// Sizes along an axis, as in Andersson 2015, Sec. 6, for a map of 512 x 512 texels.
 struct layer_settings {
-    std::size_t tile = 4;   // texels of the light's map in a tile
-    std::size_t guard = 12; // texels of the light's map in the window of samples around a tile
-    std::size_t texels = 8; // texels of a layer, a power of two
-    std::size_t layers = 4; // the most layers of a tile, 1 to 4
-    bool even = true;
+    std::size_t tile = 4;       // texels of the light's map in a tile
+    std::size_t guard = 12;     // texels of the light's map in the window of samples around a tile
+    std::size_t texels = 8;     // texels of a layer, a power of two
+    std::size_t layers = 4;     // the most layers of a tile, 1 to 4
+    bool even = true;           // weigh texels alike that are in the window for different parts of the shutter interval
     bool smooth_streaks = true; // blur layers of fast motion across that motion
 };
 
