@@ -2181,7 +2181,7 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 // range_merge.h, and `conservative` above 0 takes the line in front of both.
 //
 //     list = range_list_make(range);   list = interval_list_insert(list, range, weights, 0) for every other range
-//     resolved = interval_list_resolve(list, weights, 0)
+//     resolved = range_list_resolve(list);
 #ifndef GNOMON_COMPARATORS_INTERVAL_LIST_H
 #define GNOMON_COMPARATORS_INTERVAL_LIST_H
 
@@ -2298,60 +2298,6 @@ GNOMON_INLINE constexpr range_list<Real, capacity> interval_list_insert(range_li
         list = range_list_place(range_list_count_merge(list, best), best.merged);
     }
     return range_list_place(list, r);
-}
-
-/// Append r, which begins after all ranges of the list. If there is no room, merge two neighbours.
-template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
-GNOMON_INLINE constexpr range_list<Real, capacity> interval_list_append(range_list<Real, capacity> list,
-                                                                        depth_time_range<Real> r,
-                                                                        interval_weights<Real> weights,
-                                                                        std::type_identity_t<Real> conservative)
-{
-    // Places count from the end; of all pairs one with an empty range is merged first.
-    range_pair best = range_pair_empty(r);
-    Real at = Real(0);
-    Real place = Real(0);
-    depth_time_range next = r;
-    for (int i = 0; i < capacity; ++i) {
-        depth_time_range s = list.ranges[capacity - 1 - i];
-        range_pair pair = interval_pair_make(s, next, weights, conservative);
-        at = gnomon_select(pair.cost < best.cost, place, at);
-        best = range_pair_cheaper(best, pair);
-        next = s;
-        place = place + Real(1);
-    }
-    place = Real(0);
-    next = r;
-    for (int k = 0; k < capacity; ++k) {
-        depth_time_range s = list.ranges[capacity - 1 - k];
-        depth_time_range here = range_select(place == at, best.merged, s);
-        list.ranges[capacity - 1 - k] = range_select(place < at, next, here);
-        next = s;
-        place = place + Real(1);
-    }
-    return range_list_count_merge(list, best);
-}
-
-/// The lower envelope of the list: disjoint ranges in order of time. Ranges that do not fit are merged with a
-/// neighbour. Empty ranges come first.
-/// Source: Gribel 2010; Palmer 2011, Sec. 2.4
-template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
-GNOMON_INLINE constexpr range_list<Real, capacity> interval_list_resolve(range_list<Real, capacity> list,
-                                                                         interval_weights<Real> weights,
-                                                                         std::type_identity_t<Real> conservative)
-{
-    Real t = Real(0);
-    range_list resolved = list;
-    for (int i = 0; i < capacity; ++i) resolved.ranges[i] = range_keep_if(t < t, list.ranges[i]);
-    for (int k = 0; k < (capacity + 1) * (capacity + 2) / 2; ++k) {
-        if (gnomon_any(t < Real(1))) {
-            depth_time_range span = range_list_front(list, t);
-            mask_t<Real> some = literal<Real>(range_nothing) < span.id;
-            resolved = interval_list_append(resolved, range_keep_if(some, span), weights, conservative);
-            t = span.t1;
-        }
-    }
-    return resolved;
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon

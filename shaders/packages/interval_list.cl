@@ -690,7 +690,7 @@ static inline float range_list_intensity(range_list list, float t, float z, floa
 // gnomon_range_merge.h, and `conservative` above 0 takes the line in front of both.
 //
 //     list = range_list_make(range);   list = interval_list_insert(list, range, weights, 0) for every other range
-//     resolved = interval_list_resolve(list, weights, 0)
+//     resolved = range_list_resolve(list);
 #ifndef GNOMON_COMPARATORS_INTERVAL_LIST_H
 #define GNOMON_COMPARATORS_INTERVAL_LIST_H
 
@@ -798,54 +798,6 @@ static inline range_list interval_list_insert(range_list list, depth_time_range 
         list = gnomon_range_list_place(gnomon_range_list_count_merge(list, best), best.merged);
     }
     return gnomon_range_list_place(list, r);
-}
-
-/// Append r, which begins after all ranges of the list. If there is no room, merge two neighbours.
-static inline range_list gnomon_interval_list_append(range_list list, depth_time_range r,
-                                                     gnomon_interval_weights weights, float conservative)
-{
-    // Places count from the end; of all pairs one with an empty range is merged first.
-    range_pair best = gnomon_range_pair_empty(r);
-    float at = 0.0f;
-    float place = 0.0f;
-    depth_time_range next = r;
-    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) {
-        depth_time_range s = list.ranges[GNOMON_RANGE_CAPACITY - 1 - i];
-        range_pair pair = gnomon_interval_pair_make(s, next, weights, conservative);
-        at = gnomon_select(pair.cost < best.cost, place, at);
-        best = gnomon_range_pair_cheaper(best, pair);
-        next = s;
-        place = place + 1.0f;
-    }
-    place = 0.0f;
-    next = r;
-    for (int k = 0; k < GNOMON_RANGE_CAPACITY; ++k) {
-        depth_time_range s = list.ranges[GNOMON_RANGE_CAPACITY - 1 - k];
-        depth_time_range here = gnomon_range_select(place == at, best.merged, s);
-        list.ranges[GNOMON_RANGE_CAPACITY - 1 - k] = gnomon_range_select(place < at, next, here);
-        next = s;
-        place = place + 1.0f;
-    }
-    return gnomon_range_list_count_merge(list, best);
-}
-
-/// The lower envelope of the list: disjoint ranges in order of time. Ranges that do not fit are merged with a
-/// neighbour. Empty ranges come first.
-/// Source: Gribel 2010; Palmer 2011, Sec. 2.4
-static inline range_list interval_list_resolve(range_list list, gnomon_interval_weights weights, float conservative)
-{
-    float t = 0.0f;
-    range_list resolved = list;
-    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) resolved.ranges[i] = gnomon_range_keep_if(t < t, list.ranges[i]);
-    for (int k = 0; k < (GNOMON_RANGE_CAPACITY + 1) * (GNOMON_RANGE_CAPACITY + 2) / 2; ++k) {
-        if (gnomon_any(t < 1.0f)) {
-            depth_time_range span = range_list_front(list, t);
-            bool some = range_nothing < span.id;
-            resolved = gnomon_interval_list_append(resolved, gnomon_range_keep_if(some, span), weights, conservative);
-            t = span.t1;
-        }
-    }
-    return resolved;
 }
 
 #endif

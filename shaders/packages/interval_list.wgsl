@@ -654,7 +654,7 @@ fn range_list_intensity(given_list: range_list, t: f32, z: f32, id: f32, bias: f
 // gnomon_range_merge.h, and `conservative` above 0 takes the line in front of both.
 //
 //     list = range_list_make(range);   list = interval_list_insert(list, range, weights, 0) for every other range
-//     resolved = interval_list_resolve(list, weights, 0)
+//     resolved = range_list_resolve(list);
 
 /// Weights of the area that becomes shadowed (gnomon_range_pair_make), of the gap in time, of the differences in depth
 /// and in slope, and of the durations.
@@ -762,55 +762,4 @@ fn interval_list_insert(given_list: range_list, given_r: depth_time_range, weigh
         list = gnomon_range_list_place(gnomon_range_list_count_merge(list, best), best.merged);
     }
     return gnomon_range_list_place(list, r);
-}
-
-/// Append r, which begins after all ranges of the list. If there is no room, merge two neighbours.
-fn gnomon_interval_list_append(given_list: range_list, r: depth_time_range, weights: gnomon_interval_weights,
-                               conservative: f32) -> range_list
-{
-    var list = given_list;
-    // Places count from the end; of all pairs one with an empty range is merged first.
-    var best = gnomon_range_pair_empty(r);
-    var at = 0.0;
-    var place = 0.0;
-    var next = r;
-    for (var i = 0; i < gnomon_range_capacity; i++) {
-        let s = list.ranges[gnomon_range_capacity - 1 - i];
-        let pair = gnomon_interval_pair_make(s, next, weights, conservative);
-        at = gnomon_select(pair.cost < best.cost, place, at);
-        best = gnomon_range_pair_cheaper(best, pair);
-        next = s;
-        place = place + 1.0;
-    }
-    place = 0.0;
-    next = r;
-    for (var k = 0; k < gnomon_range_capacity; k++) {
-        let s = list.ranges[gnomon_range_capacity - 1 - k];
-        let here = gnomon_range_select(place == at, best.merged, s);
-        list.ranges[gnomon_range_capacity - 1 - k] = gnomon_range_select(place < at, next, here);
-        next = s;
-        place = place + 1.0;
-    }
-    return gnomon_range_list_count_merge(list, best);
-}
-
-/// The lower envelope of the list: disjoint ranges in order of time. Ranges that do not fit are merged with a
-/// neighbour. Empty ranges come first.
-/// Source: Gribel 2010; Palmer 2011, Sec. 2.4
-fn interval_list_resolve(given_list: range_list, weights: gnomon_interval_weights, conservative: f32) -> range_list
-{
-    var list = given_list;
-    var t = 0.0;
-    var resolved = list;
-    for (var i = 0; i < gnomon_range_capacity; i++) { resolved.ranges[i] = gnomon_range_keep_if(t < t,
-                                                                                                list.ranges[i]); }
-    for (var k = 0; k < (gnomon_range_capacity + 1) * (gnomon_range_capacity + 2) / 2; k++) {
-        if (gnomon_any(t < 1.0)) {
-            let span = range_list_front(list, t);
-            let some = range_nothing < span.id;
-            resolved = gnomon_interval_list_append(resolved, gnomon_range_keep_if(some, span), weights, conservative);
-            t = span.t1_;
-        }
-    }
-    return resolved;
 }

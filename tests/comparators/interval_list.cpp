@@ -68,7 +68,7 @@ TEST_CASE("by area and conservatively, an interval list is a range list that dro
         bit_source bits(seed);
         const auto all = any_ranges<double>(2 + bits.below(10), bits);
         const auto list = merged_list<4>(all, by_area, 1);
-        const auto resolved = interval_list_resolve(list, by_area, 1.0);
+        const auto resolved = range_list_resolve(list);
         require_apart(resolved);
         for (int k = 0; k < 64; ++k) {
             const double t = (k + 0.5) / 64, z = front_at(all, t);
@@ -86,10 +86,6 @@ TEST_CASE("lists that do not overflow are those of range_list, by any weights")
         const auto all = any_ranges<double>(1 + bits.below(8), bits);
         const auto list = merged_list<8>(all, evenly, 0);
         RC_ASSERT(equal(list, list_of<8>(all)));
-        // A resolved list of room enough has nothing to merge either.
-        const auto few = any_ranges<double>(1 + bits.below(2), bits);
-        RC_ASSERT(equal(interval_list_resolve(merged_list<8>(few, evenly, 0), evenly, 0.0),
-                        range_list_resolve(list_of<8>(few))));
     }));
 }
 

@@ -215,6 +215,41 @@ void add_surface_blocks(std::span<const scene_results> scenes, std::vector<block
     if (!table.rows.empty()) to.push_back(std::move(table));
 }
 
+void add_merge_blocks(std::span<const scene_results> scenes, std::vector<block>& to)
+{
+    table_block table{
+        .title = "Merges of full lists",
+        .text =
+            "A full list merges the two ranges of the least cost: the area of time and depth that becomes "
+            "shadowed, or by weights of the gap between the ranges, of their differences in depth and slope, and "
+            "of their durations (Gribel et al. 2010). A conservative merge is in front of both ranges, so that "
+            "what was in shadow stays there; another one is the line between their outer ends. Errors are in "
+            "thousandths of visibility.",
+        .columns = {{.key = "scene", .label = "scene"},
+                    {.key = "method", .label = "method"},
+                    error_column("rmse", "RMSE"),
+                    error_column("leak", "leak"),
+                    error_column("acne", "acne"),
+                    error_column("largest", "largest error", 1),
+                    number_column("bytes", "bytes per texel", 0),
+                    number_column("build", "map, ms", 0)},
+        .rows = {}};
+    for (const scene_results& scene : scenes) {
+        if (!scene.motion.has("surfaces")) continue;
+        for (const scene_row& one : scene.rows)
+            if (const report_row& row = one.row; row.method == "interval_lists" || &one == &analytic_row(scene))
+                table.rows.push_back({.cells = {{"scene", scene.scene.label},
+                                                {"method", row.label},
+                                                {"rmse", row.errors.rmse},
+                                                {"leak", row.errors.leak},
+                                                {"acne", row.errors.acne},
+                                                {"largest", row.errors.max_abs},
+                                                {"bytes", row.bytes_per_texel},
+                                                {"build", row.build_ms}}});
+    }
+    if (!table.rows.empty()) to.push_back(std::move(table));
+}
+
 void add_cover_blocks(std::span<const scene_results> scenes, std::vector<block>& to)
 {
     table_block table{

@@ -21,8 +21,9 @@ void add_close_up_blocks(std::span<const scene_results> scenes, std::vector<bloc
 // The cost of accumulation at the error of analytic receivers.
 void add_equal_error_blocks(std::span<const scene_results> scenes, std::vector<block>& to);
 
-// Rows without pictures: ids of surfaces, and covers that are read first.
+// Rows without pictures: ids of surfaces, merges of full lists, and covers that are read first.
 void add_surface_blocks(std::span<const scene_results> scenes, std::vector<block>& to);
+void add_merge_blocks(std::span<const scene_results> scenes, std::vector<block>& to);
 void add_cover_blocks(std::span<const scene_results> scenes, std::vector<block>& to);
 
 // Colours of errors, for the keys of pictures.

@@ -7,7 +7,7 @@
 // range_merge.h, and `conservative` above 0 takes the line in front of both.
 //
 //     list = range_list_make(range);   list = interval_list_insert(list, range, weights, 0) for every other range
-//     resolved = interval_list_resolve(list, weights, 0)
+//     resolved = range_list_resolve(list);
 #ifndef GNOMON_COMPARATORS_INTERVAL_LIST_H
 #define GNOMON_COMPARATORS_INTERVAL_LIST_H
 #include "../motion/range/range_list.h"
@@ -120,58 +120,6 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) interval_list_insert(GNOMON_LIST_T(
         list = range_list_place(range_list_count_merge(list, best), best.merged);
     }
     return range_list_place(list, r);
-}
-
-/// Append r, which begins after all ranges of the list. If there is no room, merge two neighbours.
-GNOMON_DETAIL_LIST_KERNEL GNOMON_LIST_T(range_list) interval_list_append(GNOMON_LIST_T(range_list) list,
-                                                                         GNOMON_T(depth_time_range) r,
-                                                                         GNOMON_T(interval_weights) weights,
-                                                                         GNOMON_SETTING conservative)
-{
-    // Places count from the end; of all pairs one with an empty range is merged first.
-    range_pair best = range_pair_empty(r);
-    Real at = Real(0);
-    Real place = Real(0);
-    depth_time_range next = r;
-    for (int i = 0; i < GNOMON_CAPACITY; ++i) {
-        depth_time_range s = list.ranges[GNOMON_CAPACITY - 1 - i];
-        range_pair pair = interval_pair_make(s, next, weights, conservative);
-        at = gnomon_select(pair.cost < best.cost, place, at);
-        best = range_pair_cheaper(best, pair);
-        next = s;
-        place = place + Real(1);
-    }
-    place = Real(0);
-    next = r;
-    for (int k = 0; k < GNOMON_CAPACITY; ++k) {
-        depth_time_range s = list.ranges[GNOMON_CAPACITY - 1 - k];
-        depth_time_range here = range_select(place == at, best.merged, s);
-        list.ranges[GNOMON_CAPACITY - 1 - k] = range_select(place < at, next, here);
-        next = s;
-        place = place + Real(1);
-    }
-    return range_list_count_merge(list, best);
-}
-
-/// The lower envelope of the list: disjoint ranges in order of time. Ranges that do not fit are merged with a
-/// neighbour. Empty ranges come first.
-/// Source: Gribel 2010; Palmer 2011, Sec. 2.4
-GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) interval_list_resolve(GNOMON_LIST_T(range_list) list,
-                                                                   GNOMON_T(interval_weights) weights,
-                                                                   GNOMON_SETTING conservative)
-{
-    Real t = Real(0);
-    range_list resolved = list;
-    for (int i = 0; i < GNOMON_CAPACITY; ++i) resolved.ranges[i] = range_keep_if(t < t, list.ranges[i]);
-    for (int k = 0; k < (GNOMON_CAPACITY + 1) * (GNOMON_CAPACITY + 2) / 2; ++k) {
-        if (gnomon_any(t < Real(1))) {
-            depth_time_range span = range_list_front(list, t);
-            GNOMON_MASK some = GNOMON_LITERAL(range_nothing) < span.id;
-            resolved = interval_list_append(resolved, range_keep_if(some, span), weights, conservative);
-            t = span.t1;
-        }
-    }
-    return resolved;
 }
 
 GNOMON_NAMESPACE_END

@@ -1,8 +1,10 @@
-// Exact ranges, one after the other, into lists of a fixed capacity, 4, 8 or 16, resolved in the end. The time is the
-// sum of what all threads have spent.
+// Exact ranges, one after the other, into lists of a fixed capacity, 4, 8 or 16, resolved in the end. Full lists merge
+// two ranges: the pair of the least cost by area, or by the weights of Gribel et al. 2010; into a line in front of
+// both, or into one between their outer ends. The time is the sum of what all threads have spent.
 #include "evaluation/core/timing.hpp"
 #include "evaluation/motion/range_method.hpp"
 
+#include <gnomon/comparators/interval_list.h>
 #include <gnomon/motion/range/range_list.h>
 #include <gnomon/passes/range/part.hpp>
 #include <gnomon/simd/xsimd.hpp>
@@ -14,6 +16,7 @@
 #include <array>
 #include <span>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace gnomon::evaluation {
@@ -28,6 +31,29 @@ depth_time_range<float> range_in_lane(const depth_time_range<pack>& r, std::size
     return {r.t0.get(i), r.t1.get(i), r.z0.get(i), r.z1.get(i), r.id.get(i)};
 }
 
+// Costs of pairs, and which line replaces a pair.
+struct merging {
+    interval_weights<float> weights;
+    bool conservative;
+
+    template <int M> range_list<pack, M> insert(const range_list<pack, M>& list, const depth_time_range<pack>& r) const
+    {
+        if (weights.area > 0 && conservative) return range_list_insert(list, r);
+        const interval_weights<pack> w{pack(weights.area), pack(weights.gap), pack(weights.depth), pack(weights.slope),
+                                       pack(weights.duration)};
+        return interval_list_insert(list, r, w, conservative ? 1.f : 0.f);
+    }
+};
+
+constexpr interval_weights<float> area_alone{1, 0, 0, 0, 0};
+constexpr interval_weights<float> after_gribel{0, 1, 1, 0.125f, 0.25f}; // chosen by hand
+
+merging merging_of(const evaluation::parameters& how)
+{
+    const auto plain = how.find("conservative");
+    return {is_set(how, "weights") ? after_gribel : area_alone, plain == how.end() || plain->second != 0};
+}
+
 // The lists of some texels, a pack of them at a time.
 template <int N> struct listed_texels {
     std::vector<depth_time_range<float>> ranges;
@@ -35,7 +61,7 @@ template <int N> struct listed_texels {
     double spent = 0, time_added = 0, depth_added = 0;
     float most_time_added = 0, most_depth_added = 0;
 
-    void add(const range_map<float>& from, std::size_t texel)
+    void add(const range_map<float>& from, std::size_t texel, const merging& how)
     {
         std::array<std::span<const depth_time_range<float>>, pack::size> lists;
         std::size_t longest = 0;
@@ -51,17 +77,18 @@ template <int N> struct listed_texels {
         }
         // A range is at most 3 spans and two are at most 6, so that smaller lists hold them as well.
         if constexpr (N > 4)
-            if (longest <= 1) return add_lists<4>(lists, longest);
+            if (longest <= 1) return add_lists<4>(lists, longest, how);
         if constexpr (N > 8)
-            if (longest <= 2) return add_lists<8>(lists, longest);
-        add_lists<N>(lists, longest);
+            if (longest <= 2) return add_lists<8>(lists, longest, how);
+        add_lists<N>(lists, longest, how);
     }
 
   private:
     std::array<std::vector<depth_time_range<float>>, pack::size> parted_;
 
     template <int M>
-    void add_lists(const std::array<std::span<const depth_time_range<float>>, pack::size>& lists, std::size_t longest)
+    void add_lists(const std::array<std::span<const depth_time_range<float>>, pack::size>& lists, std::size_t longest,
+                   const merging& how)
     {
         range_list<pack, M> list = range_list_make<pack, M>(range_empty(pack(0.f)));
         for (std::size_t k = 0; k < longest; ++k) {
@@ -71,7 +98,7 @@ template <int N> struct listed_texels {
                 r[0][i] = one.t0, r[1][i] = one.t1, r[2][i] = one.z0, r[3][i] = one.z1, r[4][i] = one.id;
             }
             const auto packed = [&](std::size_t member) { return pack::load_unaligned(r[member].data()); };
-            list = range_list_insert(list, {packed(0), packed(1), packed(2), packed(3), packed(4)});
+            list = how.insert(list, {packed(0), packed(1), packed(2), packed(3), packed(4)});
         }
         list = range_list_resolve(list);
         for (std::size_t i = 0; i < pack::size; ++i) {
@@ -89,7 +116,7 @@ template <int N> struct listed_texels {
 };
 
 // Chunks of texels, and what all threads have spent on them.
-template <int N> double list(const range_map<float>& from, std::vector<listed_texels<N>>& chunks)
+template <int N> double list(const range_map<float>& from, const merging& how, std::vector<listed_texels<N>>& chunks)
 {
     constexpr std::size_t chunk = range_map<float>::texels_per_tile;
     static_assert(chunk % pack::size == 0);
@@ -98,7 +125,7 @@ template <int N> double list(const range_map<float>& from, std::vector<listed_te
     tbb::parallel_for(std::size_t(0), chunks.size(), [&](std::size_t c) {
         chunks[c].spent = seconds([&] {
             for (std::size_t i = c * chunk; i < std::min((c + 1) * chunk, texels); i += pack::size)
-                chunks[c].add(from, i);
+                chunks[c].add(from, i, how);
         });
     });
     double spent = 0;
@@ -106,13 +133,13 @@ template <int N> double list(const range_map<float>& from, std::vector<listed_te
     return spent;
 }
 
-template <int N> range_shadow_map listed(const range_shadow_map& exact)
+template <int N> range_shadow_map listed(const range_shadow_map& exact, const merging& how)
 {
     range_shadow_map result = unresolved_lists(fmt::format("interval lists of {}", N), exact.resolution);
     result.kind = resolved_lists_kind->id;
     result.parameters["capacity"] = N;
     std::vector<listed_texels<N>> chunks;
-    const double spent = least_of([&] { return list<N>(exact.map(), chunks); });
+    const double spent = least_of([&] { return list<N>(exact.map(), how, chunks); });
     result.first = {0};
     double time_added = 0, depth_added = 0;
     for (const listed_texels<N>& some : chunks) {
@@ -133,11 +160,11 @@ template <int N> range_shadow_map listed(const range_shadow_map& exact)
     return result;
 }
 
-range_shadow_map listed(const range_shadow_map& exact, double capacity)
+range_shadow_map listed(const range_shadow_map& exact, double capacity, const merging& how)
 {
-    if (capacity == 4) return listed<4>(exact);
-    if (capacity == 8) return listed<8>(exact);
-    if (capacity == 16) return listed<16>(exact);
+    if (capacity == 4) return listed<4>(exact, how);
+    if (capacity == 8) return listed<8>(exact, how);
+    if (capacity == 16) return listed<16>(exact, how);
     throw std::invalid_argument(fmt::format("interval lists: capacity {}, 4, 8 and 16 are possible", capacity));
 }
 
@@ -150,6 +177,13 @@ std::vector<range_variant> variants()
                           .receivers = {"analytic"},
                           .tag = "surfaces",
                           .pictured = false});
+    const auto add_merging = [&](parameters how) {
+        result.push_back(
+            {.parameters = std::move(how), .receivers = {"analytic"}, .tag = "surfaces", .pictured = false});
+    };
+    for (const double n : {4, 8, 16}) add_merging({{"capacity", n}, {"weights", 1}, {"conservative", 0}});
+    add_merging({{"capacity", 4}, {"conservative", 0}}); // one of the two alone
+    add_merging({{"capacity", 4}, {"weights", 1}});
     return result;
 }
 
@@ -165,8 +199,11 @@ class interval_lists final : public range_method {
         const bool surfaces = is_set(how, "surfaces");
         const auto exact =
             from.map("exact_ranges", surfaces ? evaluation::parameters{{"surfaces", 1}} : evaluation::parameters{});
-        range_shadow_map result = listed(*exact, how.at("capacity"));
+        const merging merge = merging_of(how);
+        range_shadow_map result = listed(*exact, how.at("capacity"), merge);
         if (surfaces) result.parameters["surfaces"] = 1, result.label += ", ids of surfaces";
+        if (is_set(how, "weights")) result.parameters["weights"] = 1, result.label += ", merged by weights";
+        if (!merge.conservative) result.parameters["conservative"] = 0, result.label += ", not conservative";
         return result;
     }
 };

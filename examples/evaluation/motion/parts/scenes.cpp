@@ -27,6 +27,7 @@ part_run scenes(const motion_settings& how)
         add_close_up_blocks(*found, r.blocks);
         add_equal_error_blocks(*found, r.blocks);
         add_surface_blocks(*found, r.blocks);
+        add_merge_blocks(*found, r.blocks);
         add_cover_blocks(*found, r.blocks);
         const scene_results& first = found->front();
         r.front = {analytic_row(first).picture, first.scene.label + " in motion, with blurred shadows",
