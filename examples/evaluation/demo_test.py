@@ -149,7 +149,7 @@ class Demo(unittest.TestCase):
         scenes = {scene: {identity(row) for row in traced if row["scene"] == scene} for scene in moving}
         self.assertGreaterEqual(scenes.keys(), {"crossed_quads", "random_cubes", "lit_ramp", "trapezoid"})
         common = set.intersection(*scenes.values())
-        self.assertEqual(len(common), 17)
+        self.assertEqual(len(common), 18)
         self.assertEqual(sum(found == common for found in scenes.values()), len(scenes) - 2)  # two have ids of surfaces
         self.assertTrue(all(row["rmse"] <= 1 for row in traced))
 

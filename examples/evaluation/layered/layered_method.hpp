@@ -2,6 +2,7 @@
 // knows them. A method is one file in methods/: a class with build(), registered with the variants that are measured.
 #pragma once
 
+#include "evaluation/motion/slices.hpp"
 #include "layered_input.hpp"
 #include "stochastic_receivers.hpp"
 
@@ -71,16 +72,12 @@ class layered_method : public method {
 double value_of(const parameters& some, const std::string& name, double otherwise);
 
 // What several files of methods share: families, a kind of map each, and the receivers of rows.
-inline const registered<family> slices_family{
-    family{.id = "time_slices", .label = "time-dependent shadow maps", .order = 210, .colour = "#d62728"}};
 inline const registered<family> deep_family{
     family{.id = "deep", .label = "deep shadow maps", .order = 220, .colour = "#9467bd"}};
 inline const registered<family> layers_family{
     family{.id = "layers", .label = "layered filtered shadow maps", .order = 230, .colour = "#1f77b4"}};
 inline const registered<family> footprints_family{
     family{.id = "footprints", .label = "ranges over footprints", .order = 240, .colour = "#2ca02c"}};
-inline const registered<map_kind> slices_kind{
-    map_kind{.id = "time_slices", .label = "stochastic shadow maps", .order = 130}};
 inline const registered<map_kind> deep_kind{map_kind{.id = "deep", .label = "deep shadow maps", .order = 140}};
 inline const registered<map_kind> layers_kind{map_kind{.id = "layers", .label = "layers of tiles", .order = 150}};
 inline const registered<receiver_kind> camera_samples_kind{
