@@ -76,7 +76,7 @@ template <class Format> class layer_work {
             build_mips<Format>({plain_, side, side});
         });
     }
-    work look_up(layer_tiles tiles)
+    work look_up_in(layer_tiles tiles)
     {
         return per_receiver([this, tiles](const auto& r) { return layers_.intensity(r, {tiles}); });
     }
@@ -95,7 +95,7 @@ template <class Format> class layer_work {
                     trilinear<Format>({plain_, side, side}, place.u, place.v, footprint.level));
                 for (std::size_t n = 0; n < c.size(); ++n) sums[n] += c[n];
             }
-            const float bias = layer_bias(grid, r.slope, r.slope, r.t, 1.5f, 0.25f);
+            const float bias = layer_bias(grid, r.slope, r.slope, r.t, layer_look_up{}.reach, layer_look_up{}.limit);
             return 1 - Format::visibility(gnomon_bit_cast<format_channels<Format>>(sums), r.z - bias,
                                           float(Format::least_variance));
         });
@@ -175,7 +175,9 @@ bool add_look_ups()
     const auto add = [](const char* what, auto measured, auto baseline) {
         return add_comparison(("layers/" + std::string(what)).c_str(), measured, baseline);
     };
-    const auto of = [](moving what, layer_tiles tiles) { return [=] { return w::get(quality, what).look_up(tiles); }; };
+    const auto of = [](moving what, layer_tiles tiles) {
+        return [=] { return w::get(quality, what).look_up_in(tiles); };
+    };
     return add("look up where nothing moves against a plain map", of(moving::nothing, layer_tiles::random),
                [] { return w::get(quality, moving::nothing).look_up_plain(); }) &&
            add("look up where all moves against a plain map", of(moving::all, layer_tiles::random),

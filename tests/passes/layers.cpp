@@ -188,3 +188,27 @@ TEST_CASE("layers and blocks are stored only where samples need them")
     const auto four = counts({floor, {quad, {20, 20, 6, 6, 0.1f, 8, 0, 0}, {20, 20, 6, 6, 0.4f, 8, 0, 0}}}, 7);
     CHECK(double(four.layers) < 1.2 * double(two.layers)); // what no sample sees forms no layer
 }
+
+TEST_CASE_TEMPLATE("tilted surfaces in motion do not shadow themselves", Format, layer_variance_float,
+                   layer_variance_half, layer_exponential_float)
+{
+    bit_source bits(7);
+    const float slope = 0.01f;
+    for (const layer_settings& settings : {quality, speed})
+        for (const float d : {0.0f, 1.0f, 12.0f, 60.0f}) {
+            auto samples = sample_quads({{0, 0}, {}}, 64, 64, 4, bits);
+            for (auto& s : samples.of) s.z = slope * (s.x - 32 - d * (s.t - 0.5f)), s.d_x = d;
+            const layers_of<Format> layers(samples, settings);
+            mean_of acne, without_bias;
+            for (int i = 0; i < 1000; ++i) {
+                const float x = float(bits.uniform(8, 56)), t = float(bits.uniform(0, 1));
+                auto r = still_receiver(x, float(bits.uniform(8, 56)), slope * (x - 32 - d * (t - 0.5f)), t, bits);
+                r.slope = slope;
+                acne.add(double(layers.intensity(r)));
+                without_bias.add(double(layers.intensity(r, {.reach = 0})));
+            }
+            INFO(Format::id << " " << d << ": acne " << acne.mean() << ", without bias " << without_bias.mean());
+            CHECK(acne.mean() < 1e-3);
+            CHECK((without_bias.mean() > 2 * acne.mean() || acne.mean() < 1e-6));
+        }
+}
