@@ -16,6 +16,10 @@
 
 namespace gnomon::renderer {
 
+struct range_pack {
+    texel_pack t0, t1, z0, z1;
+};
+
 // A buffer to append to. Clearing it keeps its memory, and memory beyond its end keeps its contents.
 template <class T> class append_buffer {
   public:

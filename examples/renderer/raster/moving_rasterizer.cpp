@@ -1,7 +1,7 @@
 #include "moving_rasterizer.hpp"
 
 #include "moving_lists.hpp"
-#include "moving_tiles.hpp"
+#include "tile_bins.hpp"
 
 #include <gnomon/passes/range/join.hpp>
 

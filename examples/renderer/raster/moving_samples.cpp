@@ -1,6 +1,6 @@
 #include "moving_samples.hpp"
 
-#include "moving_tiles.hpp"
+#include "tile_bins.hpp"
 
 #include <gnomon/motion/triangle/triangle_motion.h>
 
@@ -118,25 +118,21 @@ constexpr float none = -1;
     return lanes;
 }
 
-// Puts a triangle into the samples that see it, in front of what they have seen so far.
-void put(const tile_triangle& triangle, float number, moving_samples at, std::span<sample_pack> samples)
+// Puts a side of a triangle into the samples that see it, in front of what they have seen so far.
+void put(const tile_triangle& triangle, const triangle_setup<float>& edges, float facing, float number,
+         moving_samples& at, std::span<sample_pack> samples)
 {
     const moving_setup& setup = triangle.setup();
-    for (const float facing : {1.f, -1.f}) {
-        if (!(facing > 0 ? setup.positive : setup.negative)) continue;
-        const triangle_setup<float> other = facing < 0 ? triangle.negative() : triangle_setup<float>();
-        const triangle_setup<float>& edges = facing < 0 ? other : triangle.positive();
-        for (sample_pack& s : samples) {
-            if (!gnomon_any(texel_pack(setup.nearest) < s.z)) continue;
-            const auto seen = covered(edges, setup.linear, facing, s);
-            if (!gnomon_any(seen)) continue;
-            at.x = s.x, at.y = s.y;
-            const texel_pack z =
-                setup.linear ? triangle.linear(at, facing).depth(s.t) : triangle.quadratic(at, facing).depth(s.t);
-            const auto nearer = seen && texel_pack(-1.f) < z && z < s.z;
-            s.z = gnomon_select(nearer, z, s.z);
-            s.triangle = gnomon_select(nearer, texel_pack(number), s.triangle);
-        }
+    for (sample_pack& s : samples) {
+        if (!gnomon_any(texel_pack(setup.nearest) < s.z)) continue;
+        const auto seen = covered(edges, setup.linear, facing, s);
+        if (!gnomon_any(seen)) continue;
+        at.x = s.x, at.y = s.y;
+        const texel_pack z =
+            setup.linear ? triangle.linear(at, facing).depth(s.t) : triangle.quadratic(at, facing).depth(s.t);
+        const auto nearer = seen && texel_pack(-1.f) < z && z < s.z;
+        s.z = gnomon_select(nearer, z, s.z);
+        s.triangle = gnomon_select(nearer, texel_pack(number), s.triangle);
     }
 }
 
@@ -176,7 +172,7 @@ seen_lanes seen(const tile_bins& bins, const glm::dvec2& middle, const sample_pa
 }
 
 struct scratch {
-    tile_bins bins;
+    tile_bins bins{true};
     std::vector<sample_pack> packs;
     std::vector<sample_place> places; // of the picture, lane by lane
 };
@@ -191,7 +187,7 @@ void rasterize_tile(const tiled_triangles& scenery, std::size_t number, const sa
     own.packs.resize(count);
     own.places.resize(count * texel_pack::size);
     for (std::size_t i = 0; i < moving_samples::packs_per_tile; ++i) {
-        const moving_samples at(i);
+        moving_samples at(i);
         if (glm::any(glm::greaterThanEqual(moving_block_size * at.block, tile.size))) continue;
         for (std::size_t lane = 0; lane < texel_pack::size; ++lane) {
             const glm::ivec2 texel = tile.corner + at.place(lane);
@@ -212,8 +208,16 @@ void rasterize_tile(const tiled_triangles& scenery, std::size_t number, const sa
             own.packs[k] = {texel_pack::load_unaligned(x.data()), texel_pack::load_unaligned(y.data()),
                             texel_pack::load_unaligned(t.data()), texel_pack(1.f), texel_pack(none)};
         }
-        own.bins.for_each(i / moving_samples::packs_per_block, [&](const tile_triangle& triangle) {
-            put(triangle, float(own.bins.index_of(triangle)), at, own.packs);
+        const std::size_t block = i / moving_samples::packs_per_block;
+        own.bins.for_each(block, [&](const tile_triangle& triangle) {
+            const std::size_t index = own.bins.index_of(triangle);
+            const linear_interval<float> times = own.bins.times(index, block);
+            const auto stratum = [&](float t) { return std::size_t(slice_of(t, float(count))); };
+            const std::size_t first = stratum(times.begin), last = stratum(times.end);
+            const std::span samples = std::span(own.packs).subspan(first, last - first + 1);
+            const moving_setup& setup = triangle.setup();
+            if (setup.positive) put(triangle, triangle.positive(), 1, float(index), at, samples);
+            if (setup.negative) put(triangle, triangle.negative(), -1, float(index), at, samples);
         });
         for (std::size_t k = 0; k < count; ++k) {
             const seen_lanes surface = seen(own.bins, glm::dvec2(middle), own.packs[k]);

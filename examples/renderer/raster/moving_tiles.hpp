@@ -2,7 +2,7 @@
 //   moving_setup      a triangle in texel space, the texels that it may cover, and the facings that it has
 //   tiled_triangles   for each tile of the picture, the triangles that it sees at some time
 //   tile_triangle     a triangle in the coordinates of one tile, widened against cracks, and the blocks that it touches
-//   tile_bins         for each block of a tile, the triangles that touch it
+//   tile_bins         for each block of a tile, the triangles that touch it (tile_bins.hpp)
 //   quadratic_coverage, linear_tile_coverage   the times at which a triangle covers each texel, and its depth
 #pragma once
 
@@ -161,7 +161,7 @@ GNOMON_INLINE triangle_setup<float> widen(const triangle_setup<float>& f, const 
             edge_equation_widen(f.c, e.c, times)};
 }
 
-// A test of cells: does a triangle cover any sample within reach of a cell's middle, at any time?
+// A test of cells: when does a triangle cover any sample within reach of a cell's middle?
 class cell_test {
   public:
     cell_test(const triangle_setup<float>& equations, const edge_errors& errors, const moving_setup& s, float reach)
@@ -176,17 +176,49 @@ class cell_test {
     {
         const auto touched = [&](const triangle_setup<float>& around, float facing) {
             if (setup_.linear) {
-                const auto edges = triangle_setup_edges_linear(broadcast(around), middle_x, middle_y);
-                const auto times = linear_coverage(facing < 0 ? flipped(edges) : edges);
+                const auto times = linear_times(around, facing, middle_x, middle_y);
                 return bits_of(times.begin < times.end);
             }
-            const auto edges = triangle_setup_edges(broadcast(around), middle_x, middle_y);
-            return bits_of(moving_coverage(edges, texel_pack(facing)).count > texel_pack(0.f));
+            return bits_of(quadratic_times(around, facing, middle_x, middle_y).count > texel_pack(0.f));
         };
         return (setup_.positive ? touched(positive_, 1) : 0) | (setup_.negative ? touched(negative_, -1) : 0);
     }
 
+    // For each lane, the times from the first to the last at which its cell is covered; none unless begin < end.
+    linear_interval<texel_pack> times(const texel_pack& middle_x, const texel_pack& middle_y) const
+    {
+        linear_interval<texel_pack> all{texel_pack(1.f), texel_pack(0.f)};
+        const auto add = [&](const triangle_setup<float>& around, float facing) {
+            linear_interval<texel_pack> seen;
+            if (setup_.linear) seen = linear_times(around, facing, middle_x, middle_y);
+            else {
+                const auto x = quadratic_times(around, facing, middle_x, middle_y);
+                const std::array ends{x.end0, x.end1, x.end2, x.end3};
+                seen = {gnomon_min(x.begin0, texel_pack(1.f)), texel_pack(0.f)};
+                for (std::size_t k = 0; k < ends.size(); ++k)
+                    seen.end = gnomon_select(texel_pack(float(k)) < x.count, ends[k], seen.end);
+            }
+            all.begin = gnomon_min(all.begin, seen.begin), all.end = gnomon_max(all.end, seen.end);
+        };
+        if (setup_.positive) add(positive_, 1);
+        if (setup_.negative) add(negative_, -1);
+        return all;
+    }
+
   private:
+    GNOMON_INLINE static linear_interval<texel_pack> linear_times(const triangle_setup<float>& around, float facing,
+                                                                  const texel_pack& x, const texel_pack& y)
+    {
+        const auto edges = triangle_setup_edges_linear(broadcast(around), x, y);
+        return linear_coverage(facing < 0 ? flipped(edges) : edges);
+    }
+    GNOMON_INLINE static coverage_intervals<texel_pack> quadratic_times(const triangle_setup<float>& around,
+                                                                        float facing, const texel_pack& x,
+                                                                        const texel_pack& y)
+    {
+        return moving_coverage(triangle_setup_edges(broadcast(around), x, y), texel_pack(facing));
+    }
+
     const moving_setup& setup_;
     triangle_setup<float> positive_, negative_; // set for the facings that the triangle has
 };
@@ -199,6 +231,11 @@ template <int Count, int Row, int Size, bool Y> constexpr auto tile_offsets()
         result[std::size_t(i)] = float(Size) * (float(Y ? i / Row : i % Row) + 0.5f) - 0.5f * float(moving_tile_size);
     return result;
 }
+
+// For each block of a tile, times that contain those at which a triangle covers samples of it.
+struct block_times {
+    std::array<float, std::size_t(moving_blocks*moving_blocks)> begin, end;
+};
 
 // A pack of texels of a tile, in the order of range_map: their middles, from the middle of the tile.
 struct moving_samples {
@@ -228,10 +265,6 @@ struct moving_samples {
         const int sample = begin + int(lane);
         return moving_block_size * block + glm::ivec2(sample % moving_block_size, sample / moving_block_size);
     }
-};
-
-struct range_pack {
-    texel_pack t0, t1, z0, z1;
 };
 
 // The times at which a triangle covers each texel of a pack, and its depth.
@@ -282,21 +315,29 @@ class tile_triangle {
 
     const moving_setup& setup() const { return *setup_; }
 
-    // A bit for each block in which the triangle covers a sample at some time.
-    std::uint64_t blocks(float reach) const
+    // A bit for each block in which the triangle covers a sample at some time, and on request these times. Where they
+    // are not known better than as the whole shutter interval, `times` keeps what is in it.
+    std::uint64_t blocks(float reach, block_times* times = nullptr) const
     {
         constexpr int count = moving_blocks * moving_blocks;
         static constexpr auto middle_x = tile_offsets<count, moving_blocks, moving_block_size, false>(),
                               middle_y = tile_offsets<count, moving_blocks, moving_block_size, true>();
         const auto number = [](const glm::ivec2& block) { return std::size_t(block.y * moving_blocks + block.x); };
         const std::uint64_t ends = std::uint64_t(1) << number(low_) | std::uint64_t(1) << number(high_);
-        if (high_.x - low_.x + high_.y - low_.y < 2)
-            return ends; // one block, or two neighbours: the triangle reaches into both
+        if (high_.x - low_.x + high_.y - low_.y < 2) return ends; // one block, or two neighbours: it reaches into both
         const cell_test touched(exact(), errors_, *setup_, 0.5f * float(moving_block_size - 1) + reach + margin);
         const std::size_t lanes = texel_pack::size, end = std::size_t((high_.y + 1) * moving_blocks);
         std::uint64_t blocks = 0;
-        for (std::size_t i = std::size_t(low_.y * moving_blocks) / lanes * lanes; i < end; i += lanes)
-            blocks |= touched(texel_pack::load_unaligned(&middle_x[i]), texel_pack::load_unaligned(&middle_y[i])) << i;
+        for (std::size_t i = std::size_t(low_.y * moving_blocks) / lanes * lanes; i < end; i += lanes) {
+            const auto x = texel_pack::load_unaligned(&middle_x[i]), y = texel_pack::load_unaligned(&middle_y[i]);
+            if (!times) {
+                blocks |= touched(x, y) << i;
+                continue;
+            }
+            const linear_interval<texel_pack> seen = touched.times(x, y);
+            blocks |= bits_of(seen.begin < seen.end) << i;
+            seen.begin.store_unaligned(&times->begin[i]), seen.end.store_unaligned(&times->end[i]);
+        }
         // Drop blocks to the left and right of the texels that the triangle may cover.
         const std::uint64_t columns = (std::uint64_t(2) << high_.x) - (std::uint64_t(1) << low_.x);
         return blocks & columns * 0x0101010101010101;
@@ -354,27 +395,6 @@ class tile_triangle {
     depth_setup<float> depths_;
     edge_errors errors_;
     triangle_setup<float> wide_; // the equations widened for the facing 1
-};
-
-// The triangles of a tile, sorted into the blocks that they touch.
-class tile_bins {
-  public:
-    void assign(const tiled_triangles& scenery, std::size_t tile, bool front_to_back = false);
-
-    const tile_triangle& operator[](std::size_t i) const { return triangles_[i]; }
-    std::size_t index_of(const tile_triangle& triangle) const { return std::size_t(&triangle - triangles_.data()); }
-
-    // Calls visit(triangle) for the triangles of a block, front to back or in the order of their numbers.
-    template <class Visit> void for_each(std::size_t block, const Visit& visit) const
-    {
-        for (std::size_t k = 0; k < touching_.size(); ++k)
-            for_each_bit(touching_[k][block], [&](std::size_t i) { visit(triangles_[64 * k + i]); });
-    }
-
-  private:
-    std::vector<const moving_setup*> members_;
-    std::vector<tile_triangle> triangles_;
-    std::vector<std::array<std::uint64_t, 64>> touching_; // for 64 triangles each: for each block, a bit per triangle
 };
 
 } // namespace gnomon::renderer
