@@ -38,6 +38,9 @@ EXAMPLES = {
         "Averages along view rays": (".comp", GLSLANG),
         "Single scattering": (".frag", GLSLANG),
     },
+    "docs/layered_motion.md": {
+        "Passes": (".cpp", ["g++", *CXX, "-c"]),
+    },
     "docs/scattering.md": {
         "Passes": (".cpp", ["g++", *CXX, "-c"]),
     },

@@ -20,8 +20,8 @@ def run(*words):
 
 
 class Texts(unittest.TestCase):
-    def test_eleven_lessons_follow_one_another(self):
-        self.assertEqual([lesson.name[:3] for lesson in LESSONS], [f"{i:02}_" for i in range(1, 12)])
+    def test_twelve_lessons_follow_one_another(self):
+        self.assertEqual([lesson.name[:3] for lesson in LESSONS], [f"{i:02}_" for i in range(1, 13)])
 
     def test_no_lesson_is_too_long(self):
         for lesson in LESSONS:
@@ -58,7 +58,7 @@ class Run(unittest.TestCase):
         self.assertEqual(lines, [[lesson.stem, question_of(lesson)] for lesson in LESSONS])
 
     def test_an_unknown_name_is_answered_in_one_line(self):
-        for words in (("lesson", "12_nothing"), ("lesson", "_"), ("lesson", "01", "02")):
+        for words in (("lesson", "13_nothing"), ("lesson", "_"), ("lesson", "01", "02")):
             answer = run(*words)
             self.assertEqual(answer.returncode, 2, words)
             self.assertEqual((answer.stdout, answer.stderr.count("\n")), ("", 1), words)

@@ -119,7 +119,7 @@ sheet_visibility layered(const sample_map<float>& samples, const layer_settings&
                                       float(t0),   x(t1),       y(t1),
                                       float(t1),   0,           1,
                                       0,           0,           0};
-        return 1 - double(layer_intensity<format>(all->map, r));
+        return 1 - double(layer_intensity<format>(all->map, r, {.tiles = layer_tiles::blended}));
     };
 }
 
