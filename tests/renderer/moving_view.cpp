@@ -8,6 +8,9 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 using namespace gnomon;
 using namespace gnomon::renderer;
@@ -41,6 +44,34 @@ TEST_CASE("samples in time see what the camera's segments say")
     CHECK(asked > width * height * samples / 2);
     // At the ends of segments and where two surfaces meet, rounding decides.
     CHECK(other < asked / 500);
+}
+
+// Five standard errors of the mean product of two independent numbers, uniform in [-1/2, 1/2].
+TEST_CASE("a camera's times are independent of those of a map of the same seed, and of those of another seed")
+{
+    const moving_scene world = moving_boxes(8, 0);
+    const moving_camera above = light_of(world, false);
+    constexpr int size = 96, samples = 4;
+    for (const std::uint32_t seed : {0u, 7u}) {
+        const sample_picture map =
+            rasterize_samples(world, above, size, size, {samples, seed, sample_pattern::centres});
+        const seen_motion one = stochastic_visibility(world, above, size, size, samples, seed),
+                          other = stochastic_visibility(world, above, size, size, samples, seed + 1);
+        double with_map = 0, with_other = 0;
+        int compared = 0;
+        for (std::size_t pixel = 0; pixel < std::size_t(size) * size; ++pixel) {
+            if (one(pixel).size() != samples || other(pixel).size() != samples) continue;
+            for (std::size_t k = 0; k < samples; ++k, ++compared) {
+                const auto jitter = [&](float t) { return samples * double(t) - double(k) - 0.5; };
+                const double mine = jitter(one(pixel)[k].t0);
+                with_map += mine * jitter(map.of[pixel * samples + k].t);
+                with_other += mine * jitter(other(pixel)[k].t0);
+            }
+        }
+        CHECK(compared > 1000);
+        CHECK(std::abs(with_map) < 5.0 / 12 * std::sqrt(double(compared)));
+        CHECK(std::abs(with_other) < 5.0 / 12 * std::sqrt(double(compared)));
+    }
 }
 
 TEST_CASE("nothing behind the eye or in front of the near plane is seen")
