@@ -370,6 +370,23 @@ fn gnomon_deep_window_lead(given_window: gnomon_deep_window, z: f32, v: f32) -> 
     return window;
 }
 
+/// a where the mask is set, b elsewhere.
+fn gnomon_deep_window_select(mask: bool, a: gnomon_deep_window, given_b: gnomon_deep_window) -> gnomon_deep_window
+{
+    var b = given_b;
+    b.z0_ = gnomon_select(mask, a.z0_, b.z0_);
+    b.v0_ = gnomon_select(mask, a.v0_, b.v0_);
+    b.z1_ = gnomon_select(mask, a.z1_, b.z1_);
+    b.v1_ = gnomon_select(mask, a.v1_, b.v1_);
+    b.least = gnomon_select(mask, a.least, b.least);
+    b.most = gnomon_select(mask, a.most, b.most);
+    b.touched = gnomon_select(mask, a.touched, b.touched);
+    b.layer.z0_ = gnomon_select(mask, a.layer.z0_, b.layer.z0_);
+    b.layer.z1_ = gnomon_select(mask, a.layer.z1_, b.layer.z1_);
+    b.layer.opacity = gnomon_select(mask, a.layer.opacity, b.layer.opacity);
+    return b;
+}
+
 /// Add a vertex of the polyline, transmittance v at depth z; two at one depth are a step. If the layer of the result
 /// has an opacity above 0 it is complete, and the caller keeps it.
 /// Domain: vertices from near to far, transmittance in [0, 1] and never growing; others are moved to the nearest such.
@@ -386,18 +403,13 @@ fn deep_window_add(given_window: gnomon_deep_window, given_z: f32, given_v: f32)
     let touched = window.touched;
     z = gnomon_select(known, gnomon_max(z, window.z1_), window.z1_);
     v = gnomon_select(known, gnomon_min(saturate_or_zero(v), window.v), window.v);
+    window.layer.opacity = 0.0;
     var led = gnomon_deep_window_lead(window, z, v);
-    let next = gnomon_deep_window_next(window);
     let deeper = window.most < window.least && (z - window.z0_) * gnomon_deep_window_steepest <= 1.0;
     let done = known && !(deeper || (window.least <= window.most && led.least <= led.most));
-    window.layer = next.layer;
-    window.layer.opacity = gnomon_select(done, next.layer.opacity, 0.0);
-    window.z0_ = gnomon_select(done, next.z0_, window.z0_);
-    window.v0_ = gnomon_select(done, next.v0_, window.v0_);
-    window.least = gnomon_select(done, next.least, window.least);
-    window.most = gnomon_select(done, next.most, window.most);
-    window.touched = gnomon_select(done, next.touched, window.touched);
-    led = gnomon_deep_window_lead(window, z, v);
+    if (gnomon_any(done)) { led = gnomon_deep_window_select(done,
+                                                            gnomon_deep_window_lead(gnomon_deep_window_next(window), z,
+                                                                                    v), led); }
     led.touched = gnomon_select(known, led.touched, touched);
     return led;
 }

@@ -7887,6 +7887,24 @@ GNOMON_INLINE constexpr deep_window<Real> deep_window_lead(deep_window<Real> win
     return window;
 }
 
+/// a where the mask is set, b elsewhere.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr deep_window<Real> deep_window_select(mask_t<Real> mask, deep_window<Real> a,
+                                                             deep_window<Real> b)
+{
+    b.z0 = gnomon_select(mask, a.z0, b.z0);
+    b.v0 = gnomon_select(mask, a.v0, b.v0);
+    b.z1 = gnomon_select(mask, a.z1, b.z1);
+    b.v1 = gnomon_select(mask, a.v1, b.v1);
+    b.least = gnomon_select(mask, a.least, b.least);
+    b.most = gnomon_select(mask, a.most, b.most);
+    b.touched = gnomon_select(mask, a.touched, b.touched);
+    b.layer.z0 = gnomon_select(mask, a.layer.z0, b.layer.z0);
+    b.layer.z1 = gnomon_select(mask, a.layer.z1, b.layer.z1);
+    b.layer.opacity = gnomon_select(mask, a.layer.opacity, b.layer.opacity);
+    return b;
+}
+
 /// Add a vertex of the polyline, transmittance v at depth z; two at one depth are a step. If the layer of the result
 /// has an opacity above 0 it is complete, and the caller keeps it.
 /// Domain: vertices from near to far, transmittance in [0, 1] and never growing; others are moved to the nearest such.
@@ -7901,19 +7919,12 @@ GNOMON_INLINE constexpr deep_window<Real> deep_window_add(deep_window<Real> wind
     Real touched = window.touched;
     z = gnomon_select(known, gnomon_max(z, window.z1), window.z1);
     v = gnomon_select(known, gnomon_min(saturate_or_zero(v), window.v), window.v);
+    window.layer.opacity = Real(0);
     deep_window led = deep_window_lead(window, z, v);
-    deep_window next = deep_window_next(window);
     mask_t<Real> deeper = window.most < window.least && (z - window.z0) *
                           literal<Real>(deep_window_steepest) <= Real(1);
     mask_t<Real> done = known && !(deeper || (window.least <= window.most && led.least <= led.most));
-    window.layer = next.layer;
-    window.layer.opacity = gnomon_select(done, next.layer.opacity, Real(0));
-    window.z0 = gnomon_select(done, next.z0, window.z0);
-    window.v0 = gnomon_select(done, next.v0, window.v0);
-    window.least = gnomon_select(done, next.least, window.least);
-    window.most = gnomon_select(done, next.most, window.most);
-    window.touched = gnomon_select(done, next.touched, window.touched);
-    led = deep_window_lead(window, z, v);
+    if (gnomon_any(done)) led = deep_window_select(done, deep_window_lead(deep_window_next(window), z, v), led);
     led.touched = gnomon_select(known, led.touched, touched);
     return led;
 }
