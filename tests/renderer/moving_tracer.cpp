@@ -228,7 +228,7 @@ TEST_CASE("at any time, light through moving panes is that through the static pa
     const tracer moving(stage.world);
     std::vector<receiver> receivers;
     for (int i = 0; i < 2000; ++i) {
-        const hit seen = moving.first_hit(ray_through(stage.eye, {uniform(random), uniform(random)}), 0.5f);
+        const hit seen = moving.first_hit(ray_through(stage.eye.open, {uniform(random), uniform(random)}), 0.5f);
         if (seen.valid()) receivers.push_back({{seen.position.x, 0, seen.position.z}, {0, 1, 0}});
     }
     receivers.push_back({receivers[0].position, {0, -1, 0}}); // faces away
