@@ -46,7 +46,8 @@ TEST_CASE("a sample has the depth, id and motion of the first hit of a ray at it
     constexpr int width = 75, height = 50;
     const glm::dvec2 size(width, height);
     for (const bool perspective : {false, true})
-        for (const sample_pattern pattern : {sample_pattern::stratified, sample_pattern::centres}) {
+        for (const sample_pattern pattern :
+             {sample_pattern::stratified, sample_pattern::even, sample_pattern::centres}) {
             CAPTURE(perspective);
             const moving_scene world = moving_boxes(1, 6);
             moving_camera light = light_of(world, perspective);
@@ -153,6 +154,32 @@ TEST_CASE("place, time and the samples of other seeds are independent of one ano
         const double most = 5.0 / 12 * std::sqrt(double(one.of.size()));
         for (const double sum : {place_and_time, seeds, times, neighbours, x_and_y}) CHECK(std::abs(sum) < most);
     }
+}
+
+TEST_CASE("even times fill their strata over few texels, by another shift for each seed")
+{
+    const moving_scene world = moving_boxes(3, 0);
+    const moving_camera light = light_of(world, false);
+    constexpr std::size_t size = 64, window = 6, samples = 2;
+    const auto squares_of_means = [&](sample_pattern pattern, std::uint32_t seed) {
+        const sample_picture drawn =
+            rasterize_samples(world, light, int(size), int(size), {int(samples), seed, pattern});
+        double squares = 0;
+        for (std::size_t y = 0; y + window <= size; ++y)
+            for (std::size_t x = 0; x + window <= size; ++x) {
+                double mean = 0;
+                for (std::size_t i = 0; i < window * window; ++i)
+                    mean += double(drawn.map()(x + i % window, y + i / window)[1].t) - 0.75;
+                squares += mean * mean;
+            }
+        return squares;
+    };
+    for (const std::uint32_t seed : {1u, 2u, 3u})
+        CHECK(squares_of_means(sample_pattern::even, seed) < 0.25 * squares_of_means(sample_pattern::stratified, seed));
+    const auto time = [&](std::uint32_t seed) {
+        return rasterize_samples(world, light, 1, 1, {.seed = seed, .pattern = sample_pattern::even}).of[0].t;
+    };
+    CHECK(std::abs(time(1) - time(2)) > 1e-4f);
 }
 
 TEST_CASE("samples do not depend on the number of threads, nor those of a texel on the size of the picture")

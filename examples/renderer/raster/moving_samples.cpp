@@ -3,6 +3,7 @@
 #include "tile_bins.hpp"
 
 #include <gnomon/motion/triangle/triangle_motion.h>
+#include <gnomon/passes/range/samples.hpp>
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -43,7 +44,7 @@ class sample_source {
         if (how.samples < 1 || how.samples > int(texel_limit))
             throw std::invalid_argument(
                 fmt::format("moving samples: {} samples, 1 to {} are possible", how.samples, int(texel_limit)));
-        if (how.pattern == sample_pattern::stratified) draw_strata();
+        if (strata()) draw_strata();
     }
 
     // Calls put(k, place) for the samples of a texel.
@@ -51,14 +52,17 @@ class sample_source {
     {
         const std::uint64_t own =
             mixed(std::uint64_t(how_.seed) << 32 | std::uint64_t(texel.y) << 16 | std::uint64_t(texel.x));
-        const std::size_t samples = std::size_t(how_.samples), strata = (own >> 56) * samples;
+        const std::size_t samples = std::size_t(how_.samples), strata_begin = (own >> 56) * samples;
+        const float shifted = instant_of_texel(std::size_t(texel.x), std::size_t(texel.y)) + shift_;
         for (std::size_t k = 0; k < samples; ++k) {
             const std::uint64_t bits = mixed(own + k);
-            sample_place at{0.5f, 0.5f, stratified_time(float(k), count_, jitter(bits, 0))};
+            const bool even = how_.pattern == sample_pattern::even;
+            const float part = even ? shifted - std::floor(shifted) : jitter(bits, 0);
+            sample_place at{0.5f, 0.5f, stratified_time(float(k), count_, part)};
             if (how_.pattern != sample_pattern::centres) at.x = jitter(bits, 20), at.y = jitter(bits, 40);
-            if (how_.pattern == sample_pattern::stratified) {
-                at.x = (float(strata_[strata + k].x) + at.x) * stratum_;
-                at.y = (float(strata_[strata + k].y) + at.y) * stratum_;
+            if (strata()) {
+                at.x = (float(strata_[strata_begin + k].x) + at.x) * stratum_;
+                at.y = (float(strata_[strata_begin + k].y) + at.y) * stratum_;
             }
             put(k, at);
         }
@@ -66,6 +70,8 @@ class sample_source {
 
   private:
     static constexpr int patterns = 256;
+
+    bool strata() const { return how_.pattern == sample_pattern::stratified || how_.pattern == sample_pattern::even; }
 
     // Draws the columns and rows of the samples, for each pattern.
     void draw_strata()
@@ -92,7 +98,8 @@ class sample_source {
 
     const sample_options how_;
     const float count_, stratum_;
-    std::vector<glm::ivec2> strata_; // sample k of pattern p is number p samples + k
+    const float shift_ = jitter(mixed(how_.seed), 0); // of the parts of all texels
+    std::vector<glm::ivec2> strata_;                  // sample k of pattern p is number p samples + k
 };
 
 // One sample of each texel of a pack, with the nearest triangle so far.

@@ -16,8 +16,10 @@
 
 namespace gnomon::renderer {
 
-// Places inside of the texel: stratified, random and independent of one another, or its centre for all samples.
-enum class sample_pattern { stratified, jittered, centres };
+// Places inside of the texel: stratified, random and independent of one another, or its centre for all samples. Times of
+// neighbours are independent of one another, but for `even`: stratified places, and times that fill their strata evenly
+// over any few neighbours (instant_of_texel), so that filters over these have less noise.
+enum class sample_pattern { stratified, jittered, centres, even };
 
 struct sample_options {
     int samples = 4;        // for each texel
