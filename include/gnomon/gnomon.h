@@ -37,6 +37,7 @@
 #include "motion/layers/layer_clusters.h"
 #include "motion/layers/layer_grid.h"
 #include "motion/layers/layer_look_up.h"
+#include "motion/layers/layer_parts.h"
 #include "motion/layers/layer_sums.h"
 #include "motion/layers/receiver_footprint.h"
 #include "motion/layers/stochastic_sample.h"

@@ -5903,15 +5903,22 @@ static inline gnomon_layer_motion_sums layer_motion_begin(stochastic_sample firs
     return r;
 }
 
+/// True if a sample of this middle depth tells of a layer's motion: a surface whose motion is at most 65536 texels
+/// long.
+static inline bool gnomon_layer_counts(stochastic_sample s, float middle)
+{
+    float limit = gnomon_texel_limit;
+    bool moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
+    return moves && gnomon_layer_is_surface(middle);
+}
+
 /// The state after one more sample and its middle depth.
 /// Domain: motions up to 65536 texels; longer ones are no information.
 /// NaN: no information, the state as before.
 static inline gnomon_layer_motion_sums layer_motion_add(gnomon_layer_motion_sums state, stochastic_sample s,
                                                         float middle)
 {
-    float limit = gnomon_texel_limit;
-    bool moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
-    bool known = moves && gnomon_layer_is_surface(middle);
+    bool known = gnomon_layer_counts(s, middle);
     float x = gnomon_select(known, s.d_x - state.first_x, 0.0f);
     float y = gnomon_select(known, s.d_y - state.first_y, 0.0f);
     float z = gnomon_select(known, s.d_z - state.first_z, 0.0f);
@@ -6113,7 +6120,11 @@ static inline gnomon_layer_footprint layer_footprint_make(layer_grid grid, float
     width = gnomon_min(width, grid.middle + grid.middle);
     float probes = -1.0f * texel_below(-1.0f * (longer / width)); // rounded up
     r.probes = gnomon_max(gnomon_min(probes, gnomon_layer_most_probes), 1.0f);
-    r.level = gnomon_max(polynomial_log(width) * gnomon_exp_log2_e, 0.0f);
+    r.level = 0.0f;
+    bool coarse = 1.0f < width;
+    if (gnomon_any(coarse)) {
+        r.level = gnomon_select(coarse, polynomial_log(width) * gnomon_exp_log2_e, 0.0f);
+    }
     return r;
 }
 
@@ -6384,6 +6395,132 @@ static inline float layer_exponential_visibility(gnomon_layer_exponential_sums s
     exponential_moment b;
     b.warped = sums.warped / sums.opacity;
     return gnomon_layer_transmission(sums.opacity, sums.weight, exponential_intensity(b, z, settings), z);
+}
+
+#endif
+
+// motion/layers/layer_parts.h -----------------------------------------------------------------------------------------
+// Parts of one layer that move unlike: samples of one range of depths, divided by their motion (the future work of
+// Andersson et al. 2015, Sec. 7). Depth alone does not tell leaves from the branch between them, and a mean motion
+// serves neither.
+//
+// The motions of a layer's samples vary most along one direction. Their places on it, in standard deviations, are
+// clustered as depths are (layer_clusters.h): equal bins, and a cut at the longest interior run of empty ones. Either
+// part has sums on a grid of its own motion. Both overlap in depth, so that either may hide the other: a sample of one
+// part is no information about the other. A receiver sees the product of the visibilities through both, as through two
+// layers.
+//
+//     state = layer_direction_begin(motion);                                       the layer's motion
+// (layer_motion_end)
+//     state = layer_direction_add(state, s, layer_middle_depth(s));                for all samples of the layer
+//     direction = layer_direction_end(state);
+//     window, bins and cuts of keys = layer_direction_key(direction, s) in place of depths, for two layers
+//     part = layer_of(key, cuts)                                                   0 or 1
+//     sums = layer_sums_add(sums, z, layer_share_of_part(at, layer, part, wanted)) for the part `wanted`
+#ifndef GNOMON_MOTION_LAYERS_LAYER_PARTS_H
+#define GNOMON_MOTION_LAYERS_LAYER_PARTS_H
+
+/// A fold over the samples of a layer: its mean motion, sums of squares and products of differences from that, and
+/// their number.
+typedef struct gnomon_layer_direction_sums gnomon_layer_direction_sums;
+struct gnomon_layer_direction_sums { float d_x, d_y, xx, xy, yy, count; };
+
+/// The mean motion of a layer, the direction in which its samples' motions differ most, and the inverse of four
+/// standard deviations in that direction; 0 if they do not differ.
+typedef struct gnomon_layer_direction gnomon_layer_direction;
+struct gnomon_layer_direction { float d_x, d_y, axis_x, axis_y, scale; };
+
+// 2^-20 square texels: motions that differ less do not
+__constant float gnomon_layer_least_difference = 0.00000095367431640625f;
+
+/// The state before the first sample.
+static inline gnomon_layer_direction_sums layer_direction_begin(gnomon_layer_motion motion)
+{
+    gnomon_layer_direction_sums r;
+    r.d_x = motion.d_x;
+    r.d_y = motion.d_y;
+    r.xx = 0.0f;
+    r.xy = 0.0f;
+    r.yy = 0.0f;
+    r.count = 0.0f;
+    return r;
+}
+
+/// The state after one more sample and its middle depth.
+/// Domain: as for layer_motion_add.
+/// NaN: no information, the state as before.
+static inline gnomon_layer_direction_sums layer_direction_add(gnomon_layer_direction_sums state, stochastic_sample s,
+                                                              float middle)
+{
+    bool known = gnomon_layer_counts(s, middle);
+    float x = gnomon_select(known, s.d_x - state.d_x, 0.0f);
+    float y = gnomon_select(known, s.d_y - state.d_y, 0.0f);
+    state.xx = state.xx + x * x;
+    state.xy = state.xy + x * y;
+    state.yy = state.yy + y * y;
+    state.count = state.count + gnomon_select(known, 1.0f, 0.0f);
+    return state;
+}
+
+/// The direction in which motions differ most: that of the larger eigenvalue of their covariance, along x if both are
+/// equal.
+/// Domain: differences from 2^-10 texels on; of smaller ones the direction is along x, and scale is 0.
+/// Error: of the axis, 16 2^-p times the larger eigenvalue over the difference of both; of scale, relative, (n + 8)
+/// 2^-p, n the number of samples.
+static inline gnomon_layer_direction layer_direction_end(gnomon_layer_direction_sums state)
+{
+    float half_difference = 0.5f * (state.xx - state.yy);
+    float radius = gnomon_sqrt(half_difference * half_difference + state.xy * state.xy);
+    float larger = 0.5f * (state.xx + state.yy) + radius;
+    // (xy, larger - xx) and (larger - yy, xy) are both along the axis: the one without cancellation.
+    bool steep = half_difference < 0.0f;
+    float long_part = radius + gnomon_abs(half_difference);
+    float x = gnomon_select(steep, state.xy, long_part);
+    float y = gnomon_select(steep, long_part, state.xy);
+    float norm = gnomon_sqrt(x * x + y * y);
+    bool apart = 0.0f < norm;
+    float square = larger / gnomon_max(state.count, 1.0f);
+    bool differ = gnomon_layer_least_difference <= square;
+    gnomon_layer_direction r;
+    r.d_x = state.d_x;
+    r.d_y = state.d_y;
+    r.axis_x = gnomon_select(apart && differ, x / norm, 1.0f);
+    r.axis_y = gnomon_select(apart && differ, y / norm, 0.0f);
+    r.scale = gnomon_select(differ, 0.25f / gnomon_sqrt(square), 0.0f);
+    return r;
+}
+
+/// The place of a sample's motion on the direction, from the layer's mean: 1 at four standard deviations, limited to
+/// [-2, 2].
+/// NaN: gnomon_layer_unknown_depth.
+static inline float layer_direction_key(gnomon_layer_direction direction, stochastic_sample s)
+{
+    float x = (s.d_x - direction.d_x) * direction.axis_x;
+    float y = (s.d_y - direction.d_y) * direction.axis_y;
+    float key = (x + y) * direction.scale;
+    float limit = gnomon_layer_depth_limit;
+    float inside = gnomon_max(gnomon_min(key, limit), -1.0f * limit);
+    return gnomon_select(gnomon_abs(key) <= gnomon_texel_limit, inside, gnomon_layer_unknown_depth);
+}
+
+/// The key that divides a layer into two parts: the centre of the longest run of empty bins (layer_cuts_add) if that is
+/// at least `bins` bins long, else gnomon_layer_no_cut. A few samples leave short runs anywhere.
+/// NaN: a `bins` of NaN divides nothing.
+static inline float layer_part_cut(gnomon_layer_runs state, float bins)
+{
+    return gnomon_select(bins <= state.length0, layer_cuts_end(state, 2.0f).c0, gnomon_layer_no_cut);
+}
+
+/// Opacity and weight, for part number `wanted` of layer number `layer`, of a sample that is in part `part` of layer
+/// `at`. A sample of the other part has neither.
+/// NaN: no weight for an `at` of NaN, or for a `part` of NaN in the layer.
+static inline gnomon_layer_share layer_share_of_part(float at, float layer, float part, float wanted)
+{
+    gnomon_layer_share r = layer_share_of(at, layer);
+    bool other = at == layer && !(part == wanted);
+    r.opacity = gnomon_select(other, 0.0f, r.opacity);
+    r.weight = gnomon_select(other, 0.0f, r.weight);
+    return r;
 }
 
 #endif

@@ -6910,6 +6910,16 @@ GNOMON_INLINE constexpr layer_motion_sums<Real> layer_motion_begin(stochastic_sa
     return r;
 }
 
+/// True if a sample of this middle depth tells of a layer's motion: a surface whose motion is at most 65536 texels
+/// long.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr mask_t<Real> layer_counts(stochastic_sample<Real> s, Real middle)
+{
+    Real limit = literal<Real>(texel_limit);
+    mask_t<Real> moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
+    return moves && layer_is_surface(middle);
+}
+
 /// The state after one more sample and its middle depth.
 /// Domain: motions up to 65536 texels; longer ones are no information.
 /// NaN: no information, the state as before.
@@ -6917,9 +6927,7 @@ template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr layer_motion_sums<Real> layer_motion_add(layer_motion_sums<Real> state,
                                                                  stochastic_sample<Real> s, Real middle)
 {
-    Real limit = literal<Real>(texel_limit);
-    mask_t<Real> moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
-    mask_t<Real> known = moves && layer_is_surface(middle);
+    mask_t<Real> known = layer_counts(s, middle);
     Real x = gnomon_select(known, s.d_x - state.first_x, Real(0));
     Real y = gnomon_select(known, s.d_y - state.first_y, Real(0));
     Real z = gnomon_select(known, s.d_z - state.first_z, Real(0));
@@ -7135,7 +7143,11 @@ GNOMON_INLINE constexpr layer_footprint<Real> layer_footprint_make(layer_grid<Re
     width = gnomon_min(width, grid.middle + grid.middle);
     Real probes = Real(-1) * texel_below(Real(-1) * (longer / width)); // rounded up
     r.probes = gnomon_max(gnomon_min(probes, literal<Real>(layer_most_probes)), Real(1));
-    r.level = gnomon_max(polynomial_log(width) * literal<Real>(exp_log2_e), Real(0));
+    r.level = Real(0);
+    mask_t<Real> coarse = Real(1) < width;
+    if (gnomon_any(coarse)) {
+        r.level = gnomon_select(coarse, polynomial_log(width) * literal<Real>(exp_log2_e), Real(0));
+    }
     return r;
 }
 
@@ -7428,6 +7440,140 @@ GNOMON_INLINE constexpr Real layer_exponential_visibility(layer_exponential_sums
     exponential_moment<Real> b;
     b.warped = sums.warped / sums.opacity;
     return layer_transmission(sums.opacity, sums.weight, exponential_intensity(b, z, settings), z);
+}
+
+GNOMON_WARNINGS_ON } // namespace gnomon
+
+#endif
+
+// motion/layers/layer_parts.h -----------------------------------------------------------------------------------------
+// Parts of one layer that move unlike: samples of one range of depths, divided by their motion (the future work of
+// Andersson et al. 2015, Sec. 7). Depth alone does not tell leaves from the branch between them, and a mean motion
+// serves neither.
+//
+// The motions of a layer's samples vary most along one direction. Their places on it, in standard deviations, are
+// clustered as depths are (layer_clusters.h): equal bins, and a cut at the longest interior run of empty ones. Either
+// part has sums on a grid of its own motion. Both overlap in depth, so that either may hide the other: a sample of one
+// part is no information about the other. A receiver sees the product of the visibilities through both, as through two
+// layers.
+//
+//     state = layer_direction_begin(motion);                                       the layer's motion
+// (layer_motion_end)
+//     state = layer_direction_add(state, s, layer_middle_depth(s));                for all samples of the layer
+//     direction = layer_direction_end(state);
+//     window, bins and cuts of keys = layer_direction_key(direction, s) in place of depths, for two layers
+//     part = layer_of(key, cuts)                                                   0 or 1
+//     sums = layer_sums_add(sums, z, layer_share_of_part(at, layer, part, wanted)) for the part `wanted`
+#ifndef GNOMON_MOTION_LAYERS_LAYER_PARTS_H
+#define GNOMON_MOTION_LAYERS_LAYER_PARTS_H
+
+GNOMON_WARNINGS_OFF namespace gnomon {
+
+/// A fold over the samples of a layer: its mean motion, sums of squares and products of differences from that, and
+/// their number.
+template <class Real, class = require_real<Real>> struct layer_direction_sums { Real d_x, d_y, xx, xy, yy, count; };
+
+/// The mean motion of a layer, the direction in which its samples' motions differ most, and the inverse of four
+/// standard deviations in that direction; 0 if they do not differ.
+template <class Real, class = require_real<Real>> struct layer_direction { Real d_x, d_y, axis_x, axis_y, scale; };
+
+// 2^-20 square texels: motions that differ less do not
+inline constexpr double layer_least_difference = 0.00000095367431640625;
+
+/// The state before the first sample.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr layer_direction_sums<Real> layer_direction_begin(layer_motion<Real> motion)
+{
+    layer_direction_sums<Real> r;
+    r.d_x = motion.d_x;
+    r.d_y = motion.d_y;
+    r.xx = Real(0);
+    r.xy = Real(0);
+    r.yy = Real(0);
+    r.count = Real(0);
+    return r;
+}
+
+/// The state after one more sample and its middle depth.
+/// Domain: as for layer_motion_add.
+/// NaN: no information, the state as before.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr layer_direction_sums<Real> layer_direction_add(layer_direction_sums<Real> state,
+                                                                       stochastic_sample<Real> s, Real middle)
+{
+    mask_t<Real> known = layer_counts(s, middle);
+    Real x = gnomon_select(known, s.d_x - state.d_x, Real(0));
+    Real y = gnomon_select(known, s.d_y - state.d_y, Real(0));
+    state.xx = state.xx + x * x;
+    state.xy = state.xy + x * y;
+    state.yy = state.yy + y * y;
+    state.count = state.count + gnomon_select(known, Real(1), Real(0));
+    return state;
+}
+
+/// The direction in which motions differ most: that of the larger eigenvalue of their covariance, along x if both are
+/// equal.
+/// Domain: differences from 2^-10 texels on; of smaller ones the direction is along x, and scale is 0.
+/// Error: of the axis, 16 2^-p times the larger eigenvalue over the difference of both; of scale, relative, (n + 8)
+/// 2^-p, n the number of samples.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr layer_direction<Real> layer_direction_end(layer_direction_sums<Real> state)
+{
+    Real half_difference = Real(0.5) * (state.xx - state.yy);
+    Real radius = gnomon_sqrt(half_difference * half_difference + state.xy * state.xy);
+    Real larger = Real(0.5) * (state.xx + state.yy) + radius;
+    // (xy, larger - xx) and (larger - yy, xy) are both along the axis: the one without cancellation.
+    mask_t<Real> steep = half_difference < Real(0);
+    Real long_part = radius + gnomon_abs(half_difference);
+    Real x = gnomon_select(steep, state.xy, long_part);
+    Real y = gnomon_select(steep, long_part, state.xy);
+    Real norm = gnomon_sqrt(x * x + y * y);
+    mask_t<Real> apart = Real(0) < norm;
+    Real square = larger / gnomon_max(state.count, Real(1));
+    mask_t<Real> differ = literal<Real>(layer_least_difference) <= square;
+    layer_direction<Real> r;
+    r.d_x = state.d_x;
+    r.d_y = state.d_y;
+    r.axis_x = gnomon_select(apart && differ, x / norm, Real(1));
+    r.axis_y = gnomon_select(apart && differ, y / norm, Real(0));
+    r.scale = gnomon_select(differ, Real(0.25) / gnomon_sqrt(square), Real(0));
+    return r;
+}
+
+/// The place of a sample's motion on the direction, from the layer's mean: 1 at four standard deviations, limited to
+/// [-2, 2].
+/// NaN: layer_unknown_depth.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real layer_direction_key(layer_direction<Real> direction, stochastic_sample<Real> s)
+{
+    Real x = (s.d_x - direction.d_x) * direction.axis_x;
+    Real y = (s.d_y - direction.d_y) * direction.axis_y;
+    Real key = (x + y) * direction.scale;
+    Real limit = literal<Real>(layer_depth_limit);
+    Real inside = gnomon_max(gnomon_min(key, limit), Real(-1) * limit);
+    return gnomon_select(gnomon_abs(key) <= literal<Real>(texel_limit), inside, literal<Real>(layer_unknown_depth));
+}
+
+/// The key that divides a layer into two parts: the centre of the longest run of empty bins (layer_cuts_add) if that is
+/// at least `bins` bins long, else layer_no_cut. A few samples leave short runs anywhere.
+/// NaN: a `bins` of NaN divides nothing.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real layer_part_cut(layer_runs<Real> state, std::type_identity_t<Real> bins)
+{
+    return gnomon_select(bins <= state.length0, layer_cuts_end(state, Real(2)).c0, literal<Real>(layer_no_cut));
+}
+
+/// Opacity and weight, for part number `wanted` of layer number `layer`, of a sample that is in part `part` of layer
+/// `at`. A sample of the other part has neither.
+/// NaN: no weight for an `at` of NaN, or for a `part` of NaN in the layer.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr layer_share<Real> layer_share_of_part(Real at, Real layer, Real part, Real wanted)
+{
+    layer_share<Real> r = layer_share_of(at, layer);
+    mask_t<Real> other = at == layer && !(part == wanted);
+    r.opacity = gnomon_select(other, Real(0), r.opacity);
+    r.weight = gnomon_select(other, Real(0), r.weight);
+    return r;
 }
 
 GNOMON_WARNINGS_ON } // namespace gnomon

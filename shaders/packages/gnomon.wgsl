@@ -5563,6 +5563,15 @@ fn layer_motion_begin(first: stochastic_sample) -> gnomon_layer_motion_sums
     return r;
 }
 
+/// True if a sample of this middle depth tells of a layer's motion: a surface whose motion is at most 65536 texels
+/// long.
+fn gnomon_layer_counts(s: stochastic_sample, middle: f32) -> bool
+{
+    let limit = gnomon_texel_limit;
+    let moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
+    return moves && gnomon_layer_is_surface(middle);
+}
+
 /// The state after one more sample and its middle depth.
 /// Domain: motions up to 65536 texels; longer ones are no information.
 /// NaN: no information, the state as before.
@@ -5570,9 +5579,7 @@ fn layer_motion_add(given_state: gnomon_layer_motion_sums, s: stochastic_sample,
                     middle: f32) -> gnomon_layer_motion_sums
 {
     var state = given_state;
-    let limit = gnomon_texel_limit;
-    let moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
-    let known = moves && gnomon_layer_is_surface(middle);
+    let known = gnomon_layer_counts(s, middle);
     let x = gnomon_select(known, s.d_x - state.first_x, 0.0);
     let y = gnomon_select(known, s.d_y - state.first_y, 0.0);
     let z = gnomon_select(known, s.d_z - state.first_z, 0.0);
@@ -5766,7 +5773,11 @@ fn layer_footprint_make(grid: layer_grid, x0: f32, y0: f32, t0: f32, x1: f32, y1
     width = gnomon_min(width, grid.middle + grid.middle);
     let probes = -1.0 * texel_below(-1.0 * (longer / width)); // rounded up
     r.probes = gnomon_max(gnomon_min(probes, gnomon_layer_most_probes), 1.0);
-    r.level = gnomon_max(polynomial_log(width) * gnomon_exp_log2_e, 0.0);
+    r.level = 0.0;
+    let coarse = 1.0 < width;
+    if (gnomon_any(coarse)) {
+        r.level = gnomon_select(coarse, polynomial_log(width) * gnomon_exp_log2_e, 0.0);
+    }
     return r;
 }
 
@@ -6028,6 +6039,127 @@ fn layer_exponential_visibility(sums: gnomon_layer_exponential_sums, z: f32, set
     var b: exponential_moment;
     b.warped = sums.warped / sums.opacity;
     return gnomon_layer_transmission(sums.opacity, sums.weight, exponential_intensity(b, z, settings), z);
+}
+
+// motion/layers/layer_parts.h -----------------------------------------------------------------------------------------
+// Parts of one layer that move unlike: samples of one range of depths, divided by their motion (the future work of
+// Andersson et al. 2015, Sec. 7). Depth alone does not tell leaves from the branch between them, and a mean motion
+// serves neither.
+//
+// The motions of a layer's samples vary most along one direction. Their places on it, in standard deviations, are
+// clustered as depths are (layer_clusters.h): equal bins, and a cut at the longest interior run of empty ones. Either
+// part has sums on a grid of its own motion. Both overlap in depth, so that either may hide the other: a sample of one
+// part is no information about the other. A receiver sees the product of the visibilities through both, as through two
+// layers.
+//
+//     state = layer_direction_begin(motion);                                       the layer's motion
+// (layer_motion_end)
+//     state = layer_direction_add(state, s, layer_middle_depth(s));                for all samples of the layer
+//     direction = layer_direction_end(state);
+//     window, bins and cuts of keys = layer_direction_key(direction, s) in place of depths, for two layers
+//     part = layer_of(key, cuts)                                                   0 or 1
+//     sums = layer_sums_add(sums, z, layer_share_of_part(at, layer, part, wanted)) for the part `wanted`
+
+/// A fold over the samples of a layer: its mean motion, sums of squares and products of differences from that, and
+/// their number.
+struct gnomon_layer_direction_sums { d_x: f32, d_y: f32, xx: f32, xy: f32, yy: f32, count: f32 }
+
+/// The mean motion of a layer, the direction in which its samples' motions differ most, and the inverse of four
+/// standard deviations in that direction; 0 if they do not differ.
+struct gnomon_layer_direction { d_x: f32, d_y: f32, axis_x: f32, axis_y: f32, scale: f32 }
+
+// 2^-20 square texels: motions that differ less do not
+const gnomon_layer_least_difference: f32 = 0.00000095367431640625;
+
+/// The state before the first sample.
+fn layer_direction_begin(motion: gnomon_layer_motion) -> gnomon_layer_direction_sums
+{
+    var r: gnomon_layer_direction_sums;
+    r.d_x = motion.d_x;
+    r.d_y = motion.d_y;
+    r.xx = 0.0;
+    r.xy = 0.0;
+    r.yy = 0.0;
+    r.count = 0.0;
+    return r;
+}
+
+/// The state after one more sample and its middle depth.
+/// Domain: as for layer_motion_add.
+/// NaN: no information, the state as before.
+fn layer_direction_add(given_state: gnomon_layer_direction_sums, s: stochastic_sample,
+                       middle: f32) -> gnomon_layer_direction_sums
+{
+    var state = given_state;
+    let known = gnomon_layer_counts(s, middle);
+    let x = gnomon_select(known, s.d_x - state.d_x, 0.0);
+    let y = gnomon_select(known, s.d_y - state.d_y, 0.0);
+    state.xx = state.xx + x * x;
+    state.xy = state.xy + x * y;
+    state.yy = state.yy + y * y;
+    state.count = state.count + gnomon_select(known, 1.0, 0.0);
+    return state;
+}
+
+/// The direction in which motions differ most: that of the larger eigenvalue of their covariance, along x if both are
+/// equal.
+/// Domain: differences from 2^-10 texels on; of smaller ones the direction is along x, and scale is 0.
+/// Error: of the axis, 16 2^-p times the larger eigenvalue over the difference of both; of scale, relative, (n + 8)
+/// 2^-p, n the number of samples.
+fn layer_direction_end(state: gnomon_layer_direction_sums) -> gnomon_layer_direction
+{
+    let half_difference = 0.5 * (state.xx - state.yy);
+    let radius = gnomon_sqrt(half_difference * half_difference + state.xy * state.xy);
+    let larger = 0.5 * (state.xx + state.yy) + radius;
+    // (xy, larger - xx) and (larger - yy, xy) are both along the axis: the one without cancellation.
+    let steep = half_difference < 0.0;
+    let long_part = radius + gnomon_abs(half_difference);
+    let x = gnomon_select(steep, state.xy, long_part);
+    let y = gnomon_select(steep, long_part, state.xy);
+    let norm = gnomon_sqrt(x * x + y * y);
+    let apart = 0.0 < norm;
+    let square = larger / gnomon_max(state.count, 1.0);
+    let differ = gnomon_layer_least_difference <= square;
+    var r: gnomon_layer_direction;
+    r.d_x = state.d_x;
+    r.d_y = state.d_y;
+    r.axis_x = gnomon_select(apart && differ, x / norm, 1.0);
+    r.axis_y = gnomon_select(apart && differ, y / norm, 0.0);
+    r.scale = gnomon_select(differ, 0.25 / gnomon_sqrt(square), 0.0);
+    return r;
+}
+
+/// The place of a sample's motion on the direction, from the layer's mean: 1 at four standard deviations, limited to
+/// [-2, 2].
+/// NaN: gnomon_layer_unknown_depth.
+fn layer_direction_key(direction: gnomon_layer_direction, s: stochastic_sample) -> f32
+{
+    let x = (s.d_x - direction.d_x) * direction.axis_x;
+    let y = (s.d_y - direction.d_y) * direction.axis_y;
+    let key = (x + y) * direction.scale;
+    let limit = gnomon_layer_depth_limit;
+    let inside = gnomon_max(gnomon_min(key, limit), -1.0 * limit);
+    return gnomon_select(gnomon_abs(key) <= gnomon_texel_limit, inside, gnomon_layer_unknown_depth);
+}
+
+/// The key that divides a layer into two parts: the centre of the longest run of empty bins (layer_cuts_add) if that is
+/// at least `bins` bins long, else gnomon_layer_no_cut. A few samples leave short runs anywhere.
+/// NaN: a `bins` of NaN divides nothing.
+fn layer_part_cut(state: gnomon_layer_runs, bins: f32) -> f32
+{
+    return gnomon_select(bins <= state.length0_, layer_cuts_end(state, 2.0).c0_, gnomon_layer_no_cut);
+}
+
+/// Opacity and weight, for part number `wanted` of layer number `layer`, of a sample that is in part `part` of layer
+/// `at`. A sample of the other part has neither.
+/// NaN: no weight for an `at` of NaN, or for a `part` of NaN in the layer.
+fn layer_share_of_part(at: f32, layer: f32, part: f32, wanted: f32) -> gnomon_layer_share
+{
+    var r = layer_share_of(at, layer);
+    let other = at == layer && !(part == wanted);
+    r.opacity = gnomon_select(other, 0.0, r.opacity);
+    r.weight = gnomon_select(other, 0.0, r.weight);
+    return r;
 }
 
 // motion/receiver/receiver_path.h -------------------------------------------------------------------------------------

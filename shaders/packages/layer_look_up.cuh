@@ -1224,6 +1224,16 @@ GNOMON_INLINE constexpr layer_motion_sums<Real> layer_motion_begin(stochastic_sa
     return r;
 }
 
+/// True if a sample of this middle depth tells of a layer's motion: a surface whose motion is at most 65536 texels
+/// long.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr mask_t<Real> layer_counts(stochastic_sample<Real> s, Real middle)
+{
+    Real limit = literal<Real>(texel_limit);
+    mask_t<Real> moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
+    return moves && layer_is_surface(middle);
+}
+
 /// The state after one more sample and its middle depth.
 /// Domain: motions up to 65536 texels; longer ones are no information.
 /// NaN: no information, the state as before.
@@ -1231,9 +1241,7 @@ template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr layer_motion_sums<Real> layer_motion_add(layer_motion_sums<Real> state,
                                                                  stochastic_sample<Real> s, Real middle)
 {
-    Real limit = literal<Real>(texel_limit);
-    mask_t<Real> moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
-    mask_t<Real> known = moves && layer_is_surface(middle);
+    mask_t<Real> known = layer_counts(s, middle);
     Real x = gnomon_select(known, s.d_x - state.first_x, Real(0));
     Real y = gnomon_select(known, s.d_y - state.first_y, Real(0));
     Real z = gnomon_select(known, s.d_z - state.first_z, Real(0));
@@ -1449,7 +1457,11 @@ GNOMON_INLINE constexpr layer_footprint<Real> layer_footprint_make(layer_grid<Re
     width = gnomon_min(width, grid.middle + grid.middle);
     Real probes = Real(-1) * texel_below(Real(-1) * (longer / width)); // rounded up
     r.probes = gnomon_max(gnomon_min(probes, literal<Real>(layer_most_probes)), Real(1));
-    r.level = gnomon_max(polynomial_log(width) * literal<Real>(exp_log2_e), Real(0));
+    r.level = Real(0);
+    mask_t<Real> coarse = Real(1) < width;
+    if (gnomon_any(coarse)) {
+        r.level = gnomon_select(coarse, polynomial_log(width) * literal<Real>(exp_log2_e), Real(0));
+    }
     return r;
 }
 

@@ -734,14 +734,21 @@ gnomon_layer_motion_sums layer_motion_begin(stochastic_sample first)
     return r;
 }
 
+/// True if a sample of this middle depth tells of a layer's motion: a surface whose motion is at most 65536 texels
+/// long.
+bool gnomon_layer_counts(stochastic_sample s, float middle)
+{
+    float limit = gnomon_texel_limit;
+    bool moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
+    return moves && gnomon_layer_is_surface(middle);
+}
+
 /// The state after one more sample and its middle depth.
 /// Domain: motions up to 65536 texels; longer ones are no information.
 /// NaN: no information, the state as before.
 gnomon_layer_motion_sums layer_motion_add(gnomon_layer_motion_sums state, stochastic_sample s, float middle)
 {
-    float limit = gnomon_texel_limit;
-    bool moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
-    bool known = moves && gnomon_layer_is_surface(middle);
+    bool known = gnomon_layer_counts(s, middle);
     float x = gnomon_select(known, s.d_x - state.first_x, 0.0);
     float y = gnomon_select(known, s.d_y - state.first_y, 0.0);
     float z = gnomon_select(known, s.d_z - state.first_z, 0.0);
@@ -938,7 +945,11 @@ gnomon_layer_footprint layer_footprint_make(layer_grid grid, float x0, float y0,
     width = gnomon_min(width, grid.middle + grid.middle);
     float probes = -1.0 * texel_below(-1.0 * (longer / width)); // rounded up
     r.probes = gnomon_max(gnomon_min(probes, gnomon_layer_most_probes), 1.0);
-    r.level = gnomon_max(polynomial_log(width) * gnomon_exp_log2_e, 0.0);
+    r.level = 0.0;
+    bool coarse = 1.0 < width;
+    if (gnomon_any(coarse)) {
+        r.level = gnomon_select(coarse, polynomial_log(width) * gnomon_exp_log2_e, 0.0);
+    }
     return r;
 }
 

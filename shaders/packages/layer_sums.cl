@@ -1600,15 +1600,22 @@ static inline gnomon_layer_motion_sums layer_motion_begin(stochastic_sample firs
     return r;
 }
 
+/// True if a sample of this middle depth tells of a layer's motion: a surface whose motion is at most 65536 texels
+/// long.
+static inline bool gnomon_layer_counts(stochastic_sample s, float middle)
+{
+    float limit = gnomon_texel_limit;
+    bool moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
+    return moves && gnomon_layer_is_surface(middle);
+}
+
 /// The state after one more sample and its middle depth.
 /// Domain: motions up to 65536 texels; longer ones are no information.
 /// NaN: no information, the state as before.
 static inline gnomon_layer_motion_sums layer_motion_add(gnomon_layer_motion_sums state, stochastic_sample s,
                                                         float middle)
 {
-    float limit = gnomon_texel_limit;
-    bool moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
-    bool known = moves && gnomon_layer_is_surface(middle);
+    bool known = gnomon_layer_counts(s, middle);
     float x = gnomon_select(known, s.d_x - state.first_x, 0.0f);
     float y = gnomon_select(known, s.d_y - state.first_y, 0.0f);
     float z = gnomon_select(known, s.d_z - state.first_z, 0.0f);

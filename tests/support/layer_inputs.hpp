@@ -5,7 +5,7 @@
 #include "situations.hpp"
 
 #include <gnomon/motion/layers/layer_look_up.h>
-#include <gnomon/motion/layers/layer_sums.h>
+#include <gnomon/motion/layers/layer_parts.h>
 
 namespace gnomon::test {
 
@@ -62,6 +62,16 @@ template <class T> layer_footprint<T> any_layer_footprint(const situation& s, bi
     const auto place = [&] { return T(bits.uniform(-8, 8)); };
     const T t0 = T(bits.uniform(0, 0.75)), t1 = t0 + T(0.25);
     return layer_footprint_make(grid, place(), place(), t0, place(), place(), t1, place(), place(), T(bits.below(2)));
+}
+
+template <class T> layer_direction_sums<T> any_layer_direction_sums(const situation& s, bit_source& bits)
+{
+    layer_direction_sums<T> r = layer_direction_begin(any_layer_motion<T>(s, bits));
+    for (std::size_t n = bits.below(5); n > 0; --n) {
+        const stochastic_sample<T> next = any_stochastic_sample<T>(s, bits);
+        r = layer_direction_add(r, next, layer_middle_depth(next));
+    }
+    return r;
 }
 
 /// The sums over some samples at two depths, with their shares, by add(sums, z, share).

@@ -152,6 +152,12 @@ inline constexpr input_family<T> motion_families[] = {
      [](auto put, const situation& s, bit_source& bits) { put(any_layer_motion_sums<T>(s, bits)); }},
     {"layer_motion", 7, [](auto put, const situation& s, bit_source& bits) { put(any_layer_motion<T>(s, bits)); }},
     {"layer_grid", 11, [](auto put, const situation& s, bit_source& bits) { put(any_layer_grid<T>(s, bits)); }},
+    {"layer_direction_sums", 6,
+     [](auto put, const situation& s, bit_source& bits) { put(any_layer_direction_sums<T>(s, bits)); }},
+    {"layer_direction", 5,
+     [](auto put, const situation& s, bit_source& bits) {
+         put(layer_direction_end(any_layer_direction_sums<T>(s, bits)));
+     }},
     {"layer_share", 2,
      [](auto put, const situation&, bit_source& bits) { put(layer_share_of(T(bits.below(6)) - 1, T(bits.below(4)))); }},
     {"layer_sums", 4,

@@ -130,7 +130,7 @@ TEST_CASE_TEMPLATE("clusters: a level surface, a single sample and the backgroun
     const layer_window<T> empty = window_of(std::vector<T>{nan, T(layer_background_depth)});
     CHECK(empty.least > empty.greatest);
     // Bins that the caller fills at random are not cut either, whatever the window is.
-    for (const layer_window<T> w : {layer_window<T>{nan, nan}, layer_window<T>{-INFINITY, INFINITY}, empty}) {
+    for (const layer_window<T> w : {layer_window<T>{nan, nan}, layer_window<T>{T(-INFINITY), T(INFINITY)}, empty}) {
         layer_runs<T> state = layer_cuts_begin(w);
         for (int k = 0; k < 64; ++k) state = layer_cuts_add(state, T(k % 5 == 0));
         CHECK(depths_of(layer_cuts_end(state, T(4))) == none);
@@ -185,7 +185,7 @@ TEST_CASE_TEMPLATE("clusters: middle depths err within the stated bound", T, flo
     const auto error = [](const std::vector<double>& p) {
         const stochastic_sample<T> s{0, 0, T(p[0]), T(2 * p[1] - 1), 0, 0, T(4 * p[2] - 2), 1};
         const wide exact = wide(s.z) + (0.5L - wide(s.t)) * wide(s.d_z);
-        return double(std::abs(wide(layer_middle_depth(s)) - exact) / u<T>);
+        return double(std::abs(wide(layer_middle_depth(s)) - exact) / wide(u<T>));
     };
     const summit worst = climb(3, 100'000, 34, error);
     CHECK(worst.score <= 4);

@@ -126,8 +126,7 @@ TEST_CASE_TEMPLATE("layer bias: slope over texels of the grid, and what of the m
         const T along = T(0.01 * p[2]), across = T(0.01 * p[3]), t = T(p[4]);
         const wide off = wide(g.spread) * std::abs(0.5L - wide(t));
         const wide rise = wide(along) * (1.5L / wide(g.scale_u) + off) + wide(across) * (1.5L / wide(g.scale_v) + off);
-        const wide exact =
-            std::min<wide>(std::min<wide>(rise, T(0.5)) + wide(g.spread_z) * std::abs(0.5L - wide(t)), 2);
+        const wide exact = std::min<wide>(std::min<wide>(rise, 0.5L) + wide(g.spread_z) * std::abs(0.5L - wide(t)), 2);
         return double(std::abs(wide(layer_bias(g, along, across, t, T(1.5), T(0.5))) - exact) /
                       (8 * wide(u<T>) * exact));
     };

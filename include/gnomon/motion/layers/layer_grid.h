@@ -53,15 +53,21 @@ GNOMON_KERNEL GNOMON_T(layer_motion_sums) layer_motion_begin(GNOMON_T(stochastic
     return r;
 }
 
+/// True if a sample of this middle depth tells of a layer's motion: a surface whose motion is at most 65536 texels long.
+GNOMON_DETAIL_KERNEL GNOMON_MASK layer_counts(GNOMON_T(stochastic_sample) s, Real middle)
+{
+    Real limit = GNOMON_LITERAL(texel_limit);
+    GNOMON_MASK moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
+    return moves && layer_is_surface(middle);
+}
+
 /// The state after one more sample and its middle depth.
 /// Domain: motions up to 65536 texels; longer ones are no information.
 /// NaN: no information, the state as before.
 GNOMON_KERNEL GNOMON_T(layer_motion_sums) layer_motion_add(GNOMON_T(layer_motion_sums) state,
                                                            GNOMON_T(stochastic_sample) s, Real middle)
 {
-    Real limit = GNOMON_LITERAL(texel_limit);
-    GNOMON_MASK moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
-    GNOMON_MASK known = moves && layer_is_surface(middle);
+    GNOMON_MASK known = layer_counts(s, middle);
     Real x = gnomon_select(known, s.d_x - state.first_x, Real(0));
     Real y = gnomon_select(known, s.d_y - state.first_y, Real(0));
     Real z = gnomon_select(known, s.d_z - state.first_z, Real(0));

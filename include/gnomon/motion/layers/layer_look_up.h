@@ -73,7 +73,11 @@ GNOMON_KERNEL GNOMON_T(layer_footprint) layer_footprint_make(GNOMON_T(layer_grid
     width = gnomon_min(width, grid.middle + grid.middle);
     Real probes = Real(-1) * texel_below(Real(-1) * (longer / width)); // rounded up
     r.probes = gnomon_max(gnomon_min(probes, GNOMON_LITERAL(layer_most_probes)), Real(1));
-    r.level = gnomon_max(polynomial_log(width) * GNOMON_LITERAL(exp_log2_e), Real(0));
+    r.level = Real(0);
+    GNOMON_MASK coarse = Real(1) < width;
+    if (gnomon_any(coarse)) {
+        r.level = gnomon_select(coarse, polynomial_log(width) * GNOMON_LITERAL(exp_log2_e), Real(0));
+    }
     return r;
 }
 
