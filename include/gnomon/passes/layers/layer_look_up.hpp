@@ -30,6 +30,7 @@ struct layer_look_up {
     bool widen = false;       // footprints, bias and least variance by the spread of motion in a layer
     float reach = 0.75f;      // texels of a layer over which the bias follows the slope
     float limit = 0.25f;      // the largest bias of a slope
+    float rounding = 8e-6f;   // of depth, by which samples and receivers on one surface may differ
     float least_variance = 0; // of depth
 };
 
@@ -145,7 +146,7 @@ float visibility_through(layer_grid<float> grid, const auto& mips, float x, floa
 {
     if (!look_up.widen) grid.spread = grid.spread_z = 0;
     const float bias = layer_bias(grid, r.slope, r.slope, r.t, look_up.reach, look_up.limit);
-    const float z = layer_grid_own_depth(grid, r.z - bias, r.t);
+    const float z = layer_grid_own_depth(grid, r.z - (bias + look_up.rounding), r.t);
     if (!(z > -1)) return 1; // before all of it
     const auto footprint = layer_footprint_make(grid, r.x0 - x, r.y0 - y, r.t0, r.x1 - x, r.y1 - y, r.t1, r.cross_x,
                                                 r.cross_y, layer_widening(grid, r.t));
