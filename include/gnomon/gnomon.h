@@ -44,6 +44,7 @@
 #include "motion/range/deep_shadow.h"
 #include "motion/range/range.h"
 #include "motion/range/range_cover.h"
+#include "motion/range/range_front.h"
 #include "motion/range/range_list.h"
 #include "motion/range/range_merge.h"
 #include "motion/range/range_moments.h"

@@ -1161,6 +1161,103 @@ float range_intensity(depth_time_range r, float t, float z, float id, float bias
 
 #endif
 
+// motion/range/range_front.h ------------------------------------------------------------------------------------------
+// The lower envelope of a list of ranges of any length, span by span: what the light sees of a texel from one time to
+// another (Gribel et al. 2010; the resolve of Palmer 2011, 2.4). The caller owns both loops over the list, so that
+// lists of any length can be resolved where no sorted structure is at hand, such as in a compute shader.
+//
+//     for (t = 0; t < 1; t = span.t1) {
+//         state = range_front_begin(t);
+//         for every range: state = range_front_compare(state, range);
+//         for every range: state = range_front_limit(state, range);
+//         span = range_front_span(state);
+//     }
+//
+// Spans are contiguous. One with the id range_nothing has no range and may be left out of a resolved list. The ranges
+// of the list overlap in time as they please; their order matters only where three of them meet within rounding.
+#ifndef GNOMON_MOTION_RANGE_RANGE_FRONT_H
+#define GNOMON_MOTION_RANGE_RANGE_FRONT_H
+
+/// The range in front just after the time begin, until when the comparisons that found it come out the same, and until
+/// when no range passes in front of it.
+struct range_front
+{
+    depth_time_range nearest;
+    float begin, unchanged, end;
+};
+
+/// r in the canonical form of a list. An empty range if r is empty, leaves [0, 1], has a NaN, or has a depth beyond
+/// 2^60.
+depth_time_range gnomon_range_canonical(depth_time_range r)
+{
+    r.id = gnomon_max(r.id, range_mixed);
+    bool known = gnomon_abs(r.z0) + gnomon_abs(r.z1) < range_far;
+    return gnomon_range_keep_if(0.0 <= r.t0 && r.t0 < r.t1 && r.t1 <= 1.0 && known, r);
+}
+
+/// Begin the span from time t on, without a range. A t outside of [0, 1] is clamped.
+/// NaN: t is then 0.
+range_front range_front_begin(float t)
+{
+    range_front state;
+    state.begin = saturate_or_zero(t);
+    state.nearest = range_empty(range_nothing);
+    state.unchanged = 1.0;
+    state.end = 1.0;
+    return state;
+}
+
+/// Keep the nearer just after the begin: r or the nearest range so far.
+/// NaN: a range with a NaN changes nothing.
+range_front range_front_compare(range_front state, depth_time_range r)
+{
+    r = gnomon_range_canonical(r);
+    depth_time_range front = state.nearest;
+    depth_time_range ahead = gnomon_range_visible_part(r, front);
+    bool during = r.t0 <= state.begin && state.begin < r.t1;
+    bool alone = front.t1 <= front.t0;
+    bool nearer = ahead.t0 <= state.begin && state.begin < ahead.t1;
+    float change = gnomon_select(state.begin < ahead.t0, ahead.t0, gnomon_select(nearer, ahead.t1, 1.0));
+    change = gnomon_min(change, gnomon_min(front.t1, r.t1));
+    state.unchanged = gnomon_select(during && !alone, gnomon_min(state.unchanged, change), state.unchanged);
+    state.nearest = gnomon_range_select(nearer || (during && alone), r, front);
+    return state;
+}
+
+/// End the span where r passes in front of the nearest range; without a nearest range, where r begins. Call for all
+/// ranges after all of them are compared.
+/// NaN: a range with a NaN changes nothing.
+range_front range_front_limit(range_front state, depth_time_range r)
+{
+    r = gnomon_range_canonical(r);
+    depth_time_range ahead = gnomon_range_visible_part(r, state.nearest);
+    bool some = state.nearest.t0 < state.nearest.t1;
+    float next = gnomon_select(some, ahead.t0, r.t0);
+    state.end = gnomon_select(state.begin < next, gnomon_min(state.end, next), state.end);
+    // Rounding may put each of three ranges that meet in front of the next. The tie lasts as long as all comparisons
+    // do.
+    bool circle = ahead.t0 <= state.begin && state.begin < ahead.t1;
+    state.end = gnomon_select(circle, gnomon_min(state.end, state.unchanged), state.end);
+    return state;
+}
+
+/// Span of the lower envelope from the begin on: the range in front, until it ends or another range passes in front. If
+/// no range lasts just after the begin, the span has the id range_nothing, the depth of the far plane, and lasts until
+/// the next begin. The span ends after its begin unless that is 1. From 0 to 1 there are at most (N + 1) (N + 2) / 2
+/// spans of N ranges, since each ends at a begin, an end or a crossing.
+/// Source: Palmer 2011, Sec. 2.4
+depth_time_range range_front_span(range_front state)
+{
+    bool some = state.nearest.t0 < state.nearest.t1;
+    float end = gnomon_min(gnomon_select(some, state.nearest.t1, 1.0), state.end);
+    depth_time_range span = range_clip(state.nearest, state.begin, end);
+    span.t0 = state.begin;
+    span.t1 = end;
+    return span;
+}
+
+#endif
+
 // motion/range/range_merge.h ------------------------------------------------------------------------------------------
 // A range that replaces two, for full lists of few ranges (the compression of Gribel et al. 2010). It lasts from the
 // begin of the earlier range to the end of the later one, and its depth line is in front of both, so that all that was
@@ -1326,15 +1423,6 @@ struct range_list
     float time_added, depth_added;
 };
 
-/// r in the canonical form of a list. An empty range if r is empty, leaves [0, 1], has a NaN, or has a depth beyond
-/// 2^60.
-depth_time_range gnomon_range_canonical(depth_time_range r)
-{
-    r.id = gnomon_max(r.id, range_mixed);
-    bool known = gnomon_abs(r.z0) + gnomon_abs(r.z1) < range_far;
-    return gnomon_range_keep_if(0.0 <= r.t0 && r.t0 < r.t1 && r.t1 <= 1.0 && known, r);
-}
-
 /// r moved towards the light, or away from it where side is 1 instead of -1. The distance exceeds the accumulated
 /// rounding of up to 18 cuts: 2^-16, since depths at the cuts are rounded, plus the change of depth within a time of
 /// 2^-21, since times are rounded. For two ranges together that rounding is 268 2^-p of depth and 4 2^-p of time.
@@ -1457,43 +1545,14 @@ range_list range_list_make(depth_time_range r)
     return range_list_insert(list, r);
 }
 
-/// Span of the lower envelope from time t on: the range in front just after t, until it ends or another range passes in
-/// front. If no range lasts just after t, the span has the id range_nothing, the depth of the far plane, and lasts
-/// until the next begin. The span ends after t unless t is 1. From 0 to 1 there are at most (N + 1) (N + 2) / 2 spans,
-/// N the capacity, since each ends at a begin, an end or a crossing. A t outside of [0, 1] is clamped.
+/// Span of the lower envelope from time t on, as of range_front_span. A t outside of [0, 1] is clamped.
 /// NaN: t is then 0.
 depth_time_range range_list_front(range_list list, float t)
 {
-    float begin = saturate_or_zero(t);
-    depth_time_range front = gnomon_range_keep_if(begin < begin, list.ranges[0]);
-    float unchanged = 1.0; // until when all comparisons of this loop come out the same
-    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) {
-        depth_time_range r = gnomon_range_canonical(list.ranges[i]);
-        depth_time_range ahead = gnomon_range_visible_part(r, front);
-        bool during = r.t0 <= begin && begin < r.t1;
-        bool alone = front.t1 <= front.t0;
-        bool nearer = ahead.t0 <= begin && begin < ahead.t1;
-        float change = gnomon_select(begin < ahead.t0, ahead.t0, gnomon_select(nearer, ahead.t1, 1.0));
-        change = gnomon_min(change, gnomon_min(front.t1, r.t1));
-        unchanged = gnomon_select(during && !alone, gnomon_min(unchanged, change), unchanged);
-        front = gnomon_range_select(nearer || (during && alone), r, front);
-    }
-    bool some = front.t0 < front.t1;
-    float end = gnomon_select(some, front.t1, 1.0);
-    for (int k = 0; k < GNOMON_RANGE_CAPACITY; ++k) {
-        depth_time_range r = gnomon_range_canonical(list.ranges[k]);
-        depth_time_range ahead = gnomon_range_visible_part(r, front);
-        float next = gnomon_select(some, ahead.t0, r.t0);
-        end = gnomon_select(begin < next, gnomon_min(end, next), end);
-        // Rounding may put each of three ranges that meet in front of the next. The tie lasts as long as all
-        // comparisons do.
-        bool circle = ahead.t0 <= begin && begin < ahead.t1;
-        end = gnomon_select(circle, gnomon_min(end, unchanged), end);
-    }
-    depth_time_range span = range_clip(front, begin, end);
-    span.t0 = begin;
-    span.t1 = end;
-    return span;
+    range_front state = range_front_begin(t);
+    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) state = range_front_compare(state, list.ranges[i]);
+    for (int k = 0; k < GNOMON_RANGE_CAPACITY; ++k) state = range_front_limit(state, list.ranges[k]);
+    return range_front_span(state);
 }
 
 /// Append r, which begins after all ranges of the list, disjoint and in order of time. If there is no room, merge two

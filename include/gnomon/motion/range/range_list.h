@@ -22,6 +22,7 @@
 // parameter with this default.
 #ifndef GNOMON_MOTION_RANGE_RANGE_LIST_H
 #define GNOMON_MOTION_RANGE_RANGE_LIST_H
+#include "range_front.h"
 #include "range_merge.h"
 GNOMON_NAMESPACE_BEGIN
 
@@ -37,15 +38,6 @@ GNOMON_LIST_STRUCT(range_list)
     GNOMON_T(depth_time_range) ranges[GNOMON_CAPACITY];
     Real time_added, depth_added;
 };
-
-/// r in the canonical form of a list. An empty range if r is empty, leaves [0, 1], has a NaN, or has a depth beyond
-/// 2^60.
-GNOMON_DETAIL_KERNEL GNOMON_T(depth_time_range) range_canonical(GNOMON_T(depth_time_range) r)
-{
-    r.id = gnomon_max(r.id, GNOMON_LITERAL(range_mixed));
-    GNOMON_MASK known = gnomon_abs(r.z0) + gnomon_abs(r.z1) < GNOMON_LITERAL(range_far);
-    return range_keep_if(Real(0) <= r.t0 && r.t0 < r.t1 && r.t1 <= Real(1) && known, r);
-}
 
 /// r moved towards the light, or away from it where side is 1 instead of -1. The distance exceeds the accumulated
 /// rounding of up to 18 cuts: 2^-16, since depths at the cuts are rounded, plus the change of depth within a time of
@@ -172,43 +164,14 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_make(GNOMON_T(depth_time
     return range_list_insert(list, r);
 }
 
-/// Span of the lower envelope from time t on: the range in front just after t, until it ends or another range passes in
-/// front. If no range lasts just after t, the span has the id range_nothing, the depth of the far plane, and lasts
-/// until the next begin. The span ends after t unless t is 1. From 0 to 1 there are at most (N + 1) (N + 2) / 2 spans,
-/// N the capacity, since each ends at a begin, an end or a crossing. A t outside of [0, 1] is clamped.
+/// Span of the lower envelope from time t on, as of range_front_span. A t outside of [0, 1] is clamped.
 /// NaN: t is then 0.
 GNOMON_LIST_KERNEL GNOMON_T(depth_time_range) range_list_front(GNOMON_LIST_T(range_list) list, Real t)
 {
-    Real begin = saturate_or_zero(t);
-    depth_time_range front = range_keep_if(begin < begin, list.ranges[0]);
-    Real unchanged = Real(1); // until when all comparisons of this loop come out the same
-    for (int i = 0; i < GNOMON_CAPACITY; ++i) {
-        depth_time_range r = range_canonical(list.ranges[i]);
-        depth_time_range ahead = range_visible_part(r, front);
-        GNOMON_MASK during = r.t0 <= begin && begin < r.t1;
-        GNOMON_MASK alone = front.t1 <= front.t0;
-        GNOMON_MASK nearer = ahead.t0 <= begin && begin < ahead.t1;
-        Real change = gnomon_select(begin < ahead.t0, ahead.t0, gnomon_select(nearer, ahead.t1, Real(1)));
-        change = gnomon_min(change, gnomon_min(front.t1, r.t1));
-        unchanged = gnomon_select(during && !alone, gnomon_min(unchanged, change), unchanged);
-        front = range_select(nearer || (during && alone), r, front);
-    }
-    GNOMON_MASK some = front.t0 < front.t1;
-    Real end = gnomon_select(some, front.t1, Real(1));
-    for (int k = 0; k < GNOMON_CAPACITY; ++k) {
-        depth_time_range r = range_canonical(list.ranges[k]);
-        depth_time_range ahead = range_visible_part(r, front);
-        Real next = gnomon_select(some, ahead.t0, r.t0);
-        end = gnomon_select(begin < next, gnomon_min(end, next), end);
-        // Rounding may put each of three ranges that meet in front of the next. The tie lasts as long as all comparisons
-        // do.
-        GNOMON_MASK circle = ahead.t0 <= begin && begin < ahead.t1;
-        end = gnomon_select(circle, gnomon_min(end, unchanged), end);
-    }
-    depth_time_range span = range_clip(front, begin, end);
-    span.t0 = begin;
-    span.t1 = end;
-    return span;
+    range_front state = range_front_begin(t);
+    for (int i = 0; i < GNOMON_CAPACITY; ++i) state = range_front_compare(state, list.ranges[i]);
+    for (int k = 0; k < GNOMON_CAPACITY; ++k) state = range_front_limit(state, list.ranges[k]);
+    return range_front_span(state);
 }
 
 /// Append r, which begins after all ranges of the list, disjoint and in order of time. If there is no room, merge two
