@@ -2,6 +2,7 @@
 // of shaders, and a clear error without a driver.
 #include "device.hpp"
 #include "probe.h"
+#include "renderer/vulkan/exact_arithmetic.hpp"
 #include "renderer/vulkan/scene.hpp"
 
 #include <algorithm>
@@ -36,6 +37,17 @@ TEST_CASE("a compute pass reads buffers, push constants and specialization const
         times.mark(commands, 2);
     });
     for (std::size_t i = 0; i < count; ++i) CHECK(results[i] == 3 * values[i] + 0.5f); // small whole numbers: exact
+
+    // A decoration of three words for the product and for the sum.
+    const std::vector<std::uint32_t> exact = vulkan::exact_arithmetic(probe);
+    CHECK(exact.size() == std::size(probe) + 6);
+    const vulkan::compute_pass same(*gpu, {exact, code.constants}, {input, output}, sizeof(factor));
+    std::ranges::fill(results, 0.f);
+    gpu->run([&](const vk::raii::CommandBuffer& commands) {
+        same.record(commands, {groups, 1, 1}, std::as_bytes(std::span(factor)));
+    });
+    for (std::size_t i = 0; i < count; ++i) CHECK(results[i] == 3 * values[i] + 0.5f);
+    CHECK_THROWS_AS(vulkan::exact_arithmetic(std::span(probe).first(std::size(probe) - 1)), std::invalid_argument);
 
     const std::vector<double> milliseconds = times.milliseconds();
     REQUIRE(milliseconds.size() == 2);

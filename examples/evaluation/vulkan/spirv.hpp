@@ -33,11 +33,17 @@ struct rectified_shaders {
     std::map<std::string, scattering_shaders> formats;
 };
 
+// Of maps of depth-time ranges.
+struct range_shaders {
+    std::span<const std::uint32_t> fill, scan, resolve, look_up;
+};
+
 struct shader_texts {
     std::span<const std::uint32_t> scene, blur, layer;
     std::array<blend_shaders, 2> blend; // into one image and into two
     soft_shaders soft;
     rectified_shaders rectified;
+    range_shaders ranges;
     std::map<std::string, method_shaders> methods; // by their ids
 };
 
