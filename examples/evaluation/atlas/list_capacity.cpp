@@ -1,10 +1,9 @@
 // Lists of a few ranges in a texel that many surfaces pass: a full list merges two ranges into one in front of both.
 #include "sweep.hpp"
 
-#include <gnomon/motion/range/range_list.h>
+#include <gnomon/comparators/interval_list.h>
 
 #include <cmath>
-#include <string>
 #include <vector>
 
 namespace gnomon::evaluation {
@@ -30,14 +29,25 @@ std::vector<depth_time_range<float>> passing(int count, double duration, int lis
     return result;
 }
 
+// Into a list that merges in front of both ranges, or by weights, not in front, as Gribel et al. 2010 do.
+struct in_front {
+    auto operator()(const auto& list, const depth_time_range<float>& r) const { return range_list_insert(list, r); }
+};
+struct by_weights {
+    auto operator()(const auto& list, const depth_time_range<float>& r) const
+    {
+        return interval_list_insert(list, r, interval_weights<float>{0, 1, 1, 0.125f, 0.25f}, 0.0f);
+    }
+};
+
 // The root mean square error over receivers on the background and on all surfaces, at 16 times each.
-template <int Capacity> double error(double count, double duration)
+template <int Capacity, class Insert> double error(double count, double duration)
 {
     double squares = 0, receivers = 0;
     for (int n = 0; n < lists_per_point; ++n) {
         const auto ranges = passing(int(std::lround(count)), duration, n);
         auto list = range_list_make<float, Capacity>(ranges.front());
-        for (const auto& r : ranges) list = range_list_insert(list, r);
+        for (const auto& r : ranges) list = Insert()(list, r);
         const auto compare = [&](float t, float z, float id) {
             float exact = 0;
             for (const auto& r : ranges) exact = std::max(exact, range_intensity(r, t, z, id, 0.0f));
@@ -56,10 +66,16 @@ template <int Capacity> double error(double count, double duration)
     return std::sqrt(squares / receivers);
 }
 
-template <int Capacity> sweep_layer listed()
+template <int Capacity, class Insert = in_front> sweep_layer listed(const char* id, const char* label)
 {
-    const std::string number = std::to_string(Capacity);
-    return {"capacity_" + number, "lists of " + number + " ranges", error<Capacity>};
+    return {id, label, error<Capacity, Insert>};
+}
+
+std::vector<sweep_layer> layers()
+{
+    return {listed<4>("capacity_4", "lists of 4 ranges"), listed<8>("capacity_8", "lists of 8 ranges"),
+            listed<8, by_weights>("capacity_8_weights", "lists of 8 ranges, merged by weights"),
+            listed<16>("capacity_16", "lists of 16 ranges")};
 }
 
 const registered<sweep> entry{sweep{
@@ -73,9 +89,7 @@ const registered<sweep> entry{sweep{
     .y = {"duration", "part of the shutter interval for which each covers the texel", scale::log, 0.02, 1, 12},
     .error_label = "root mean square error",
     .threshold = 0.1,
-    .layers = [] {
-        return std::vector{listed<4>(), listed<8>(), listed<16>()};
-    }}};
+    .layers = layers}};
 
 } // namespace
 
