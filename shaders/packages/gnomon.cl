@@ -6728,8 +6728,10 @@ static inline float sampled_receiver_end(gnomon_sampled_receiver state)
 // loses between two times is the difference of the shares (Palmer 2011, (2.1), with the response w(t) integrated in
 // advance).
 //
-// Three responses: a box, which opens and closes at once; a tent, which is wide open halfway; and eight equal parts of
-// the exposure with any weights, such as those of a camera's measured shutter.
+// Four responses: a box, which opens and closes at once; a tent, which is wide open halfway; eight equal parts of the
+// exposure with any weights, such as those of a camera's measured shutter; and a line. The line is for shading that
+// changes while the shadow does: where the light that a receiver reflects is linear in time, as of a surface that
+// turns, a box shutter counts each time by that light (Palmer 2011, (2.2) and (2.3)).
 //
 // The ends of an exposure may be given in either order. An exposure of no length shows a single time (see
 // gnomon_shutter_exposure_make, which receivers begin with).
@@ -6803,6 +6805,23 @@ static inline float gnomon_shutter_weight(float w)
 static inline float gnomon_shutter_share(float weight, float sum)
 {
     return gnomon_select(0.0f < sum, saturate_or_zero(weight / sum), 0.125f);
+}
+
+/// Share of the exposure's light that has come in by time t, where the light changes linearly from weight w0 at the
+/// begin of the exposure to w1 at its end. In [0, 1]. Negative weights count as 0; if both do, the light does not
+/// change.
+/// Domain: begin <= end.
+/// NaN: 0; a NaN weight counts as 0.
+/// Error: 12 2^-p.
+/// Source: Palmer 2011, Eq. 2.3
+static inline float shutter_line(float t, float begin, float end, float w0, float w1)
+{
+    float a = gnomon_shutter_weight(w0);
+    float b = gnomon_shutter_weight(w1);
+    float sum = a + b;
+    float x = shutter_box(t, begin, end);
+    float early = gnomon_select(0.0f < sum, saturate_or_zero(a / sum), 0.5f);
+    return saturate_or_zero(x * (early + (early * (1.0f - x) + (1.0f - early) * x)));
 }
 
 /// Eight weights scaled to sum to 1. Negative weights count as 0; if no weight is left, all are equal, as for a box.

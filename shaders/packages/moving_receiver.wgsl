@@ -348,8 +348,10 @@ fn gnomon_range_is_second_layer(front: depth_time_range, r: depth_time_range) ->
 // loses between two times is the difference of the shares (Palmer 2011, (2.1), with the response w(t) integrated in
 // advance).
 //
-// Three responses: a box, which opens and closes at once; a tent, which is wide open halfway; and eight equal parts of
-// the exposure with any weights, such as those of a camera's measured shutter.
+// Four responses: a box, which opens and closes at once; a tent, which is wide open halfway; eight equal parts of the
+// exposure with any weights, such as those of a camera's measured shutter; and a line. The line is for shading that
+// changes while the shadow does: where the light that a receiver reflects is linear in time, as of a surface that
+// turns, a box shutter counts each time by that light (Palmer 2011, (2.2) and (2.3)).
 //
 // The ends of an exposure may be given in either order. An exposure of no length shows a single time (see
 // gnomon_shutter_exposure_make, which receivers begin with).
@@ -414,6 +416,23 @@ fn gnomon_shutter_weight(w: f32) -> f32 { return gnomon_select(0.0 < w, gnomon_m
 fn gnomon_shutter_share(weight: f32, sum: f32) -> f32
 {
     return gnomon_select(0.0 < sum, saturate_or_zero(weight / sum), 0.125);
+}
+
+/// Share of the exposure's light that has come in by time t, where the light changes linearly from weight w0 at the
+/// begin of the exposure to w1 at its end. In [0, 1]. Negative weights count as 0; if both do, the light does not
+/// change.
+/// Domain: begin <= end.
+/// NaN: 0; a NaN weight counts as 0.
+/// Error: 12 2^-p.
+/// Source: Palmer 2011, Eq. 2.3
+fn shutter_line(t: f32, begin: f32, end: f32, w0: f32, w1: f32) -> f32
+{
+    let a = gnomon_shutter_weight(w0);
+    let b = gnomon_shutter_weight(w1);
+    let sum = a + b;
+    let x = shutter_box(t, begin, end);
+    let early = gnomon_select(0.0 < sum, saturate_or_zero(a / sum), 0.5);
+    return saturate_or_zero(x * (early + (early * (1.0 - x) + (1.0 - early) * x)));
 }
 
 /// Eight weights scaled to sum to 1. Negative weights count as 0; if no weight is left, all are equal, as for a box.

@@ -450,8 +450,10 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 // loses between two times is the difference of the shares (Palmer 2011, (2.1), with the response w(t) integrated in
 // advance).
 //
-// Three responses: a box, which opens and closes at once; a tent, which is wide open halfway; and eight equal parts of
-// the exposure with any weights, such as those of a camera's measured shutter.
+// Four responses: a box, which opens and closes at once; a tent, which is wide open halfway; eight equal parts of the
+// exposure with any weights, such as those of a camera's measured shutter; and a line. The line is for shading that
+// changes while the shadow does: where the light that a receiver reflects is linear in time, as of a surface that
+// turns, a box shutter counts each time by that light (Palmer 2011, (2.2) and (2.3)).
 //
 // The ends of an exposure may be given in either order. An exposure of no length shows a single time (see
 // shutter_exposure_make, which receivers begin with).
@@ -532,6 +534,24 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real s
 template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr Real shutter_share(Real weight, Real sum)
 {
     return gnomon_select(Real(0) < sum, saturate_or_zero(weight / sum), Real(0.125));
+}
+
+/// Share of the exposure's light that has come in by time t, where the light changes linearly from weight w0 at the
+/// begin of the exposure to w1 at its end. In [0, 1]. Negative weights count as 0; if both do, the light does not
+/// change.
+/// Domain: begin <= end.
+/// NaN: 0; a NaN weight counts as 0.
+/// Error: 12 2^-p.
+/// Source: Palmer 2011, Eq. 2.3
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr Real shutter_line(Real t, Real begin, Real end, Real w0, Real w1)
+{
+    Real a = shutter_weight(w0);
+    Real b = shutter_weight(w1);
+    Real sum = a + b;
+    Real x = shutter_box(t, begin, end);
+    Real early = gnomon_select(Real(0) < sum, saturate_or_zero(a / sum), Real(0.5));
+    return saturate_or_zero(x * (early + (early * (Real(1) - x) + (Real(1) - early) * x)));
 }
 
 /// Eight weights scaled to sum to 1. Negative weights count as 0; if no weight is left, all are equal, as for a box.

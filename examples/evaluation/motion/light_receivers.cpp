@@ -42,7 +42,9 @@ light_receiver receiver_of(const seen_segment& c, const moving_camera& light, in
              close.place.x,
              close.place.y,
              close.place.w},
-            moving_edge_inside(facing_function(normal, direction), 1.f)};
+            moving_edge_inside(facing_function(normal, direction), 1.f),
+            glm::dot(glm::normalize(d0), c.n0),
+            glm::dot(glm::normalize(d1), c.n1)};
 }
 
 } // namespace

@@ -13,10 +13,12 @@
 
 namespace gnomon::evaluation {
 
-// `facing` has times of the path itself, from 0 to 1. The depths of the path are biased.
+// `facing` has times of the path itself, from 0 to 1. The depths of the path are biased. The cosines are those between
+// the normal and the direction to the light at the ends of the path, negative where it faces away.
 struct light_receiver {
     receiver_path<float> path;
     edge_intervals<float> facing;
+    float cosine_open = 1, cosine_close = 1;
 };
 
 // Texels around a point that the depth bias spares from shadowing themselves: bilinear filtering reads up to one to

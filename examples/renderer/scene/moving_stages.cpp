@@ -112,23 +112,42 @@ moving_stage random_cubes(double aspect, int count, float longest, float half_ex
                      {{"ground", "ground", {-3, 0, 2}, green}, {"cubes", "cubes", {1, 2, 1}, cyan}});
 }
 
+namespace {
+
+// A square plane turned about the x axis.
+mesh plane(float degrees)
+{
+    mesh result = painted("plane", stone);
+    const float angle = glm::radians(degrees);
+    const glm::vec3 away(0, std::sin(angle), -std::cos(angle));
+    add_quad(result, glm::vec3(-3, 0, 0) - 3.f * away, {6, 0, 0}, 6.f * away);
+    return result;
+}
+
+} // namespace
+
 moving_stage cube_over_plane(double aspect, float degrees, float height, float z)
 {
     mesh cube = painted("cube", clay);
     add_box(cube, upright({-0.75f, height, z}, glm::vec3(0.8f)));
     moving_scene casters{{fmt::format("cube over plane, {:g} degrees", degrees), {}}, {}};
     add(casters, cube, {1.5f, 0, 0});
-    const auto plane = [](float angle) {
-        mesh result = painted("plane", stone);
-        const glm::vec3 away(0, std::sin(angle), -std::cos(angle));
-        add_quad(result, glm::vec3(-3, 0, 0) - 3.f * away, {6, 0, 0}, 6.f * away);
-        return result;
-    };
     const float reach = 6 / (6 - height); // of the shadow, over that of the cube from the light
     moving_scene world = casters;
-    add(world, plane(-glm::radians(degrees)), plane(glm::radians(degrees)));
+    add(world, plane(-degrees), plane(degrees));
     return staged(casters, std::move(world), {{2, 6, 1}, {2, 6, 1}}, {{0, 5, 7}, {0, 0.4, 0}, 45}, aspect,
                   {{"shadow", "shadow", {2 - 2 * reach, 0, 1 + reach * (z - 1)}, green}});
+}
+
+moving_stage turning_plane(double aspect, float open, float close)
+{
+    mesh cube = painted("cube", clay);
+    add_box(cube, upright({-0.3f, 1.6f, 1.3f}, glm::vec3(0.6f)));
+    moving_scene casters{{fmt::format("plane turning from {:g} to {:g} degrees", open, close), {}}, {}};
+    add(casters, cube, {0.6f, 0, 0});
+    moving_scene world = casters;
+    add(world, plane(open), plane(close));
+    return staged(casters, std::move(world), {{2, 6, 3}, {2, 6, 3}}, {{0, 5, 7}, {0, 0.8, 0}, 50}, aspect, {});
 }
 
 moving_stage fan(double aspect)

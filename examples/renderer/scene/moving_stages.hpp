@@ -27,6 +27,10 @@ moving_stage random_cubes(double aspect, int count, float longest, float half_ex
 // corners along straight lines. The cube is at (0, height, z) halfway.
 moving_stage cube_over_plane(double aspect, float degrees, float height, float z);
 
+// A cube crosses a plane that turns about the x axis between two angles, in degrees. The light sees its front up to
+// about 117 degrees, the camera at all times.
+moving_stage turning_plane(double aspect, float open, float close);
+
 // A fan of eight level blades that turns by 90 degrees about the y axis, the corners along straight lines.
 moving_stage fan(double aspect);
 

@@ -130,8 +130,8 @@ wide sampling_error(const test_map<T>& map, const receiver_path<T>& p, const tes
 
 template <class T> test_shutter<T> exposure_of(const receiver_path<T>& p, std::size_t i, bit_source& bits)
 {
-    const bool whole = i / 3 % 2 == 0;
-    return any_shutter(responses[i % 3], whole ? p.depth.t0 : T(0), whole ? p.depth.t1 : T(1), bits);
+    const bool whole = i / responses.size() % 2 == 0;
+    return any_shutter(responses[i % responses.size()], whole ? p.depth.t0 : T(0), whole ? p.depth.t1 : T(1), bits);
 }
 
 } // namespace gnomon::test

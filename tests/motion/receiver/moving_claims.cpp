@@ -14,7 +14,7 @@ TEST_CASE_TEMPLATE("moving receiver: on a path of no length it is the static rec
         const test_map<T> map = any_map<T>(bits);
         receiver_path<T> p = any_path<T>(bits, side - 2 * margin - 1);
         p.x1 = p.x0, p.y1 = p.y0, p.w1 = p.w0, p.depth.z1 = p.depth.z0;
-        const auto s = any_shutter(responses[std::size_t(i) % 3], p.depth.t0, p.depth.t1, bits);
+        const auto s = any_shutter(responses[std::size_t(i) % responses.size()], p.depth.t0, p.depth.t1, bits);
         static_receiver<T> rests = static_receiver_begin(p.depth.z0, p.depth.id, s.begin, s.end);
         const T x = p.x0 / p.w0, y = p.y0 / p.w0;
         for (const auto& r : map.at(std::floor(x), std::floor(y))) rests = s.add(rests, r);
@@ -69,7 +69,7 @@ TEST_CASE_TEMPLATE("moving receiver: fully shadowed if a range is in front at al
     const test_map<T> map = uniform_map(depth_time_range<T>{T(0), T(1), T(-2), T(-1.5), T(7)});
     for (std::int64_t i = 0; i < effort(20'000); ++i) {
         const receiver_path<T> p = any_path<T>(bits, side - 2 * margin - 1);
-        const auto s = any_shutter(responses[std::size_t(i) % 3], p.depth.t0, p.depth.t1, bits);
+        const auto s = any_shutter(responses[std::size_t(i) % responses.size()], p.depth.t0, p.depth.t1, bits);
         // Shares of up to 24 texels, weights of up to 16 that sum to 1, each with the error of one range.
         const wide error = (24 + 1) * 32 * s.largest() * rounding<T> / (wide(s.end) - wide(s.begin));
         REQUIRE(1 - wide(nearest(map, p, s)) <= error);
@@ -113,7 +113,7 @@ TEST_CASE_TEMPLATE("moving receiver: hostile ranges, paths and texels give an in
         receiver_path<T> p = any_path<T>(bits, 8);
         for (T* x : {&p.x0, &p.y0, &p.w0, &p.x1, &p.y1, &p.w1, &p.depth.t0, &p.depth.t1, &p.depth.z0, &p.depth.z1})
             if (bits.chance(0.2)) *x = any();
-        const auto s = any_shutter(responses[std::size_t(i) % 3], T(0), T(1), bits);
+        const auto s = any_shutter(responses[std::size_t(i) % responses.size()], T(0), T(1), bits);
         moving_receiver<T> plain = moving_receiver_begin(p, s.begin, s.end), taps = plain;
         texel_sweep<T> sweep = texel_sweep_begin(p);
         bool known = true;

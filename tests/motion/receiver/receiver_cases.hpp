@@ -30,8 +30,8 @@ template <class T> std::vector<depth_time_range<T>> resolved_list(bit_source& bi
     return list;
 }
 
-enum class response { box, tent, piecewise };
-inline constexpr std::array responses{response::box, response::tent, response::piecewise};
+enum class response { box, tent, piecewise, line };
+inline constexpr std::array responses{response::box, response::tent, response::piecewise, response::line};
 
 /// A shutter by the kernels and by its definition.
 template <class T> struct test_shutter {
@@ -44,39 +44,52 @@ template <class T> struct test_shutter {
         const auto& w = weights;
         return {wide(w.w0), wide(w.w1), wide(w.w2), wide(w.w3), wide(w.w4), wide(w.w5), wide(w.w6), wide(w.w7)};
     }
+    /// The shares of the weights of a line; a half each without weights.
+    std::array<wide, 2> ends() const
+    {
+        const wide a = wide(weights.w0), b = wide(weights.w1);
+        return a + b > 0 ? std::array{a / (a + b), b / (a + b)} : std::array{0.5L, 0.5L};
+    }
     /// At a share x of the exposure; 1 on average.
     wide density(wide x) const
     {
         if (x < 0 || x >= 1) return 0;
         if (kind == response::box) return 1;
         if (kind == response::tent) return x < 0.5L ? 4 * x : 4 - 4 * x;
+        if (kind == response::line) return 2 * (ends()[0] * (1 - x) + ends()[1] * x);
         return 8 * eighths()[std::size_t(8 * x)];
     }
     wide largest() const
     {
         const auto e = eighths();
-        return kind == response::box ? 1 : kind == response::tent ? 2 : 8 * *std::max_element(e.begin(), e.end());
+        if (kind == response::box) return 1;
+        if (kind == response::tent) return 2;
+        return kind == response::line ? 2 * std::max(ends()[0], ends()[1]) : 8 * *std::max_element(e.begin(), e.end());
     }
     wide let_in(wide t) const
     {
         const wide x = std::clamp((t - wide(begin)) / (wide(end) - wide(begin)), 0.0L, 1.0L);
         if (kind == response::box) return x;
         if (kind == response::tent) return x < 0.5L ? 2 * x * x : 1 - 2 * (1 - x) * (1 - x);
+        if (kind == response::line) return 2 * ends()[0] * x + (ends()[1] - ends()[0]) * x * x;
         wide sum = 0;
         for (std::size_t k = 0; k < 8; ++k) sum += eighths()[k] * std::clamp(8 * x - wide(k), 0.0L, 1.0L);
         return sum;
     }
+    template <class Visit> auto by(const Visit& visit) const
+    {
+        return kind == response::box    ? visit(box_shutter{})
+               : kind == response::tent ? visit(tent_shutter{})
+               : kind == response::line ? visit(linear_shutter<T>{weights.w0, weights.w1})
+                                        : visit(piecewise_shutter<T>{weights});
+    }
     template <class Receiver> Receiver add(const Receiver& state, const depth_time_range<T>& r) const
     {
-        return kind == response::box    ? add_range(state, r, box_shutter{})
-               : kind == response::tent ? add_range(state, r, tent_shutter{})
-                                        : add_range(state, r, piecewise_shutter<T>{weights});
+        return by([&](const auto& shutter) { return add_range(state, r, shutter); });
     }
     auto filter(const moving_receiver<T>& state, const depth_time_range<T>& r) const
     {
-        return kind == response::box    ? add_filtered_range(state, r, box_shutter{})
-               : kind == response::tent ? add_filtered_range(state, r, tent_shutter{})
-                                        : add_filtered_range(state, r, piecewise_shutter<T>{weights});
+        return by([&](const auto& shutter) { return add_filtered_range(state, r, shutter); });
     }
 };
 

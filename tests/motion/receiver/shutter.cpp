@@ -3,6 +3,7 @@
 #include "support/effort.hpp"
 
 #include <doctest/doctest.h>
+#include <rapidcheck.h>
 
 using namespace gnomon;
 using namespace gnomon::test;
@@ -88,7 +89,8 @@ TEST_CASE_TEMPLATE("exposures: swapped ends are the same exposure, and any input
     for (std::int64_t i = 0; i < effort(20'000); ++i) {
         const auto list = resolved_list<T>(bits);
         const T a = T(bits.uniform(0, 1)), b = T(bits.uniform(0, 1)), z = T(bits.uniform(-1, 1));
-        const auto shutter = any_shutter(responses[std::size_t(i) % 3], std::min(a, b), std::max(a, b), bits);
+        const auto shutter =
+            any_shutter(responses[std::size_t(i) % responses.size()], std::min(a, b), std::max(a, b), bits);
         const auto intensity = [&](T begin, T end) {
             static_receiver<T> state = static_receiver_begin(z, T(9), begin, end);
             for (const auto& r : list) state = shutter.add(state, r);
@@ -147,4 +149,21 @@ TEST_CASE_TEMPLATE("piecewise shutters: the integral of their density, and a box
             REQUIRE(std::abs(wide(shutter_piecewise(t, a, b, equal)) - wide(shutter_box(t, a, b))) <= 16 * rounding<T>);
         }
     }
+}
+
+TEST_CASE("the share of light that changes linearly is its integral, rises, and ends at 1")
+{
+    CHECK(rc::check("shutter_line within 12 2^-p", [](std::uint32_t seed) {
+        bit_source bits(seed);
+        const auto weight = [&] { return float(bits.chance(0.2) ? 0 : std::exp2(bits.uniform(-40, 40))); };
+        const float w0 = weight(), w1 = weight(), t = float(bits.uniform(0, 1)),
+                    later = float(bits.uniform(double(t), 1));
+        const bool dark = w0 + w1 == 0;
+        const wide a = dark ? 1 : wide(w0), b = dark ? 1 : wide(w1), x = wide(t);
+        const wide expected = (2 * a * x + (b - a) * x * x) / (a + b);
+        RC_ASSERT(std::abs(wide(shutter_line(t, 0.f, 1.f, w0, w1)) - expected) <= 12 * rounding<float>);
+        RC_ASSERT(shutter_line(t, 0.f, 1.f, w0, w1) <= shutter_line(later, 0.f, 1.f, w0, w1) + 4 * rounding<float>);
+        RC_ASSERT(shutter_line(1.f, 0.f, 1.f, w0, w1) == 1);
+        RC_ASSERT(shutter_line(t, 0.f, 1.f, -1.f, 0.f) == t);
+    }));
 }

@@ -25,7 +25,7 @@ TEST_CASE_TEMPLATE("static receiver: within the stated error", T, float, double)
     for (std::int64_t i = 0; i < effort(100'000); ++i) {
         const auto list = resolved_list<T>(bits);
         const T z = T(bits.uniform(-1, 1)), begin = T(bits.uniform(0, 0.5)), end = T(bits.uniform(0.5, 1));
-        const auto shutter = any_shutter(responses[std::size_t(i) % 3], begin, end, bits);
+        const auto shutter = any_shutter(responses[std::size_t(i) % responses.size()], begin, end, bits);
         if (!(begin < end)) continue;
         loss all{0, 0};
         for (const auto& r : list) {
@@ -46,19 +46,19 @@ TEST_CASE_TEMPLATE("static receiver: the closed form is the mean over a hundred 
         const T a = T(bits.uniform(0, 1)), b = T(bits.uniform(0, 1));
         const T begin = i % 2 ? T(0) : std::min(a, b), end = i % 2 ? T(1) : std::max(a, b);
         if (double(end) - double(begin) < 0.01) continue;
-        std::array<test_shutter<T>, 3> shutters;
-        for (std::size_t k = 0; k < 3; ++k) shutters[k] = any_shutter(responses[k], begin, end, bits);
-        std::array<wide, 3> sums{};
+        std::array<test_shutter<T>, responses.size()> shutters;
+        for (std::size_t k = 0; k < shutters.size(); ++k) shutters[k] = any_shutter(responses[k], begin, end, bits);
+        std::array<wide, responses.size()> sums{};
         for (int k = 0; k < times; ++k) {
             const wide x = (k + 0.5L) / times, t = wide(begin) + x * (wide(end) - wide(begin));
             const auto hides = [&](const depth_time_range<T>& r) {
                 return wide(r.t0) <= t && t < wide(r.t1) && exact_depth(r, t) < wide(z) && r.id != id;
             };
             if (std::any_of(list.begin(), list.end(), hides))
-                for (std::size_t j = 0; j < 3; ++j) sums[j] += shutters[j].density(x) / times;
+                for (std::size_t j = 0; j < responses.size(); ++j) sums[j] += shutters[j].density(x) / times;
         }
         // Each of up to 7 ranges begins and ends within one of the times.
-        for (std::size_t j = 0; j < 3; ++j)
+        for (std::size_t j = 0; j < responses.size(); ++j)
             CHECK(std::abs(wide(intensity(list, z, id, shutters[j])) - sums[j]) <=
                   shutters[j].largest() * (14.0L / times + 1e-5L));
     }
@@ -168,7 +168,7 @@ TEST_CASE_TEMPLATE("static receiver: with filtering, the weighted mean of its te
 {
     bit_source bits(15);
     for (std::int64_t i = 0; i < effort(20'000); ++i) {
-        const auto s = any_shutter(responses[std::size_t(i) % 3], T(0), T(1), bits);
+        const auto s = any_shutter(responses[std::size_t(i) % responses.size()], T(0), T(1), bits);
         const T z = T(bits.uniform(-1, 1)), u = T(bits.uniform(0, 1)), v = T(bits.uniform(0, 1));
         const std::size_t look_ups = 1 + bits.below(3);
         static_receiver<T> state = static_receiver_begin(z, T(9), s.begin, s.end);

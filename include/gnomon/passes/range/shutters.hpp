@@ -64,6 +64,25 @@ template <class Real> struct piecewise_shutter {
     }
 };
 
+/// Opens and closes at once, for light that changes linearly from the weight open at the begin of the exposure to the
+/// weight close at its end, as of shutter_line.
+template <class Real> struct linear_shutter {
+    Real open, close;
+
+    GNOMON_INLINE constexpr Real share(Real t, Real begin, Real end) const
+    {
+        return shutter_line(t, begin, end, open, close);
+    }
+    GNOMON_INLINE constexpr Real filtered_light(const moving_receiver<Real>& s,
+                                                const depth_time_range<Real>& hidden) const
+    {
+        const Real half =
+            shutter_line(Real(0.5), Real(0), Real(1), open, close); // 1/2 + (open - close) / (open + close) / 4
+        const Real slope = Real(4) - Real(8) * half;
+        return moving_receiver_filtered_light(s, hidden, s.begin, s.end, Real(1) - Real(0.5) * slope, slope);
+    }
+};
+
 /// Add a range of the current texel to a static receiver.
 template <class T, class Shutter>
 GNOMON_INLINE constexpr static_receiver<T> add_range(const static_receiver<T>& state, const depth_time_range<T>& r,
