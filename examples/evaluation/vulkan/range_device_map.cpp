@@ -1,6 +1,6 @@
 #include "range_device_map.hpp"
 
-#include "renderer/raster/moving_tiles.hpp"
+#include "renderer/raster/tile_bins.hpp"
 #include "renderer/vulkan/exact_arithmetic.hpp"
 #include "renderer/vulkan/scene.hpp"
 
@@ -67,18 +67,13 @@ shading::tile_record record_of(const moving_setup& s, const moving_tile& where)
 tile_triangles triangles_of(const tiled_triangles& scenery, std::size_t tile)
 {
     tile_triangles result;
-    std::vector<const moving_setup*> setups; // in the order of their numbers
-    scenery.for_each(tile, [&](const moving_setup& s) {
-        setups.push_back(&s);
-        result.records.push_back(record_of(s, scenery.tile(tile)));
-    });
+    scenery.for_each(tile, [&](const moving_setup& s) { result.records.push_back(record_of(s, scenery.tile(tile))); });
     tile_bins bins;
     bins.assign(scenery, tile);
     for (std::size_t block = 0; block < std::size_t(moving_blocks * moving_blocks); ++block) {
         const std::size_t before = result.members.size();
         bins.for_each(block, [&](const tile_triangle& t) {
-            const auto found = std::ranges::lower_bound(setups, t.setup().number, {}, &moving_setup::number);
-            result.members.push_back(static_cast<std::uint32_t>(found - setups.begin()));
+            result.members.push_back(static_cast<std::uint32_t>(bins.index_of(t)));
         });
         result.counts.push_back(static_cast<std::uint32_t>(result.members.size() - before));
     }
