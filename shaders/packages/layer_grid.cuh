@@ -832,7 +832,7 @@ GNOMON_INLINE constexpr layer_motion_sums<Real> layer_motion_begin(stochastic_sa
 /// True if a sample of this middle depth tells of a layer's motion: a surface whose motion is at most 65536 texels
 /// long.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr mask_t<Real> layer_counts(stochastic_sample<Real> s, Real middle)
+GNOMON_INLINE constexpr mask_t<Real> layer_motion_is_known(stochastic_sample<Real> s, Real middle)
 {
     Real limit = literal<Real>(texel_limit);
     mask_t<Real> moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
@@ -846,7 +846,7 @@ template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr layer_motion_sums<Real> layer_motion_add(layer_motion_sums<Real> state,
                                                                  stochastic_sample<Real> s, Real middle)
 {
-    mask_t<Real> known = layer_counts(s, middle);
+    mask_t<Real> known = layer_motion_is_known(s, middle);
     Real x = gnomon_select(known, s.d_x - state.first_x, Real(0));
     Real y = gnomon_select(known, s.d_y - state.first_y, Real(0));
     Real z = gnomon_select(known, s.d_z - state.first_z, Real(0));

@@ -745,7 +745,7 @@ static inline gnomon_layer_motion_sums layer_motion_begin(stochastic_sample firs
 
 /// True if a sample of this middle depth tells of a layer's motion: a surface whose motion is at most 65536 texels
 /// long.
-static inline bool gnomon_layer_counts(stochastic_sample s, float middle)
+static inline bool gnomon_layer_motion_is_known(stochastic_sample s, float middle)
 {
     float limit = gnomon_texel_limit;
     bool moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
@@ -758,7 +758,7 @@ static inline bool gnomon_layer_counts(stochastic_sample s, float middle)
 static inline gnomon_layer_motion_sums layer_motion_add(gnomon_layer_motion_sums state, stochastic_sample s,
                                                         float middle)
 {
-    bool known = gnomon_layer_counts(s, middle);
+    bool known = gnomon_layer_motion_is_known(s, middle);
     float x = gnomon_select(known, s.d_x - state.first_x, 0.0f);
     float y = gnomon_select(known, s.d_y - state.first_y, 0.0f);
     float z = gnomon_select(known, s.d_z - state.first_z, 0.0f);

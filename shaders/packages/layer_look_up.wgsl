@@ -678,7 +678,7 @@ fn layer_motion_begin(first: stochastic_sample) -> gnomon_layer_motion_sums
 
 /// True if a sample of this middle depth tells of a layer's motion: a surface whose motion is at most 65536 texels
 /// long.
-fn gnomon_layer_counts(s: stochastic_sample, middle: f32) -> bool
+fn gnomon_layer_motion_is_known(s: stochastic_sample, middle: f32) -> bool
 {
     let limit = gnomon_texel_limit;
     let moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
@@ -692,7 +692,7 @@ fn layer_motion_add(given_state: gnomon_layer_motion_sums, s: stochastic_sample,
                     middle: f32) -> gnomon_layer_motion_sums
 {
     var state = given_state;
-    let known = gnomon_layer_counts(s, middle);
+    let known = gnomon_layer_motion_is_known(s, middle);
     let x = gnomon_select(known, s.d_x - state.first_x, 0.0);
     let y = gnomon_select(known, s.d_y - state.first_y, 0.0);
     let z = gnomon_select(known, s.d_z - state.first_z, 0.0);

@@ -1568,7 +1568,7 @@ gnomon_layer_motion_sums layer_motion_begin(stochastic_sample first)
 
 /// True if a sample of this middle depth tells of a layer's motion: a surface whose motion is at most 65536 texels
 /// long.
-bool gnomon_layer_counts(stochastic_sample s, float middle)
+bool gnomon_layer_motion_is_known(stochastic_sample s, float middle)
 {
     float limit = gnomon_texel_limit;
     bool moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
@@ -1580,7 +1580,7 @@ bool gnomon_layer_counts(stochastic_sample s, float middle)
 /// NaN: no information, the state as before.
 gnomon_layer_motion_sums layer_motion_add(gnomon_layer_motion_sums state, stochastic_sample s, float middle)
 {
-    bool known = gnomon_layer_counts(s, middle);
+    bool known = gnomon_layer_motion_is_known(s, middle);
     float x = gnomon_select(known, s.d_x - state.first_x, 0.0);
     float y = gnomon_select(known, s.d_y - state.first_y, 0.0);
     float z = gnomon_select(known, s.d_z - state.first_z, 0.0);
@@ -1924,7 +1924,7 @@ gnomon_layer_direction_sums layer_direction_begin(gnomon_layer_motion motion)
 /// NaN: no information, the state as before.
 gnomon_layer_direction_sums layer_direction_add(gnomon_layer_direction_sums state, stochastic_sample s, float middle)
 {
-    bool known = gnomon_layer_counts(s, middle);
+    bool known = gnomon_layer_motion_is_known(s, middle);
     float x = gnomon_select(known, s.d_x - state.d_x, 0.0);
     float y = gnomon_select(known, s.d_y - state.d_y, 0.0);
     state.xx = state.xx + x * x;

@@ -1672,7 +1672,7 @@ inline layer_motion_sums layer_motion_begin(stochastic_sample first)
 
 /// True if a sample of this middle depth tells of a layer's motion: a surface whose motion is at most 65536 texels
 /// long.
-inline bool layer_counts(stochastic_sample s, float middle)
+inline bool layer_motion_is_known(stochastic_sample s, float middle)
 {
     float limit = texel_limit;
     bool moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
@@ -1684,7 +1684,7 @@ inline bool layer_counts(stochastic_sample s, float middle)
 /// NaN: no information, the state as before.
 inline layer_motion_sums layer_motion_add(layer_motion_sums state, stochastic_sample s, float middle)
 {
-    bool known = layer_counts(s, middle);
+    bool known = layer_motion_is_known(s, middle);
     float x = gnomon_select(known, s.d_x - state.first_x, 0.0f);
     float y = gnomon_select(known, s.d_y - state.first_y, 0.0f);
     float z = gnomon_select(known, s.d_z - state.first_z, 0.0f);
@@ -2036,7 +2036,7 @@ inline layer_direction_sums layer_direction_begin(layer_motion motion)
 /// NaN: no information, the state as before.
 inline layer_direction_sums layer_direction_add(layer_direction_sums state, stochastic_sample s, float middle)
 {
-    bool known = layer_counts(s, middle);
+    bool known = layer_motion_is_known(s, middle);
     float x = gnomon_select(known, s.d_x - state.d_x, 0.0f);
     float y = gnomon_select(known, s.d_y - state.d_y, 0.0f);
     state.xx = state.xx + x * x;

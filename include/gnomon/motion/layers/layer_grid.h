@@ -54,7 +54,7 @@ GNOMON_KERNEL GNOMON_T(layer_motion_sums) layer_motion_begin(GNOMON_T(stochastic
 }
 
 /// True if a sample of this middle depth tells of a layer's motion: a surface whose motion is at most 65536 texels long.
-GNOMON_DETAIL_KERNEL GNOMON_MASK layer_counts(GNOMON_T(stochastic_sample) s, Real middle)
+GNOMON_DETAIL_KERNEL GNOMON_MASK layer_motion_is_known(GNOMON_T(stochastic_sample) s, Real middle)
 {
     Real limit = GNOMON_LITERAL(texel_limit);
     GNOMON_MASK moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
@@ -67,7 +67,7 @@ GNOMON_DETAIL_KERNEL GNOMON_MASK layer_counts(GNOMON_T(stochastic_sample) s, Rea
 GNOMON_KERNEL GNOMON_T(layer_motion_sums) layer_motion_add(GNOMON_T(layer_motion_sums) state,
                                                            GNOMON_T(stochastic_sample) s, Real middle)
 {
-    GNOMON_MASK known = layer_counts(s, middle);
+    GNOMON_MASK known = layer_motion_is_known(s, middle);
     Real x = gnomon_select(known, s.d_x - state.first_x, Real(0));
     Real y = gnomon_select(known, s.d_y - state.first_y, Real(0));
     Real z = gnomon_select(known, s.d_z - state.first_z, Real(0));

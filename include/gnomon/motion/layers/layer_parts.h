@@ -46,7 +46,7 @@ GNOMON_KERNEL GNOMON_T(layer_direction_sums) layer_direction_begin(GNOMON_T(laye
 GNOMON_KERNEL GNOMON_T(layer_direction_sums) layer_direction_add(GNOMON_T(layer_direction_sums) state,
                                                                  GNOMON_T(stochastic_sample) s, Real middle)
 {
-    GNOMON_MASK known = layer_counts(s, middle);
+    GNOMON_MASK known = layer_motion_is_known(s, middle);
     Real x = gnomon_select(known, s.d_x - state.d_x, Real(0));
     Real y = gnomon_select(known, s.d_y - state.d_y, Real(0));
     state.xx = state.xx + x * x;
