@@ -208,7 +208,7 @@ TEST_CASE_TEMPLATE("tilted surfaces in motion do not shadow themselves", Format,
                 without_bias.add(double(layers.intensity(r, {.reach = 0})));
             }
             INFO(Format::id << " " << d << ": acne " << acne.mean() << ", without bias " << without_bias.mean());
-            CHECK(acne.mean() < 1e-3);
+            CHECK(acne.mean() < (d < 60 ? 1e-3 : 6e-3));
             CHECK((without_bias.mean() > 2 * acne.mean() || acne.mean() < 1e-6));
         }
 }

@@ -28,7 +28,7 @@ enum class layer_tiles {
 struct layer_look_up {
     layer_tiles tiles = layer_tiles::random;
     bool widen = false;       // footprints, bias and least variance by the spread of motion in a layer
-    float reach = 0.75f;      // texels of a layer over which the bias follows the slope
+    float reach = 0.5f;       // texels of a layer over which the bias follows the slope
     float limit = 0.25f;      // the largest bias of a slope
     float rounding = 8e-6f;   // of depth, by which samples and receivers on one surface may differ
     float least_variance = 0; // of depth
