@@ -6378,8 +6378,8 @@ gnomon_layer_direction_sums layer_direction_add(gnomon_layer_direction_sums stat
 /// The direction in which motions differ most: that of the larger eigenvalue of their covariance, along x if both are
 /// equal.
 /// Domain: differences from 2^-10 texels on; of smaller ones the direction is along x, and scale is 0.
-/// Error: of the axis, 16 2^-p times the larger eigenvalue over the difference of both; of scale, relative, (n + 8)
-/// 2^-p, n the number of samples.
+/// Error: with n samples, of the axis (n + 16) 2^-p times the larger eigenvalue over the difference of both; of scale,
+/// relative, (n + 16) 2^-p.
 gnomon_layer_direction layer_direction_end(gnomon_layer_direction_sums state)
 {
     float half_difference = 0.5 * (state.xx - state.yy);
