@@ -132,7 +132,7 @@ class translucent_comparison {
             row.parameters["times"] = count;
             add_errors(std::move(row), "at_times_of_rays", traced_in * step * step, at_pixels);
         }
-        return {.rows = rows_, .blocks = {table(), pictures_}};
+        return {.rows = rows_, .blocks = {pictures_, table()}};
     }
 
   private:
@@ -193,7 +193,6 @@ class translucent_comparison {
     table_block table() const
     {
         table_block result{
-            .title = "Translucent casters",
             .text = fmt::format(
                 "{} Each range has the opacity of its surface. Between two times at which a range begins or ends to "
                 "be in front of the receiver, the transmittance is the product of 1 - opacity over the ranges in "
