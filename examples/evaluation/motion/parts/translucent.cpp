@@ -223,8 +223,10 @@ class translucent_comparison {
     std::vector<std::size_t> pixels_; // that see a surface and are referred to
     std::vector<float> reference_;
     std::vector<report_row> rows_;
-    pictures_block pictures_{
-        .text = "Panes are left out of the pictures, their shadows are not.", .columns = 2, .pictures = {}};
+    pictures_block pictures_{.title = "Translucent casters",
+                             .text = "Panes are left out of the pictures, their shadows are not.",
+                             .columns = 2,
+                             .pictures = {}};
 };
 
 part_run begin_translucent(const motion_settings& how)
