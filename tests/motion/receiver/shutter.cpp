@@ -162,7 +162,8 @@ TEST_CASE("the share of light that changes linearly is its integral, rises, and 
         const wide a = dark ? 1 : wide(w0), b = dark ? 1 : wide(w1), x = wide(t);
         const wide expected = (2 * a * x + (b - a) * x * x) / (a + b);
         RC_ASSERT(std::abs(wide(shutter_line(t, 0.f, 1.f, w0, w1)) - expected) <= 12 * rounding<float>);
-        RC_ASSERT(shutter_line(t, 0.f, 1.f, w0, w1) <= shutter_line(later, 0.f, 1.f, w0, w1) + 4 * rounding<float>);
+        RC_ASSERT(shutter_line(t, 0.f, 1.f, w0, w1) <=
+                  shutter_line(later, 0.f, 1.f, w0, w1) + 4 * float(rounding<float>));
         RC_ASSERT(shutter_line(1.f, 0.f, 1.f, w0, w1) == 1);
         RC_ASSERT(shutter_line(t, 0.f, 1.f, -1.f, 0.f) == t);
     }));
