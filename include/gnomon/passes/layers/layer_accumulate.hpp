@@ -22,8 +22,10 @@ struct motion_lanes {
 
     explicit motion_lanes(const stochastic_sample<float>& first) : sums(layer_motion_begin(first))
     {
-        least.fill(sums.least), greatest.fill(sums.greatest);
-        least_d.fill(sums.least_d), greatest_d.fill(sums.greatest_d);
+        least.fill(sums.least);
+        greatest.fill(sums.greatest);
+        least_d.fill(sums.least_d);
+        greatest_d.fill(sums.greatest_d);
     }
     /// Add samples n to n + count - 1 of a batch that are in the layer, as of layer_motion_add.
     void add(const sample_batch& s, std::size_t n, const layer_cuts<float>& cuts, float layer)
@@ -37,12 +39,16 @@ struct motion_lanes {
             const float dx = counts ? d_x - sums.first_x : 0;
             const float dy = counts ? d_y - sums.first_y : 0;
             const float dz = counts ? d_z - sums.first_z : 0;
-            x[k] += dx, y[k] += dy, z[k] += dz;
-            square[k] += dx * dx + dy * dy, square_z[k] += dz * dz;
+            x[k] += dx;
+            y[k] += dy;
+            z[k] += dz;
+            square[k] += dx * dx + dy * dy;
+            square_z[k] += dz * dz;
             known[k] += counts ? 1.0f : 0.0f;
             const float near_z = counts ? middle : least[k], far_z = counts ? middle : greatest[k];
             const float near_d = counts ? d_z : least_d[k], far_d = counts ? d_z : greatest_d[k];
-            least[k] = near_z < least[k] ? near_z : least[k], greatest[k] = greatest[k] < far_z ? far_z : greatest[k];
+            least[k] = near_z < least[k] ? near_z : least[k];
+            greatest[k] = greatest[k] < far_z ? far_z : greatest[k];
             least_d[k] = near_d < least_d[k] ? near_d : least_d[k];
             greatest_d[k] = greatest_d[k] < far_d ? far_d : greatest_d[k];
         }
@@ -51,9 +57,14 @@ struct motion_lanes {
     {
         layer_motion_sums<float> all = sums;
         for (std::size_t k = 0; k < count; ++k) {
-            all.x += x[k], all.y += y[k], all.z += z[k], all.square += square[k], all.square_z += square_z[k];
+            all.x += x[k];
+            all.y += y[k];
+            all.z += z[k];
+            all.square += square[k];
+            all.square_z += square_z[k];
             all.count += known[k];
-            all.least = (std::min)(all.least, least[k]), all.greatest = (std::max)(all.greatest, greatest[k]);
+            all.least = (std::min)(all.least, least[k]);
+            all.greatest = (std::max)(all.greatest, greatest[k]);
             all.least_d = (std::min)(all.least_d, least_d[k]);
             all.greatest_d = (std::max)(all.greatest_d, greatest_d[k]);
         }
@@ -68,8 +79,12 @@ inline layer_motion<float> motion_of(window_samples& samples, const layer_cuts<f
     bool found = false;
     samples.for_each_batch([&](const sample_batch& s) {
         for (std::size_t k = 0; k < s.count && !found; ++k)
-            if (layer_of(s.middle[k], cuts) == layer)
-                found = true, first.d_x = s.d_x[k], first.d_y = s.d_y[k], first.d_z = s.d_z[k];
+            if (layer_of(s.middle[k], cuts) == layer) {
+                found = true;
+                first.d_x = s.d_x[k];
+                first.d_y = s.d_y[k];
+                first.d_z = s.d_z[k];
+            }
     });
     motion_lanes lanes(first);
     samples.for_each_batch([&](const sample_batch& s) {
@@ -92,7 +107,8 @@ void even_out(square_sums<Format>& sums, std::size_t side, const layer_grid<floa
                 return;
             }
             const float a = (low - place) / axis, b = (high - place) / axis;
-            from = std::fmax(from, std::fmin(a, b)), to = std::fmin(to, std::fmax(a, b));
+            from = std::fmax(from, std::fmin(a, b));
+            to = std::fmin(to, std::fmax(a, b));
         };
         clip(g.axis_x, -g.axis_y * across, float(w.x0) - w.x, float(w.x1) - w.x);
         clip(g.axis_y, g.axis_x * across, float(w.y0) - w.y, float(w.y1) - w.y);

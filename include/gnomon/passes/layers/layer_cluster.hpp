@@ -20,7 +20,8 @@ inline window_extremes extremes_of(window_samples& samples)
     constexpr std::size_t lanes = sample_batch::lanes;
     const layer_window<float> none = layer_window_begin(float(layer_background_depth));
     std::array<float, lanes> least, greatest;
-    least.fill(none.least), greatest.fill(none.greatest);
+    least.fill(none.least);
+    greatest.fill(none.greatest);
     unsigned moves = 0;
     samples.for_each_batch([&](const sample_batch& s) {
         for (std::size_t first = 0; first < s.rounded(); first += lanes)

@@ -159,7 +159,8 @@ float visibility_through(layer_grid<float> grid, const auto& mips, float x, floa
 inline layer_grid<float> plain_grid(float guard)
 {
     layer_motion<float> still{};
-    still.least = -1, still.greatest = 1;
+    still.least = -1;
+    still.greatest = 1;
     return layer_grid_make(still, guard, guard);
 }
 

@@ -42,8 +42,13 @@ struct sample_batch {
         const std::size_t begin = count, size = samples.size();
         for (std::size_t k = 0; k < size; ++k) {
             const stochastic_sample<float>& s = from[k];
-            x[begin + k] = s.x - centre_x, y[begin + k] = s.y - centre_y, t[begin + k] = s.t, z[begin + k] = s.z;
-            d_x[begin + k] = s.d_x, d_y[begin + k] = s.d_y, d_z[begin + k] = s.d_z;
+            x[begin + k] = s.x - centre_x;
+            y[begin + k] = s.y - centre_y;
+            t[begin + k] = s.t;
+            z[begin + k] = s.z;
+            d_x[begin + k] = s.d_x;
+            d_y[begin + k] = s.d_y;
+            d_z[begin + k] = s.d_z;
             middle[begin + k] = layer_middle_depth(s);
         }
         count += size;
@@ -52,7 +57,8 @@ struct sample_batch {
     {
         for (std::size_t k = count; k < rounded(); ++k) {
             x[k] = y[k] = t[k] = d_x[k] = d_y[k] = d_z[k] = 0;
-            z[k] = 1, middle[k] = float(layer_background_depth);
+            z[k] = 1;
+            middle[k] = float(layer_background_depth);
         }
     }
 };
@@ -84,7 +90,9 @@ class window_samples {
             const std::size_t some = (std::min)(row - k_, batch_.most - batch_.count);
             batch_.add(samples_.of.subspan((y_ * samples_.width + w_.x0) * samples_.samples + k_, some), w_.x, w_.y);
             k_ += some;
-            if (k_ == row) ++y_, k_ = 0;
+            if (k_ < row) continue;
+            ++y_;
+            k_ = 0;
         }
         batch_.fill_up();
     }

@@ -45,11 +45,15 @@ void sample_ranges(const Map& map, std::size_t each, const Motion& motion, std::
                     if (!(r.t0 <= t && t < r.t1)) continue;
                     const T z = range_depth(r, t);
                     if (covered && !(z < s.z)) continue;
-                    covered = true, s.z = z, s.id = r.id;
+                    covered = true;
+                    s.z = z;
+                    s.id = r.id;
                 }
                 if (covered) {
                     const triangle_motion<T> m = s.id >= 0 ? motion(s.id, at_x, at_y, t) : triangle_motion<T>{};
-                    s.d_x = m.d_x, s.d_y = m.d_y, s.d_z = m.d_z;
+                    s.d_x = m.d_x;
+                    s.d_y = m.d_y;
+                    s.d_z = m.d_z;
                     s.id = s.id >= 0 ? s.id : T(0);
                 }
                 samples[(y * map.width + x) * each + k] = s;
