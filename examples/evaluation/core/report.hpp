@@ -34,11 +34,13 @@ struct report_row {
     double bytes_per_texel = 0;
     double map_bytes = 0;
     error_statistics errors{};
-    std::optional<double> noise{}, bias{};       // standard deviation over seeds, and mean error over them
-    std::optional<double> noise_beyond_camera{}; // of the difference from exact visibility at the camera's own times
-    std::optional<double> acne_unbiased{};       // of the same receivers without depth bias
-    std::optional<double> ns_kernel{};           // of values that have been fetched
-    double ns_per_receiver = 0;                  // with the look-up
+    std::optional<double> noise{}, bias{}; // standard deviation over seeds, and mean error over them
+    std::optional<double>
+        noise_beyond_camera{};             // left with exact visibility at the camera's times as a control variate
+    std::optional<double> noise_of_map{};  // with the samples of the camera held
+    std::optional<double> acne_unbiased{}; // of the same receivers without depth bias
+    std::optional<double> ns_kernel{};     // of values that have been fetched
+    double ns_per_receiver = 0;            // with the look-up
     double build_ms = 0;
     std::string real = "float";
     int lanes = 1, threads = 1;

@@ -87,7 +87,7 @@ chart_block bias_chart(compared_scenes scenes)
         if (!p.series.empty()) chart.panels.push_back(std::move(p));
     }
     chart.alt = fmt::format("Lines of acne against leak in {} scenes, one for each method.", chart.panels.size());
-    chart.caption = "A quarter of the pixels, one seed.";
+    chart.caption = "One seed.";
     return chart;
 }
 
@@ -104,7 +104,7 @@ chart_block steps_chart(compared_scenes scenes)
     for (const compared_layers& scene : scenes) {
         const std::vector<const layered_result*> shown = usual_of_families(scene);
         panel p{.title = scene.scene.label,
-                .x = {.label = "", .least = 0.5, .most = double(shown.size()) + 0.5},
+                .x = {.label = "method, see below", .least = 0.5, .most = double(shown.size()) + 0.5},
                 .y = {.label = "ms of one core", .least = 0},
                 .series = {}};
         std::vector<double> reached(shown.size());
@@ -153,10 +153,8 @@ chart_block rivals_chart(compared_scenes scenes)
             series s{.label = f->label, .colour = f->colour, .labelled = false};
             for (const compared_layers& scene : scenes)
                 for (const layered_result* r : usual_of_families(scene))
-                    if (r->method->family == f->id && r->row.errors.rmse > 0) {
+                    if (r->method->family == f->id && r->row.errors.rmse > 0)
                         s.points.push_back({m.of(*r), thousandths * r->row.errors.rmse});
-                        s.texts.push_back(scene.scene.label);
-                    }
             if (!s.points.empty()) p.series.push_back(std::move(s));
         }
         chart.panels.push_back(std::move(p));

@@ -18,14 +18,15 @@ using namespace renderer;
 
 namespace {
 
-// Constants of the bias, of signed depth. Every second column and row of a bias curve's pixels is looked up.
+// Constants of the bias, of signed depth. Of a large picture every second column and row is looked up for a curve.
 constexpr std::array bias_constants{0., .0025, .005, .01, .02, .04, .08, .16, .32};
-constexpr int bias_stride = 2;
+constexpr int large_width = 160;
 
 // A variant while it is measured: its map, and what is known at each constant bias.
 struct tracked_bias {
     double constant;
     seed_statistics statistics;
+    std::vector<float> held; // the estimate with the samples of the camera's first seed
 };
 struct tracked_variant {
     const layered_method* method;
@@ -82,7 +83,7 @@ class layers_comparison {
                 if (seed < t.seeds) measure(t, seed);
             if (seed == 0) found_.samples_of_map = static_cast<long long>(input_.samples().of.of.size());
         }
-        found_.camera_ms = view_.samples().camera_ms;
+        found_.camera_ms = view_.now().of.camera_ms;
         for (tracked_variant& t : tracked_) finish(t);
         return std::move(found_);
     }
@@ -92,16 +93,24 @@ class layers_comparison {
 
     void begin(const layered_method& m, const layered_variant& v)
     {
-        const bool rival = has(v, equal_time) || has(v, equal_memory);
+        const bool rival = (has(v, equal_time) || has(v, equal_memory)) && (found_.motion.has("rivals") || size_.full);
         const bool setting = has(v, of_settings) && (found_.motion.has("settings") || size_.full);
-        const int seeds = has(v, equal_input) ? size_.seeds : rival || setting ? size_.few_seeds : 0;
+        // Models of depth differ little from the usual one in noise.
+        const bool model = m.family == layers_family->id && m.id != usual_layers;
+        const int all = model ? std::max(size_.seeds / 2, 2) : size_.seeds;
+        const int seeds = has(v, equal_input) ? all : rival || setting ? size_.few_seeds : 0;
         if (seeds > 0) tracked_.push_back({&m, &v, seeds, m.id != exact_method && !setting, nullptr});
     }
 
-    std::vector<float> look_up(const tracked_variant& t, double constant, double* ms = nullptr)
+    int resolution_of(const tracked_variant& t) const
     {
-        const int resolution = t.map->resolution > 0 ? t.map->resolution : size_.map_resolution;
-        const stochastic_receivers& all = view_.receivers(resolution);
+        return t.map->resolution > 0 ? t.map->resolution : size_.map_resolution;
+    }
+
+    // The visibility of each segment, and the time of the look-ups where there is no constant bias.
+    std::vector<float> look_up(const tracked_variant& t, double constant, seen_samples& seen, double* ms = nullptr)
+    {
+        const stochastic_receivers& all = seen.receivers(resolution_of(t));
         std::vector<float> found(all.where.size());
         if (constant == 0) {
             const double spent = seconds_on_one_core([&] { t.map->visibilities(all.where, found); });
@@ -111,66 +120,70 @@ class layers_comparison {
             for (stochastic_receiver& r : where) r = with_bias(r, float(constant));
             t.map->visibilities(where, found);
         }
-        return view_.of_segments(all, found);
+        return of_segments(all, found);
     }
 
     void measure(tracked_variant& t, int seed)
     {
         if (!t.map || t.method->is_seeded) t.map = t.method->build(input_, t.variant->parameters);
         if (seed == 0) {
-            t.biases.push_back({0, {view_.expected, view_.penumbrae}});
+            t.biases.push_back({0, {view_.expected, view_.penumbrae}, {}});
             if (t.with_curve) add_curve(t);
         }
-        layered_result& r = t.result;
         for (tracked_bias& b : t.biases) {
             double ms = 0;
-            const std::vector<float> segments = look_up(t, b.constant, &ms);
-            const std::vector<float> estimate = view_.of_pixels(segments);
+            const std::vector<float> segments = look_up(t, b.constant, view_.now(), &ms);
+            const std::vector<float> estimate = view_.of_pixels(view_.now(), segments);
             if (t.method->id == exact_method) exact_ = estimate;
-            b.statistics.add(estimate, exact_);
-            if (b.constant != 0) continue;
-            if (seed > 0) {
-                r.look_up_ms = std::min(r.look_up_ms, ms), r.sampling_ms = std::min(r.sampling_ms, t.map->sampling_ms);
-                r.conversion_ms = std::min(r.conversion_ms, t.map->conversion_ms);
-                continue;
-            }
-            r.look_up_ms = ms, r.sampling_ms = t.map->sampling_ms, r.conversion_ms = t.map->conversion_ms;
-            r.facts = t.map->facts;
-            r.row.map_bytes = double(t.map->bytes());
-            const double texels = double(t.map->resolution) * double(t.map->resolution);
-            r.row.bytes_per_texel = texels > 0 ? r.row.map_bytes / texels : 0;
-            draw(t, segments);
+            if (seed == 0 || t.method->is_seeded)
+                b.held = seed == 0 ? estimate : view_.of_pixels(view_.first(), look_up(t, b.constant, view_.first()));
+            b.statistics.add(estimate, exact_, b.held);
+            if (b.constant == 0) note(t, seed, ms, segments);
         }
         if (t.method->is_seeded) t.map.reset();
+    }
+
+    // Times, the least of all seeds, and facts and a picture of the first seed.
+    void note(tracked_variant& t, int seed, double look_up_ms, const std::vector<float>& segments)
+    {
+        layered_result& r = t.result;
+        const auto least = [seed](double& of, double now) { of = seed == 0 ? now : std::min(of, now); };
+        least(r.look_up_ms, look_up_ms), least(r.sampling_ms, t.map->sampling_ms);
+        least(r.conversion_ms, t.map->conversion_ms);
+        if (seed > 0) return;
+        r.facts = t.map->facts;
+        r.row.map_bytes = double(t.map->bytes());
+        const double texels = double(t.map->resolution) * double(t.map->resolution);
+        r.row.bytes_per_texel = texels > 0 ? r.row.map_bytes / texels : 0;
+        draw(t, segments);
     }
 
     void draw(tracked_variant& t, const std::vector<float>& segments)
     {
         picture shaded;
         const double spent =
-            seconds_on_one_core([&] { shaded = shade(stage_.world, stage_.light, view_.samples().seen, segments); });
+            seconds_on_one_core([&] { shaded = shade(stage_.world, stage_.light, view_.now().of.seen, segments); });
         if (t.method->id == exact_method) found_.shading_ms = 1e3 * spent;
         std::string name = t.method->id;
         for (const auto& [key, value] : t.variant->parameters) name += fmt::format("-{}_{:g}", key, value);
         t.result.picture = file(name), t.result.error = file(name + "-error");
         write_png(folder_ / t.result.picture, shaded);
-        write_png(folder_ / t.result.error, error_picture(mean_visibility(view_.samples().seen, segments),
+        write_png(folder_ / t.result.error, error_picture(mean_visibility(view_.now().of.seen, segments),
                                                           view_.reference.visibility, layered_error_scale));
     }
 
     // Errors of a part of the pixels by the constant; the best constant is measured as the others are.
     void add_curve(tracked_variant& t)
     {
-        const int resolution = t.map->resolution > 0 ? t.map->resolution : size_.map_resolution;
-        const stochastic_receivers& all = view_.receivers(resolution);
-        const auto width = std::size_t(size_.width), stride = std::size_t(bias_stride);
+        const seen_motion& seen = view_.now().of.seen;
+        const stochastic_receivers& all = view_.now().receivers(resolution_of(t));
+        const std::size_t width = std::size_t(size_.width), stride = size_.width > large_width ? 2 : 1;
         const auto is_part = [&](std::size_t pixel) {
             return pixel % width % stride == 0 && pixel / width % stride == 0;
         };
-        std::vector<char> in_part(view_.samples().seen.segments.size());
-        for (std::size_t pixel = 0; pixel + 1 < view_.samples().seen.first.size(); ++pixel)
-            for (std::size_t i = view_.samples().seen.first[pixel]; i < view_.samples().seen.first[pixel + 1]; ++i)
-                in_part[i] = is_part(pixel);
+        std::vector<char> in_part(seen.segments.size());
+        for (std::size_t pixel = 0; pixel + 1 < seen.first.size(); ++pixel)
+            for (std::size_t i = seen.first[pixel]; i < seen.first[pixel + 1]; ++i) in_part[i] = is_part(pixel);
         stochastic_receivers some{{}, {}, all.visibility};
         for (std::size_t i = 0; i < all.where.size(); ++i)
             if (in_part[all.segments[i]]) some.where.push_back(all.where[i]), some.segments.push_back(all.segments[i]);
@@ -184,14 +197,14 @@ class layers_comparison {
             for (stochastic_receiver& r : some.where) r = with_bias(r, float(constant - moved));
             moved = constant;
             t.map->visibilities(some.where, found);
-            const std::vector<float> of_all = view_.of_pixels(view_.of_segments(some, found));
+            const std::vector<float> of_all = view_.of_pixels(view_.now(), of_segments(some, found));
             std::vector<float> estimate;
             for (const std::size_t i : part) estimate.push_back(of_all[i]);
             const error_statistics e = compare(estimate, expected);
             curve.points.push_back({constant, e.leak, e.acne, e.rmse});
         }
         if (const double best = curve.best().constant; best != 0)
-            t.biases.push_back({best, {view_.expected, view_.penumbrae}});
+            t.biases.push_back({best, {view_.expected, view_.penumbrae}, {}});
         found_.curves.push_back(std::move(curve));
     }
 
@@ -200,7 +213,6 @@ class layers_comparison {
         for (const tracked_bias& b : t.biases) {
             layered_result r = t.result;
             r.method = t.method, r.variant = t.variant, r.constant_bias = b.constant;
-            r.noise_beyond_camera = b.statistics.noise_beyond_camera();
             r.row = row_of(*t.method);
             r.row.map_bytes = t.result.row.map_bytes, r.row.bytes_per_texel = t.result.row.bytes_per_texel;
             r.row.scene = found_.scene.id;
@@ -214,8 +226,9 @@ class layers_comparison {
             r.row.receivers = found_.receivers;
             r.row.errors = b.statistics.errors();
             r.row.noise = b.statistics.noise(), r.row.bias = b.statistics.bias();
-            r.row.noise_beyond_camera = r.noise_beyond_camera;
-            const double looked_up = double(view_.samples().seen.segments.size());
+            r.row.noise_beyond_camera = b.statistics.noise_beyond_camera();
+            r.row.noise_of_map = b.statistics.noise_of_map();
+            const double looked_up = double(view_.now().of.seen.segments.size());
             r.row.ns_per_receiver = 1e6 * r.look_up_ms / std::max(looked_up, 1.0);
             r.row.build_ms = r.build_ms();
             r.row.seeds = b.statistics.seeds();

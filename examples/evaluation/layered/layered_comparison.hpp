@@ -31,7 +31,6 @@ struct layered_result {
     const layered_variant* variant;
     double constant_bias = 0;
     report_row row{};
-    std::optional<double> noise_beyond_camera{};
     double sampling_ms = 0, conversion_ms = 0, look_up_ms = 0; // of one core
     evaluation::parameters facts{};
     std::string picture{}, error{}; // files, or none
@@ -52,7 +51,7 @@ struct bias_curve {
     const layered_variant* variant;
     std::vector<bias_point> points;
 
-    const bias_point& best() const; // of the least RMSE; the smaller constant where two are equal
+    const bias_point& best() const; // the smallest with at most 1.01 x the least RMSE
 };
 
 struct compared_layers {

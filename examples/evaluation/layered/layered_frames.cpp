@@ -88,10 +88,11 @@ compared_frames compare_frames(const motion_scene& scene, const layered_sizes& s
         for (std::size_t i = 0; i < view.pixels.size(); ++i) now.reference[view.pixels[i]] = view.expected[i];
         for (const layered_method* m : methods) {
             const auto map = m->build(input, m->variants.front().parameters);
-            const stochastic_receivers& r = view.receivers(map->resolution > 0 ? map->resolution : size.map_resolution);
+            const stochastic_receivers& r =
+                view.now().receivers(map->resolution > 0 ? map->resolution : size.map_resolution);
             std::vector<float> found(r.where.size());
             map->visibilities(r.where, found);
-            now.estimates.push_back(mean_visibility(view.samples().seen, view.of_segments(r, found)));
+            now.estimates.push_back(mean_visibility(view.now().of.seen, of_segments(r, found)));
         }
     }
     const std::vector<float> expected = changes(all, [](const frame& f, std::size_t i) { return f.reference.at(i); });

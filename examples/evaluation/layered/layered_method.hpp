@@ -42,8 +42,8 @@ struct layered_variant {
 };
 
 // Comparisons by their ids: of the same samples of map and camera, which is that of the usual variant of each method; of
-// rivals of the usual layers that may have about their time or about their memory; and of settings of one method, in
-// scenes with the tag "settings".
+// rivals of the usual layers that may have about their time or about their memory, in scenes with the tag "rivals"; and of
+// settings of one method, in scenes with the tag "settings". The full run has all of them in all scenes.
 inline constexpr const char* equal_input = "input";
 inline constexpr const char* equal_time = "time";
 inline constexpr const char* equal_memory = "memory";

@@ -33,11 +33,17 @@ std::string colour_of(const layered_result& r) { return r.method->its_family().c
 std::vector<std::pair<std::string, cell>> cells_of(const layered_result& r)
 {
     const report_row& row = r.row;
-    return {{"method", r.label()},       {"rmse", row.errors.rmse},
-            {"noise", maybe(row.noise)}, {"beyond", maybe(row.noise_beyond_camera)},
-            {"bias", maybe(row.bias)},   {"leak", row.errors.leak},
-            {"acne", row.errors.acne},   {"bytes", row.map_bytes / 1048576},
-            {"build", r.build_ms()},     {"look_up", row.ns_per_receiver},
+    return {{"method", r.label()},
+            {"rmse", row.errors.rmse},
+            {"noise", maybe(row.noise)},
+            {"beyond", maybe(row.noise_beyond_camera)},
+            {"of_map", maybe(row.noise_of_map)},
+            {"bias", maybe(row.bias)},
+            {"leak", row.errors.leak},
+            {"acne", row.errors.acne},
+            {"bytes", row.map_bytes / 1048576},
+            {"build", r.build_ms()},
+            {"look_up", row.ns_per_receiver},
             {"total", r.total_ms()}};
 }
 
@@ -53,7 +59,8 @@ std::vector<column> columns_of()
             error_column("rmse", "RMSE", 1),
             hinted(error_column("noise", "noise", 1), "standard deviation over seeds, in penumbrae"),
             hinted(error_column("beyond", "noise beyond the camera's", 1),
-                   "the same of the difference from exact visibility at the camera's own times"),
+                   "what exact visibility at the camera's own times, as a control variate, leaves of it"),
+            hinted(error_column("of_map", "noise of the map", 1), "the same with the samples of the camera held"),
             hinted(error_column("bias", "bias", 1), "root mean square of the mean error over seeds"),
             error_column("leak", "leak", 1),
             error_column("acne", "acne", 1),
@@ -146,7 +153,8 @@ table_block noise_of(compared_scenes scenes)
         .text =
             "Standard deviation over seeds in penumbrae, in thousandths, of the same number of samples of map and "
             "camera. Much of it is the camera's, whose few times are drawn anew with each seed: exact visibility at "
-            "the same times has it, too. Noise beyond the camera's is that of the difference from exact visibility. "
+            "the same times has it, too. Noise beyond the camera's is what is left with exact visibility as a control "
+            "variate. Noise of the map is that of maps of other seeds under the same samples of the camera. "
             "Ratios are to the time-dependent shadow map with the least RMSE.",
         .columns = {{.key = "scene", .label = "scene"},
                     {.key = "method", .label = "method"},
@@ -154,6 +162,8 @@ table_block noise_of(compared_scenes scenes)
                     number_column("ratio", "ratio", 2),
                     error_column("beyond", "beyond the camera's", 1),
                     number_column("beyond_ratio", "ratio", 2),
+                    error_column("of_map", "of the map", 1),
+                    number_column("map_ratio", "ratio", 2),
                     error_column("bias", "bias", 1),
                     error_column("rmse", "RMSE", 1)},
         .rows = {}};
@@ -173,6 +183,8 @@ table_block noise_of(compared_scenes scenes)
                            {"beyond", maybe(r.row.noise_beyond_camera)},
                            {"beyond_ratio",
                             slices ? ratio(r.row.noise_beyond_camera, slices->row.noise_beyond_camera) : cell()},
+                           {"of_map", maybe(r.row.noise_of_map)},
+                           {"map_ratio", slices ? ratio(r.row.noise_of_map, slices->row.noise_of_map) : cell()},
                            {"bias", maybe(r.row.bias)},
                            {"rmse", r.row.errors.rmse}},
                  .colour = colour_of(r)});

@@ -4,6 +4,7 @@
 
 #include "evaluation/core/blocks.hpp"
 #include "layered_comparison.hpp"
+#include "layered_costs.hpp"
 
 #include <span>
 #include <vector>
@@ -29,7 +30,7 @@ const layered_result* best_of(const compared_layers& scene, const family& of, st
 void add_scene_blocks(const compared_layers& scene, std::vector<block>& to);
 
 // What the paper and this project set out for, and what was found.
-table_block goals_of(compared_scenes scenes);
+table_block goals_of(compared_scenes scenes, const static_costs& still);
 
 // Standard deviations over seeds, with the camera's noise and without, and bias apart.
 table_block noise_of(compared_scenes scenes);

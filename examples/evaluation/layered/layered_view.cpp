@@ -25,28 +25,27 @@ layered_view::layered_view(const moving_stage& its_stage, const camera_sizes& it
 
 void layered_view::reseed(std::uint32_t seed)
 {
-    receivers_.clear();
-    samples_ = camera_samples_of(stage, size.width, size.height, size.samples, seed);
+    if (held_.size() > 1) held_.pop_back();
+    held_.emplace_back(stage, size, seed);
 }
 
-const stochastic_receivers& layered_view::receivers(int resolution)
+const stochastic_receivers& seen_samples::receivers(int resolution)
 {
     const auto [found, is_new] = receivers_.try_emplace(resolution);
-    if (is_new) found->second = stochastic_receivers_of(samples_, stage, resolution);
+    if (is_new) found->second = stochastic_receivers_of(of, *stage_, resolution);
     return found->second;
 }
 
-std::vector<float> layered_view::of_segments(const stochastic_receivers& receivers,
-                                             std::span<const float> visibility) const
+std::vector<float> of_segments(const stochastic_receivers& receivers, std::span<const float> visibility)
 {
     std::vector<float> result = receivers.visibility;
     for (std::size_t i = 0; i < visibility.size(); ++i) result[receivers.segments[i]] = visibility[i];
     return result;
 }
 
-std::vector<float> layered_view::of_pixels(std::span<const float> segments) const
+std::vector<float> layered_view::of_pixels(const seen_samples& seen, std::span<const float> segments) const
 {
-    const image<float> all = mean_visibility(samples_.seen, segments);
+    const image<float> all = mean_visibility(seen.of.seen, segments);
     std::vector<float> result;
     for (const std::size_t pixel : pixels) result.push_back(all.pixels[pixel]);
     return result;

@@ -20,24 +20,39 @@ struct camera_sizes {
     int reference_times;
 };
 
+// Samples of one seed, and their receivers in maps of so many texels a side.
+class seen_samples {
+  public:
+    // The stage outlives the samples.
+    seen_samples(const renderer::moving_stage& stage, const camera_sizes& size, std::uint32_t seed)
+        : of(camera_samples_of(stage, size.width, size.height, size.samples, seed)), stage_(&stage)
+    {}
+
+    const stochastic_receivers& receivers(int resolution);
+
+    camera_samples of;
+
+  private:
+    const renderer::moving_stage* stage_;
+    std::map<int, stochastic_receivers> receivers_;
+};
+
+// The visibility of each segment from that of each receiver.
+std::vector<float> of_segments(const stochastic_receivers& receivers, std::span<const float> visibility);
+
 class layered_view {
   public:
     // The stage outlives the view.
     layered_view(const renderer::moving_stage& its_stage, const camera_sizes& its_size);
 
-    // Begins the samples of another seed.
+    // Begins the samples of another seed. Those of the first seed are kept.
     void reseed(std::uint32_t seed);
 
-    const camera_samples& samples() const { return samples_; }
-
-    // The receivers of the seed in a map of so many texels a side.
-    const stochastic_receivers& receivers(int resolution);
-
-    // The visibility of each segment from that of each receiver.
-    std::vector<float> of_segments(const stochastic_receivers& receivers, std::span<const float> visibility) const;
+    seen_samples& now() { return held_.size() > 1 ? held_[1] : held_[0]; }
+    seen_samples& first() { return held_[0]; }
 
     // The mean visibility of each of `pixels`.
-    std::vector<float> of_pixels(std::span<const float> segments) const;
+    std::vector<float> of_pixels(const seen_samples& seen, std::span<const float> segments) const;
 
     const renderer::moving_stage& stage;
     const camera_sizes size;
@@ -47,8 +62,7 @@ class layered_view {
     std::vector<float> expected;        // visibility of each of `pixels`
 
   private:
-    camera_samples samples_;
-    std::map<int, stochastic_receivers> receivers_;
+    std::vector<seen_samples> held_;
 };
 
 } // namespace gnomon::evaluation

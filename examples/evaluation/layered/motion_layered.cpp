@@ -20,6 +20,12 @@ namespace {
 
 constexpr int frames = 16;
 constexpr const char* scene_of_frames = "crossed_quads";
+constexpr const char* still_scene_id = "tentacles";
+
+const motion_scene& scene_of(const char* id)
+{
+    return dynamic_cast<const motion_scene&>(registry_of<scene_entry>().at(id));
+}
 
 std::string introduction(const layered_sizes& size)
 {
@@ -44,6 +50,8 @@ std::string introduction(const layered_sizes& size)
 struct all_results {
     std::vector<compared_layers> scenes;
     compared_frames changes;
+    static_costs still;
+    std::vector<moving_costs> cubes;
 };
 
 page page_of(const all_results& found, const layered_sizes& size)
@@ -57,7 +65,7 @@ page page_of(const all_results& found, const layered_sizes& size)
                 .blocks = {text_block{.text = introduction(size)}}};
     const compared_scenes scenes = found.scenes;
     const auto add = [&](block b) { result.blocks.push_back(std::move(b)); };
-    add(goals_of(scenes));
+    add(goals_of(scenes, found.still));
     for (const compared_layers& scene : scenes) add_scene_blocks(scene, result.blocks);
     add(noise_of(scenes));
     add(models_of(scenes));
@@ -66,6 +74,7 @@ page page_of(const all_results& found, const layered_sizes& size)
     add(bias_chart(scenes));
     add(steps_chart(scenes));
     add(rivals_chart(scenes));
+    add(chart_of(found.cubes));
     add_settings_blocks(scenes, result.blocks);
     for (block& b : blocks_of(found.changes)) add(std::move(b));
     const compared_layers& first = scenes.front();
@@ -81,7 +90,7 @@ void motion_layered(const settings& how)
     const std::filesystem::path folder = how.folder("motion_layered");
     auto scenes = registry_of<scene_entry>().all_of<motion_scene>();
     std::erase_if(scenes, [](const motion_scene* one) { return !one->motion.has("layered"); });
-    all_results found{std::vector<compared_layers>(scenes.size()), {}};
+    all_results found{std::vector<compared_layers>(scenes.size()), {}, {}, {}};
     std::vector<std::function<void()>> tasks;
     std::optional<steps> all;
     for (std::size_t i = 0; i < scenes.size(); ++i)
@@ -89,13 +98,17 @@ void motion_layered(const settings& how)
             all->begin(scenes[i]->label);
             found.scenes[i] = compare_layers(*scenes[i], size, folder);
         });
+    layered_sizes smaller = size;
+    for (int* length : {&smaller.width, &smaller.height, &smaller.map_resolution}) *length /= 2;
+    smaller.reference_times = std::min(size.reference_times, 256);
     tasks.emplace_back([&] {
         all->begin("from frame to frame");
-        layered_sizes smaller = size;
-        for (int* length : {&smaller.width, &smaller.height, &smaller.map_resolution}) *length /= 2;
-        smaller.reference_times = std::min(size.reference_times, 256);
-        const auto* scene = dynamic_cast<const motion_scene*>(&registry_of<scene_entry>().at(scene_of_frames));
-        found.changes = compare_frames(*scene, smaller, frames, folder);
+        found.changes = compare_frames(scene_of(scene_of_frames), smaller, frames, folder);
+    });
+    tasks.emplace_back([&] {
+        all->begin("what does not move, and cubes that do");
+        found.still = static_costs_of(scene_of(still_scene_id), size);
+        for (const moving_cubes& cubes : cubes_to_cost) found.cubes.push_back(moving_costs_of(cubes, smaller));
     });
     all.emplace("motion_layered", tasks.size());
     run_tasks(tasks, !size.full && std::thread::hardware_concurrency() > 1 ? 2 : 1);

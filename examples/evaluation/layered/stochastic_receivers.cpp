@@ -19,7 +19,8 @@ using namespace renderer;
 
 namespace {
 
-constexpr double grazing = 0.02; // the least cosine to the view ray for which a pixel's footprint grows
+constexpr double rounding = 4e-6; // of floats that depth and time went through, over the range of depths
+constexpr double grazing = 0.02;  // the least cosine to the view ray for which a pixel's footprint grows
 
 // A number in [0, 1) for each index and seed.
 float random_number(std::uint32_t index, std::uint32_t seed)
@@ -80,7 +81,7 @@ class receiver_maker {
         const glm::dvec4 place = in_texels(light, p);
         stochastic_receiver r{};
         r.in_world = {s.p0, s.n0};
-        r.x = float(place.x / place.w), r.y = float(place.y / place.w), r.depth = float(place.z), r.t = s.t0;
+        r.x = float(place.x / place.w), r.y = float(place.y / place.w), r.depth = float(place.z - rounding), r.t = s.t0;
         r.slope = float(plane_slope(p, glm::dvec3(s.n0), light, resolution_));
         const float half = 0.5f / float(samples_.each);
         r.t0 = std::max(s.t0 - half, 0.f), r.t1 = std::min(s.t0 + half, 1.f);

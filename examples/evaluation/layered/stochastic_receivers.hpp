@@ -14,7 +14,7 @@
 namespace gnomon::evaluation {
 
 // A point that the camera sees at one time, and at which the surface faces the light. Places and lengths are in texels of
-// the map, depths have no bias.
+// the map, depths have no bias but for what floats round.
 struct stochastic_receiver {
     float x, y, depth, t; // in the map, and the time of the sample
     float slope;          // the most that depth changes per texel across the surface, at most at 80 degrees

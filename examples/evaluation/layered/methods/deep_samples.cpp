@@ -45,7 +45,7 @@ class deep_samples final : public layered_method {
                           .format = {"deep_12b", "12 B layers"}},
                          {{.parameters = {{"samples", 32}, {"tolerance", usual_deep_tolerance}},
                            .label = "32 samples",
-                           .comparisons = {equal_input}},
+                           .comparisons = {equal_time, equal_memory}},
                           {.parameters = {{"samples", 128}, {"tolerance", usual_deep_tolerance}},
                            .label = "128 samples",
                            .comparisons = {of_settings}}},

@@ -12,8 +12,6 @@
 
 namespace gnomon::evaluation {
 
-inline constexpr float depth_rounding = 4e-6f; // of floats that depth and time went through
-
 template <class Texel> class sliced_map final : public layered_map {
   public:
     sliced_map(const timed_samples& from, int look_ups) : slices_(from.of.samples), look_ups_(look_ups)
@@ -33,8 +31,7 @@ template <class Texel> class sliced_map final : public layered_map {
         for (std::size_t i = 0; i < where.size(); ++i) {
             const stochastic_receiver& r = where[i];
             result[i] = 1 - time_dependent_intensity(
-                                map, time_dependent_receiver<float>{r.x, r.y, r.depth - depth_rounding, r.t, r.slope},
-                                look_ups_);
+                                map, time_dependent_receiver<float>{r.x, r.y, r.depth, r.t, r.slope}, look_ups_);
         }
     }
 
@@ -43,15 +40,15 @@ template <class Texel> class sliced_map final : public layered_map {
     std::vector<Texel> texels_;
 };
 
-// "samples" for each texel of a map of "resolution", of the usual one without it; "nearest" for the nearest texel, else
-// 2 x 2.
+// "samples" for each texel; "scale", the side of the map over the usual one, 1 without it; "nearest" for the nearest texel,
+// else 2 x 2.
 template <class Texel> class time_slices final : public layered_method {
   public:
     using layered_method::layered_method;
 
     std::unique_ptr<layered_map> build(layered_input& from, const evaluation::parameters& how) const override
     {
-        const int texels = int(value_of(how, "resolution", from.resolution));
+        const int texels = int(value_of(how, "scale", 1) * from.resolution);
         const bool nearest = value_of(how, "nearest", 0) != 0;
         return std::make_unique<sliced_map<Texel>>(from.samples(int(how.at("samples")), texels), nearest ? 0 : 1);
     }

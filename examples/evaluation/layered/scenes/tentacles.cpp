@@ -11,7 +11,7 @@ const registered<motion_scene> entry{
                 .order = 300,
                 .text = "Figure 1 of Andersson et al. Tentacles bend, each to the other side than its "
                         "neighbours, one below the other. Cups along them cast stripes."},
-    renderer::tentacles, motion_scene_facts{.tags = {"layered"}}};
+    renderer::tentacles, motion_scene_facts{.tags = {"layered", "rivals"}}};
 
 } // namespace
 

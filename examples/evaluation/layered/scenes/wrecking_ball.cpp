@@ -11,7 +11,7 @@ const registered<motion_scene> entry{
                 .order = 310,
                 .text = "After Figure 14 of Andersson et al. Few large triangles: samples are cheap, so "
                         "that time-dependent maps can afford more of them."},
-    renderer::wrecking_ball, motion_scene_facts{.tags = {"layered"}}};
+    renderer::wrecking_ball, motion_scene_facts{.tags = {"layered", "rivals"}}};
 
 } // namespace
 

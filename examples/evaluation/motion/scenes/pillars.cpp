@@ -11,7 +11,7 @@ const registered<motion_scene> entry{
                 .text = "After Figure 11 of Andersson et al. Only the light moves. It takes each point along a "
                         "long path over the shadow map, and the cost of an analytic receiver grows with the "
                         "number of texels on its path."},
-    renderer::pillars, motion_scene_facts{.tags = {"layered", "analytic"}}};
+    renderer::pillars, motion_scene_facts{.tags = {"layered", "analytic", "rivals"}}};
 
 } // namespace
 

@@ -1,0 +1,28 @@
+// Layers by two moments, as in the paper, with its settings for two sizes of maps, its ablations, and what goes beyond.
+#include "filtered_layers.hpp"
+
+namespace gnomon::evaluation {
+
+namespace {
+
+const registered<filtered_layers<layer_variance_float>> entry{
+    method_facts{.id = usual_layers, .family = "layers", .label = "layers, variance"},
+    std::vector<layered_variant>{
+        {.comparisons = {equal_input}},
+        {.parameters = {{"layers", 3}}, .label = "of 3 layers", .comparisons = {of_settings}},
+        {.parameters = {{"layers", 2}}, .label = "of 2 layers", .comparisons = {of_settings}},
+        {.parameters = {{"layers", 1}}, .label = "of 1 layer", .comparisons = {of_settings}},
+        {.parameters = {{"neighbour", 0}}, .label = "without neighbours", .comparisons = {of_settings}},
+        {.parameters = {{"v_filter", 0}}, .label = "without the filter across", .comparisons = {of_settings}},
+        {.parameters = {{"neighbour", 2}}, .label = "with neighbours blended", .comparisons = {of_settings}},
+        {.parameters = {{"widen", 1}}, .label = "widened by the spread", .comparisons = {of_settings}},
+        {.parameters = {{"tile", 8}, {"guard", 16}, {"texels", 8}, {"layers", 2}, {"neighbour", 0}},
+         .label = "in a hurry",
+         .comparisons = {of_settings}},
+        {.parameters = {{"scale", 2}, {"tile", 8}, {"guard", 16}, {"texels", 16}},
+         .label = "of twice the map",
+         .comparisons = {of_settings}}}};
+
+} // namespace
+
+} // namespace gnomon::evaluation

@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+"""Runs the driver motion_layered at its smallest and checks what it leaves: motion_layered_test.py GNOMON_DEMO MAKE_GALLERY"""
+
+import json
+import math
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+DEMO, MAKE_GALLERY = sys.argv[1:3]
+FIGURES = "pillars", "crossed_quads", "toward_and_away"
+EXACT, LAYERS = "exact_visibility", "layered_variance"
+
+
+class MotionLayered(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.out = Path(cls.folder.name)
+        for command in ([DEMO, "motion_layered", "--tiny", "--out", cls.out], [sys.executable, MAKE_GALLERY, "--out", cls.out]):
+            ended = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
+            if ended.returncode:
+                raise RuntimeError(ended.stderr)
+        cls.report = json.loads((cls.out / "report.json").read_text())
+        cls.facts = json.loads((cls.out / "gallery" / "motion_layered" / "facts.json").read_text())
+        cls.scenes = {row["scene"] for row in cls.report}
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def rows(self, scene, method, part="", biased=False):
+        return [row for row in self.report if (row["scene"], row["method"], row["part"]) == (scene, method, part) and
+                ("bias" in row["parameters"]) == biased]
+
+    def usual(self, scene, method):
+        return self.rows(scene, method)[0]
+
+    def block(self, kind, title):
+        found, = (block for block in self.facts["blocks"] if block["type"] == kind and block.get("title") == title)
+        return found
+
+    def test_every_scene_has_every_family(self):
+        self.assertGreaterEqual(self.scenes, {*FIGURES, "lit_ramp", "random_cubes", "tentacles", "wrecking_ball", "chess",
+                                              "tree_in_moving_light", "runner"})
+        families = {"exact_visibility", "accumulation", "time_slices", "deep", "layers", "footprints", "resolved_ranges"}
+        for scene in self.scenes:
+            self.assertGreaterEqual({row["family"] for row in self.report if row["scene"] == scene}, families, scene)
+        for row in self.report:
+            self.assertIn("reference_times", row["parameters"])
+            self.assertEqual(row["reference"], "traced")
+
+    def test_what_is_exact_has_the_camera_s_noise_alone(self):
+        for scene in self.scenes - {"lit_ramp"}:
+            row = self.usual(scene, EXACT)
+            self.assertLess(row["noise_beyond_camera"], 1e-6, scene)
+            self.assertEqual(row["noise_of_map"], 0, scene)
+            self.assertGreater(row["noise"], 0.02, scene)
+            self.assertLess(row["bias"], 0.5 * row["rmse"], scene)
+
+    def test_layers_have_less_noise_than_slices(self):
+        for scene in FIGURES:
+            layers = self.usual(scene, LAYERS)
+            for slices in ("time_slices", "time_slices_sloped"):
+                for noise in ("noise", "noise_of_map"):
+                    self.assertLess(layers[noise], 0.8 * self.usual(scene, slices)[noise], (scene, slices, noise))
+
+    def test_footprints_have_no_noise_of_the_map(self):
+        for scene in FIGURES:
+            row = self.usual(scene, "range_footprints")
+            self.assertEqual(row["noise_of_map"], 0, scene)
+            self.assertLess(row["noise"], 0.6 * self.usual(scene, EXACT)["noise"], scene)
+
+    def test_the_lit_ramp_is_lit_where_the_bias_follows_its_motion(self):
+        self.assertEqual(self.usual("lit_ramp", "time_slices_sloped")["acne"], 0)
+        for short, least in (("time_slices", 0.2), ("time_slices_motion", 0.01)):
+            self.assertGreater(self.usual("lit_ramp", short)["acne"], least, short)
+        self.assertLess(self.usual("lit_ramp", LAYERS)["acne"], 0.02)
+
+    def test_deep_maps_smear_what_the_light_sees_move(self):
+        deep, layers = (self.usual("pillars", method)["rmse"] for method in ("deep_ranges", LAYERS))
+        self.assertGreater(deep, 1.5 * layers)
+
+    def test_the_best_constant_is_better(self):
+        for row in self.report:
+            if "bias" not in row["parameters"]:
+                continue
+            plain = dict(row["parameters"])
+            del plain["bias"]
+            other, = (one for one in self.rows(row["scene"], row["method"]) if one["parameters"] == plain)
+            self.assertLess(row["rmse"], 1.05 * other["rmse"], row["label"])
+
+    def test_steps_add_up(self):
+        for row in self.report:
+            if row["part"]:
+                continue
+            self.assertAlmostEqual(row["build_ms"], row["sampling_ms"] + row["conversion_ms"], 6)
+            for step in ("sampling", "conversion", "camera", "look_up", "shading"):
+                self.assertTrue(math.isfinite(row[f"{step}_ms"]) and row[f"{step}_ms"] >= 0, row["label"])
+
+    def test_goals_are_told(self):
+        goals = self.block("table", "Goals")["rows"]
+        self.assertGreaterEqual(len(goals), 6)
+        self.assertEqual(sum(row["goal"].startswith("noise of the map") for row in goals), len(FIGURES))
+        self.assertTrue({"yes"} <= {row["met"] for row in goals} <= {"yes", "no"})
+
+    def test_fewer_layers_take_less_memory(self):
+        sizes = {row["parameters"].get("layers", 4): row["map_bytes"] for row in self.rows("tentacles_from_above", LAYERS)
+                 if set(row["parameters"]) <= {"layers", "camera_samples", "reference_times"}}
+        self.assertEqual(sorted(sizes), [1, 2, 3, 4])
+        self.assertEqual([sizes[n] for n in sorted(sizes)], sorted(sizes.values()))
+
+    def test_layers_flicker_less_than_slices(self):
+        changes = {row["method"]: row for row in self.report if row["part"] == "change"}
+        self.assertLess(changes[LAYERS]["rmse"], 0.8 * changes["time_slices_sloped"]["rmse"])
+        self.assertLess(changes["range_footprints"]["rmse"], changes[LAYERS]["rmse"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
