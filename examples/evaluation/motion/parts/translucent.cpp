@@ -175,6 +175,7 @@ class translucent_comparison {
     void add_errors(report_row row, const char* receiver, double seconds, const std::vector<float>& at_pixels)
     {
         row.scene = panes->id;
+        row.part = "translucent";
         row.receiver = receiver;
         row.reference = "traced";
         row.receivers = static_cast<long long>(pixels_.size());
