@@ -19,11 +19,12 @@ struct page_part {
 };
 
 // Translucent surfaces that blend into a map, soft shadows from a summed-area table, single scattering, and shadows of what
-// moves in a map of ranges.
+// moves, in maps of ranges and of layers.
 page_part translucent_part(const renderer::vulkan::device& gpu, const settings& how);
 page_part soft_part(const renderer::vulkan::device& gpu, const settings& how);
 page_part scattering_part(const renderer::vulkan::device& gpu, const settings& how);
 page_part range_part(const renderer::vulkan::device& gpu, const settings& how);
+page_part layer_part(const renderer::vulkan::device& gpu, const settings& how);
 
 // Files ID-device.png, ID-cpu.png and ID-difference.png in the folder of the driver, and the block that shows them. The
 // subject says in words what they show.

@@ -38,12 +38,18 @@ struct range_shaders {
     std::span<const std::uint32_t> fill, scan, resolve, look_up;
 };
 
+// Of layered maps of stochastic samples.
+struct layer_shaders {
+    std::span<const std::uint32_t> cluster, scan, accumulate, plain, look_up;
+};
+
 struct shader_texts {
     std::span<const std::uint32_t> scene, blur, layer;
     std::array<blend_shaders, 2> blend; // into one image and into two
     soft_shaders soft;
     rectified_shaders rectified;
     range_shaders ranges;
+    layer_shaders layers;
     std::map<std::string, method_shaders> methods; // by their ids
 };
 

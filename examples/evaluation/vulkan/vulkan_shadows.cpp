@@ -132,7 +132,7 @@ void compare_on(const vulkan::device& gpu, const settings& how)
     }
     if (methods.empty()) return progress(vulkan_driver, "skipped: the device lacks all formats");
     page whole = page_of(gpu.name(), methods, comparison, how);
-    for (const auto& part : {translucent_part, soft_part, scattering_part, range_part}) {
+    for (const auto& part : {translucent_part, soft_part, scattering_part, range_part, layer_part}) {
         const page_part one = part(gpu, how);
         whole.blocks.insert(whole.blocks.end(), one.blocks.begin(), one.blocks.end());
         rows.insert(rows.end(), one.rows.begin(), one.rows.end());
