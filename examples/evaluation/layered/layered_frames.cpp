@@ -1,5 +1,6 @@
 #include "layered_frames.hpp"
 
+#include "evaluation/core/timing.hpp"
 #include "evaluation/motion/scene_blocks.hpp"
 #include "layered_view.hpp"
 
@@ -43,9 +44,14 @@ moving_stage exposed(const moving_stage& all, float t0, float t1)
     return result;
 }
 
+struct cost {
+    double bytes, texels, look_up_ns; // of the map, and of one look-up
+};
+
 struct frame {
     std::map<std::size_t, float> reference; // of pixels that see a surface all of the time
     std::vector<image<float>> estimates;    // one for each method
+    std::vector<cost> costs;
 };
 
 // Changes of pixels that two successive frames see, pair after pair.
@@ -91,7 +97,9 @@ compared_frames compare_frames(const motion_scene& scene, const layered_sizes& s
             const stochastic_receivers& r =
                 view.now().receivers(map->resolution > 0 ? map->resolution : size.map_resolution);
             std::vector<float> found(r.where.size());
-            map->visibilities(r.where, found);
+            const double spent = seconds_on_one_core([&] { map->visibilities(r.where, found); });
+            now.costs.push_back({double(map->bytes()), double(map->resolution) * double(map->resolution),
+                                 1e9 * spent / double(std::max<std::size_t>(found.size(), 1))});
             now.estimates.push_back(mean_visibility(view.now().of.seen, of_segments(r, found)));
         }
     }
@@ -109,6 +117,9 @@ compared_frames compare_frames(const motion_scene& scene, const layered_sizes& s
         row.receivers = static_cast<long long>(found.size());
         row.errors = compare(found, expected);
         row.seeds = frames;
+        const cost& last = all.back().costs[m];
+        row.map_bytes = last.bytes, row.bytes_per_texel = last.texels > 0 ? last.bytes / last.texels : 0;
+        row.ns_per_receiver = last.look_up_ns;
         result.methods.push_back({methods[m], methods[m]->label, mean_size(found), row.errors.rmse});
         result.rows.push_back(std::move(row));
         image<float> change(size.width, size.height), traced(size.width, size.height);
@@ -119,7 +130,7 @@ compared_frames compare_frames(const motion_scene& scene, const layered_sizes& s
             change.pixels[pixel] = next.estimates[m].pixels[pixel] - one.estimates[m].pixels[pixel];
             traced.pixels[pixel] = later->second - v;
         }
-        const std::string file = fmt::format("{}-{}-change.png", scene.id, methods[m]->id);
+        const std::string file = fmt::format("{}-{}-change-difference.png", scene.id, methods[m]->id);
         write_png(folder / file, error_picture(change, traced, change_scale));
         result.pictures.push_back({file,
                                    fmt::format("change between two frames of {} by {}", scene.label, methods[m]->label),

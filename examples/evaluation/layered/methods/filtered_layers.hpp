@@ -135,7 +135,7 @@ template <layer_format Format> class filtered_layers final : public layered_meth
     static method_facts completed(method_facts facts)
     {
         facts.map = layers_kind->id;
-        facts.format = {std::string(Format::id), std::string(Format::name), double(Format::bytes_per_texel)};
+        facts.format = {std::string(Format::id), std::string(Format::name)}; // tiles differ in their layers
         return facts;
     }
 };

@@ -46,6 +46,9 @@ class moments_of_ranges final : public layered_map {
 const registered<family> time_moments{
     family{.id = "range_moments", .label = "time moments of ranges", .order = 225, .colour = "#8c564b"}};
 
+const registered<map_kind> time_moments_kind{
+    map_kind{.id = "time_moments", .label = "moments over time", .order = 145}};
+
 class range_moments_map final : public layered_method {
   public:
     range_moments_map()
@@ -53,6 +56,7 @@ class range_moments_map final : public layered_method {
                           .family = time_moments->id,
                           .label = "time moments of ranges",
                           .order = 42,
+                          .map = time_moments_kind->id,
                           .format = {std::string(format::id), std::string(format::name)}},
                          {{.comparisons = {equal_input, equal_time, equal_memory}}}, false)
     {}
