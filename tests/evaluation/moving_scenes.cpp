@@ -60,7 +60,22 @@ TEST_CASE("each scene in motion is whole: finite corners, valid triangles, a pla
         for (const point_of_interest& place : stage.interests)
             CHECK(within_view(project(stage.eye.open, place.position)));
     }
-    CHECK(scenes().size() >= 11);
+    CHECK(scenes().size() >= 17);
+}
+
+TEST_CASE("scenes of layers are there, and the full form of tentacles has all triangles")
+{
+    const auto scene = [](const char* id) -> const motion_scene& {
+        return dynamic_cast<const motion_scene&>(registry_of<scene_entry>().at(id));
+    };
+    for (const char* id :
+         {"tentacles", "tentacles_from_above", "wrecking_ball", "chess", "tree_in_moving_light", "moving_eye"})
+        CHECK(scene(id).motion.has("layered"));
+    const auto triangles = [&](bool full) {
+        return scene("tentacles").stage(aspect, full).world.open.meshes[0].triangles.size();
+    };
+    CHECK(triangles(false) == 24576);
+    CHECK(triangles(true) == 180000);
 }
 
 TEST_CASE("the light sees all casters at all times, and everything lies between its planes")
