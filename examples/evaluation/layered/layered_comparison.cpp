@@ -94,7 +94,10 @@ class layers_comparison {
     void begin(const layered_method& m, const layered_variant& v)
     {
         const bool rival = (has(v, equal_time) || has(v, equal_memory)) && (found_.motion.has("rivals") || size_.full);
-        const bool setting = has(v, of_settings) && (found_.motion.has("settings") || size_.full);
+        const bool setting =
+            has(v, of_settings) && (size_.full || (found_.motion.has("settings") &&
+                                                   (m.family == layers_family->id || m.family == slices_family->id)));
+        if (!v.without.empty() && found_.motion.has(v.without) && !size_.full) return;
         // Models of depth differ little from the usual one in noise.
         const bool model = m.family == layers_family->id && m.id != usual_layers;
         const int all = model ? std::max(size_.seeds / 2, 2) : size_.seeds;

@@ -39,6 +39,7 @@ struct layered_variant {
     std::string label{}; // for people, behind the method's; none where it is empty
     // Ids of comparisons, see below. The first variant of a method is its usual one.
     std::vector<std::string> comparisons{};
+    std::string without{}; // a tag of scenes in which it takes too long for all but the full run
 };
 
 // Comparisons by their ids: of the same samples of map and camera, which is that of the usual variant of each method; of

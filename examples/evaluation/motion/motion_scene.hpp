@@ -17,7 +17,7 @@ namespace gnomon::evaluation {
 // A scene in motion and its tags. Tags name what only some methods are measured for: "surfaces", of many triangles
 // each, whose ids may be those of surfaces, and "covers", triangles that hide a texel while the shutter is open.
 // "layered" scenes are those of the driver motion_layered; without the tag "analytic" they are no others'. Its methods name
-// the tags "rivals" and "settings" (layered/layered_method.hpp).
+// the tags "rivals", "settings" and "dense" (layered/layered_method.hpp).
 struct motion_scene_facts {
     std::vector<std::string> tags{};
     std::string figure{}; // the number of a figure of Palmer 2011 that is made again, from close by

@@ -27,7 +27,8 @@ class deep_ranges final : public layered_method {
                .map = deep_kind->id,
                .format = {"deep_12b", "12 B layers"}},
               {{.parameters = {{"tolerance", usual_deep_tolerance}},
-                .comparisons = {equal_input, equal_time, equal_memory}},
+                .comparisons = {equal_input, equal_time, equal_memory},
+                .without = "dense"},
                {.parameters = {{"tolerance", 0}}, .label = "tolerance 0", .comparisons = {of_settings}},
                {.parameters = {{"tolerance", 0.05}}, .label = "tolerance .05", .comparisons = {of_settings}}},
               false)

@@ -11,7 +11,7 @@ const registered<motion_scene> entry{
                 .order = 320,
                 .text = "After Figure 14 of Andersson et al. Thousands of leaves are static, and the "
                         "light moves."},
-    renderer::tree_in_moving_light, motion_scene_facts{.tags = {"layered", "rivals"}}};
+    renderer::tree_in_moving_light, motion_scene_facts{.tags = {"layered", "rivals", "dense"}}};
 
 } // namespace
 
