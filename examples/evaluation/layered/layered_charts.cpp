@@ -101,10 +101,16 @@ chart_block steps_chart(compared_scenes scenes)
                       .alt = {},
                       .caption = {},
                       .panels = {}};
+    std::vector<const layered_method*> methods; // of any scene, by their numbers below
+    for (const compared_layers& scene : scenes)
+        for (const layered_result* r : usual_of_families(scene))
+            if (std::ranges::count(methods, r->method) == 0) methods.push_back(r->method);
+    for (std::size_t i = 0; i < methods.size(); ++i)
+        chart.caption += fmt::format("{}{} {}", i > 0 ? "; " : "", i + 1, escaped(methods[i]->label));
     for (const compared_layers& scene : scenes) {
         const std::vector<const layered_result*> shown = usual_of_families(scene);
         panel p{.title = scene.scene.label,
-                .x = {.label = "method, see below", .least = 0.5, .most = double(shown.size()) + 0.5},
+                .x = {.label = "method, see below", .least = 0.5, .most = double(methods.size()) + 0.5},
                 .y = {.label = "ms of one core", .least = 0},
                 .series = {}};
         std::vector<double> reached(shown.size());
@@ -113,14 +119,12 @@ chart_block steps_chart(compared_scenes scenes)
             for (std::size_t i = 0; i < shown.size(); ++i) {
                 const double low = reached[i];
                 reached[i] += part.ms(scene, *shown[i]);
-                add_bar(s, double(i + 1), low, reached[i]);
+                const auto at = std::ranges::find(methods, shown[i]->method) - methods.begin();
+                add_bar(s, double(at + 1), low, reached[i]);
             }
             p.series.push_back(std::move(s));
         }
-        for (std::size_t i = 0; i < shown.size(); ++i) p.x.ticks.emplace_back(double(i + 1), std::to_string(i + 1));
-        if (chart.caption.empty())
-            for (std::size_t i = 0; i < shown.size(); ++i)
-                chart.caption += fmt::format("{}{} {}", i > 0 ? ", " : "", i + 1, escaped(shown[i]->label()));
+        for (std::size_t i = 0; i < methods.size(); ++i) p.x.ticks.emplace_back(double(i + 1), std::to_string(i + 1));
         chart.panels.push_back(std::move(p));
     }
     chart.alt = fmt::format("Bars of four steps for each method in {} scenes.", chart.panels.size());
