@@ -79,9 +79,14 @@ class goals {
         if (!one) return;
         const error_statistics &a = layers->row.errors, &b = one->row.errors;
         add("RMSE below that of time-dependent shadow maps of equal time, at their best bias", scene.scene.label,
-            fmt::format("{:.1f} thousandths in {} ms against {:.1f} in {} ms ({})", 1e3 * layers->row.errors.rmse,
-                        grouped(layers->total_ms()), 1e3 * one->row.errors.rmse, grouped(one->total_ms()),
-                        one->label()),
+            fmt::format(
+                "{:.1f} thousandths in {} ms, with a leak of {:.1f} and acne of {:.1f}, against {:.1f} in {} ms, "
+                "leak {:.1f}, acne {:.1f} ({})",
+                1e3 * a.rmse, grouped(layers->total_ms()), 1e3 * a.leak, 1e3 * a.acne, 1e3 * b.rmse,
+                grouped(one->total_ms()), 1e3 * b.leak, 1e3 * b.acne, one->label()) +
+                (a.leak > 2 * a.acne && a.rmse >= b.rmse
+                     ? ": most of it leaks, surfaces of one layer that shadow one another"
+                     : ""),
             yes(a.rmse < b.rmse));
     }
 
