@@ -51,7 +51,7 @@ class sliced_study {
     }
 
   private:
-    void picture(std::string_view what, std::string caption, const renderer::picture& shown)
+    void picture(std::string_view what, const std::string& caption, const renderer::picture& shown)
     {
         const std::string name = fmt::format("slices-{}-{}.png", found_.what.id, what);
         write_png(folder_ / name, shown);

@@ -23,7 +23,7 @@ using namespace renderer;
 
 namespace {
 
-constexpr int samples = 256;
+constexpr int path_times = 256;
 
 // In closed form by the nearest texels that the path passes, without filtering.
 float nearest_visibility(const range_map<float>& map, const light_receiver& r)
@@ -47,9 +47,9 @@ float nearest_visibility(const range_map<float>& map, const light_receiver& r)
 float many_samples(const range_map<float>& map, const light_receiver& r)
 {
     return while_facing(r, [&](const receiver_path<float>& path) {
-        sampled_receiver<float> state = sampled_receiver_begin(float(samples));
-        for (int k = 0; k < samples; ++k) {
-            const float t = receiver_sample_time(path, float(k), float(samples), 0.5f);
+        sampled_receiver<float> state = sampled_receiver_begin(float(path_times));
+        for (int k = 0; k < path_times; ++k) {
+            const float t = receiver_sample_time(path, float(k), float(path_times), 0.5f);
             state = sampled_receiver_add(state, intensity_at(map, path, t, 0.f));
         }
         return 1 - sampled_receiver_end(state);
@@ -68,7 +68,7 @@ class palmer_figures {
         const double aspect = double(size_.width) / size_.height;
         begin("cube_near_turning_plane", cube_over_plane(aspect, 5, 1, -1));
         add("analytic", {}, "analytic", light_visibility, 1.5);
-        add("sampled", {{"times", samples}}, fmt::format("{} samples", samples), many_samples, 1.5);
+        add("sampled", {{"times", path_times}}, fmt::format("{} samples", path_times), many_samples, 1.5);
         begin("chess", chess(aspect));
         // The depth bias covers the texels that a filter reads.
         add("analytic", {{"look_ups", 0}}, "the nearest texels", nearest_visibility, 0.5);
@@ -137,7 +137,7 @@ class palmer_figures {
         .title = "Figures 4.3 to 4.5 of Palmér",
         .text = fmt::format("A plane that turns by 10 degrees below a cube, and chess, five of whose pieces move while "
                             "one turns. The thesis compares with {} samples of each receiver.",
-                            samples),
+                            path_times),
         .columns = 4,
         .pictures = {}};
     table_block table_{.text = "Errors are in thousandths of visibility.",

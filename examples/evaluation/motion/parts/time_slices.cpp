@@ -75,8 +75,8 @@ const std::array memory_quantities{
         [](const sliced_results& all, const count_result&) { return double(all.building_bytes) / mebibyte; }}};
 
 template <std::size_t n>
-chart_block chart_of(const all_studies& found, const std::array<slice_quantity, n>& lines, std::string id,
-                     std::string unit, std::string caption)
+chart_block chart_of(const all_studies& found, const std::array<slice_quantity, n>& lines, const std::string& id,
+                     const std::string& unit, const std::string& caption)
 {
     chart_block chart{.name = "slices_" + id, .alt = caption, .caption = caption, .panels = {}};
     for (const sliced_results& all : found) {
