@@ -105,7 +105,6 @@ TEST_CASE("a moving receiver keeps the stripe that a crossing rectangle draws on
 {
     bit_source bits(3);
     const quad_scene scene{{0.9f, 0}, {{48, 48, 40, 4, -0.5f, 0, 60, 0}, {48, 48, 4, 40, 0.2f, 60, 0, 0}}};
-    quad_scene collapsed = scene; // what a map without times sees: opacity over the shutter
     for (const layer_settings& settings : {quality, speed}) {
         const layers_of<layer_variance_float> layers(sample_quads(scene, 96, 96, 4, bits), settings);
         double layered = 0, deep = 0, count = 0;
