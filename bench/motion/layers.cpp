@@ -47,7 +47,7 @@ struct sample_and_texel : compilation {
     template <class Real> static GNOMON_INLINE constexpr layer_grid<Real> grid(const std::array<Real, 14>& x)
     {
         return {Real(0.75), Real(0.625), x[11],   x[12],     gnomon_abs(x[4]), x[6],
-                Real(4),   x[13],     Real(2), Real(0.5), Real(0.0625)};
+                Real(4),    x[13],       Real(2), Real(0.5), Real(0.0625)};
     }
 };
 
