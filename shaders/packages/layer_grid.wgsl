@@ -377,17 +377,16 @@ fn layer_motion_begin(first: stochastic_sample) -> gnomon_layer_motion_sums
     return r;
 }
 
-/// True if a sample of this middle depth tells of a layer's motion: a surface whose motion is at most 65536 texels
-/// long.
+/// True if a sample of this middle depth tells of a layer's motion: a surface, and |d_x| + |d_y| + |d_z| at most 65536.
+/// One comparison of a sum, since Mesa makes one of three, by a maximum that loses a NaN.
 fn gnomon_layer_motion_is_known(s: stochastic_sample, middle: f32) -> bool
 {
-    let limit = gnomon_texel_limit;
-    let moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
-    return moves && gnomon_layer_is_surface(middle);
+    let length = (gnomon_abs(s.d_x) + gnomon_abs(s.d_y)) + gnomon_abs(s.d_z);
+    return length <= gnomon_texel_limit && gnomon_layer_is_surface(middle);
 }
 
 /// The state after one more sample and its middle depth.
-/// Domain: motions up to 65536 texels; longer ones are no information.
+/// Domain: |d_x| + |d_y| + |d_z| up to 65536; longer motions are no information.
 /// NaN: no information, the state as before.
 fn layer_motion_add(given_state: gnomon_layer_motion_sums, s: stochastic_sample,
                     middle: f32) -> gnomon_layer_motion_sums

@@ -1224,18 +1224,17 @@ GNOMON_INLINE constexpr layer_motion_sums<Real> layer_motion_begin(stochastic_sa
     return r;
 }
 
-/// True if a sample of this middle depth tells of a layer's motion: a surface whose motion is at most 65536 texels
-/// long.
+/// True if a sample of this middle depth tells of a layer's motion: a surface, and |d_x| + |d_y| + |d_z| at most 65536.
+/// One comparison of a sum, since Mesa makes one of three, by a maximum that loses a NaN.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr mask_t<Real> layer_motion_is_known(stochastic_sample<Real> s, Real middle)
 {
-    Real limit = literal<Real>(texel_limit);
-    mask_t<Real> moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
-    return moves && layer_is_surface(middle);
+    Real length = (gnomon_abs(s.d_x) + gnomon_abs(s.d_y)) + gnomon_abs(s.d_z);
+    return length <= literal<Real>(texel_limit) && layer_is_surface(middle);
 }
 
 /// The state after one more sample and its middle depth.
-/// Domain: motions up to 65536 texels; longer ones are no information.
+/// Domain: |d_x| + |d_y| + |d_z| up to 65536; longer motions are no information.
 /// NaN: no information, the state as before.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr layer_motion_sums<Real> layer_motion_add(layer_motion_sums<Real> state,

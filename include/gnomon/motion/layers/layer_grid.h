@@ -53,16 +53,16 @@ GNOMON_KERNEL GNOMON_T(layer_motion_sums) layer_motion_begin(GNOMON_T(stochastic
     return r;
 }
 
-/// True if a sample of this middle depth tells of a layer's motion: a surface whose motion is at most 65536 texels long.
+/// True if a sample of this middle depth tells of a layer's motion: a surface, and |d_x| + |d_y| + |d_z| at most 65536. One
+/// comparison of a sum, since Mesa makes one of three, by a maximum that loses a NaN.
 GNOMON_DETAIL_KERNEL GNOMON_MASK layer_motion_is_known(GNOMON_T(stochastic_sample) s, Real middle)
 {
-    Real limit = GNOMON_LITERAL(texel_limit);
-    GNOMON_MASK moves = gnomon_abs(s.d_x) <= limit && gnomon_abs(s.d_y) <= limit && gnomon_abs(s.d_z) <= limit;
-    return moves && layer_is_surface(middle);
+    Real length = (gnomon_abs(s.d_x) + gnomon_abs(s.d_y)) + gnomon_abs(s.d_z);
+    return length <= GNOMON_LITERAL(texel_limit) && layer_is_surface(middle);
 }
 
 /// The state after one more sample and its middle depth.
-/// Domain: motions up to 65536 texels; longer ones are no information.
+/// Domain: |d_x| + |d_y| + |d_z| up to 65536; longer motions are no information.
 /// NaN: no information, the state as before.
 GNOMON_KERNEL GNOMON_T(layer_motion_sums) layer_motion_add(GNOMON_T(layer_motion_sums) state,
                                                            GNOMON_T(stochastic_sample) s, Real middle)

@@ -33,9 +33,8 @@ struct motion_lanes {
         const float limit = float(texel_limit);
         for (std::size_t k = 0; k < count; ++k) {
             const float middle = s.middle[n + k], d_x = s.d_x[n + k], d_y = s.d_y[n + k], d_z = s.d_z[n + k];
-            const unsigned moves = unsigned(gnomon_abs(d_x) <= limit) & unsigned(gnomon_abs(d_y) <= limit) &
-                                   unsigned(gnomon_abs(d_z) <= limit);
-            const bool counts = (moves & unsigned(layer_of(middle, cuts) == layer)) != 0;
+            const float length = (gnomon_abs(d_x) + gnomon_abs(d_y)) + gnomon_abs(d_z);
+            const bool counts = (unsigned(length <= limit) & unsigned(layer_of(middle, cuts) == layer)) != 0;
             const float dx = counts ? d_x - sums.first_x : 0;
             const float dy = counts ? d_y - sums.first_y : 0;
             const float dz = counts ? d_z - sums.first_z : 0;
