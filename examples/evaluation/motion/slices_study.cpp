@@ -40,6 +40,7 @@ class sliced_study {
         found_.triangles = triangle_numbers(stage.world.open).count();
         found_.ranges_bytes = ranges_->bytes, found_.building_bytes = ranges_->building_bytes;
         found_.ranges_build_ms = ranges_->build_ms;
+        found_.resolution = size_.map_resolution;
         found_.receivers = static_cast<long long>(pixels_.size());
         picture("reference", fmt::format("Ray tracing at {} times.", grouped(study_times)), reference_.colour);
     }

@@ -53,6 +53,7 @@ struct sliced_results {
     std::size_t triangles = 0, ranges_bytes = 0, building_bytes = 0;
     double ranges_build_ms = 0;
     long long receivers = 0;
+    int resolution = 0; // of the map
     std::vector<count_result> by_count{};
     std::vector<shown_picture> pictures{};
 };

@@ -84,7 +84,7 @@ class palmer_figures {
         view_.reset();
         stage_ = std::make_unique<moving_stage>(std::move(stage));
         view_ = std::make_unique<motion_view>(*stage_, size_, false);
-        show("reference", "ray tracing", view_->reference.colour);
+        show("reference", "ray tracing at many times", view_->reference.colour);
     }
 
     void add(const char* receiver, const parameters& how, const std::string& words,

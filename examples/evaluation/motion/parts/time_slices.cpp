@@ -180,6 +180,7 @@ std::vector<report_row> rows_of(const sliced_results& all)
             row.parameters = {{"samples", r.samples}, {"bias", double(k)}};
             row.label = fmt::format("time-dependent of {}, bias for {}", r.samples, slice_biases[k].label);
             row.receivers = all.receivers, row.errors = b.errors, row.map_bytes = double(b.bytes);
+            row.bytes_per_texel = row.map_bytes / (double(all.resolution) * all.resolution);
             row.ns_per_receiver = 1e6 * b.look_up_ms / double(std::max(all.receivers, 1LL));
             row.build_ms = r.shadow_ms;
             rows.push_back(std::move(row));
