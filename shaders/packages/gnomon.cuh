@@ -1873,13 +1873,10 @@ template <class Real, class = require_real<Real>> struct range_pair
 
 inline constexpr double range_merge_margin = 0.000003814697265625; // 2^-18, exact
 
-/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
-/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
-/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
-/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
-/// the result is the other one, unchanged.
+/// The range from the begin of the earlier of a and b to the end of the later one, on the line between the depths
+/// there. Of two begins or ends at one time the nearer counts. The id is that of both, or range_mixed if they differ.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr depth_time_range<Real> range_merge(depth_time_range<Real> a, depth_time_range<Real> b)
+GNOMON_INLINE constexpr depth_time_range<Real> range_hull(depth_time_range<Real> a, depth_time_range<Real> b)
 {
     depth_time_range<Real> hull;
     hull.t0 = gnomon_min(a.t0, b.t0);
@@ -1889,14 +1886,25 @@ GNOMON_INLINE constexpr depth_time_range<Real> range_merge(depth_time_range<Real
     hull.z0 = gnomon_select(a.t0 < b.t0, a.z0, gnomon_select(b.t0 < a.t0, b.z0, nearer0));
     hull.z1 = gnomon_select(b.t1 < a.t1, a.z1, gnomon_select(a.t1 < b.t1, b.z1, nearer1));
     hull.id = gnomon_select(a.id == b.id, a.id, literal<Real>(range_mixed));
+    return hull;
+}
 
+/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
+/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
+/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
+/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
+/// the result is the other one, unchanged.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr depth_time_range<Real> range_merge(depth_time_range<Real> a, depth_time_range<Real> b)
+{
+    depth_time_range hull = range_hull(a, b);
     Real back = gnomon_max(gnomon_max(range_depth(hull, a.t0) - a.z0, range_depth(hull, a.t1) - a.z1),
                            gnomon_max(range_depth(hull, b.t0) - b.z0, range_depth(hull, b.t1) - b.z1));
     back = gnomon_max(back, Real(0));
     Real size = gnomon_max(gnomon_max(gnomon_abs(a.z0), gnomon_abs(a.z1)),
                            gnomon_max(gnomon_abs(b.z0), gnomon_abs(b.z1)));
     Real margin = size * literal<Real>(range_merge_margin);
-    Real level = gnomon_min(nearer0, nearer1);
+    Real level = gnomon_min(gnomon_min(a.z0, b.z0), gnomon_min(a.z1, b.z1));
     Real sloped0 = hull.z0 - back;
     Real sloped1 = hull.z1 - back;
     mask_t<Real> slopes = level + level < sloped0 + sloped1 && gnomon_abs(sloped0) +
@@ -2075,6 +2083,25 @@ GNOMON_INLINE constexpr range_list<Real, capacity> range_list_place(range_list<R
     return list;
 }
 
+/// Replace the ranges at the places first and second by the merge of both, and count its cost, if the list is full. A
+/// place of -1 is none.
+template <class Real, int capacity = GNOMON_RANGE_CAPACITY, class = require_real<Real>>
+GNOMON_INLINE constexpr range_list<Real, capacity> range_list_replace(range_list<Real, capacity> list,
+                                                                      mask_t<Real> full, Real first, Real second,
+                                                                      range_pair<Real> merge)
+{
+    Real place = Real(0);
+    for (int i = 0; i < capacity; ++i) {
+        mask_t<Real> merged = full && (place == first || place == second);
+        list.ranges[i] = range_keep_if(!merged, list.ranges[i]);
+        place = place + Real(1);
+    }
+    merge.merged = range_keep_if(full, merge.merged);
+    merge.gap = gnomon_select(full, merge.gap, Real(0));
+    merge.shift = gnomon_select(full, merge.shift, Real(0));
+    return range_list_place(range_list_count_merge(list, merge), merge.merged);
+}
+
 /// Insert r, clipped to times in [0, 1]. Without an overflow the ranges of the list do not depend on the order of
 /// insertion, bit for bit, except for the sign of a zero. With an overflow they do, but at no time is the front farther
 /// than that of all inserted ranges. That holds strictly, for exact depth lines, however steep and brief the ranges
@@ -2132,17 +2159,8 @@ GNOMON_INLINE constexpr range_list<Real, capacity> range_list_insert(range_list<
             }
             place = place + Real(1);
         }
-        place = Real(0);
-        for (int n = 0; n < capacity; ++n) {
-            mask_t<Real> merged = full && (place == first || place == second);
-            list.ranges[n] = range_keep_if(!merged, list.ranges[n]);
-            place = place + Real(1);
-        }
+        list = range_list_replace(list, full, first, second, best);
         r = range_keep_if(!(full && second < Real(0)), r);
-        best.merged = range_keep_if(full, best.merged);
-        best.gap = gnomon_select(full, best.gap, Real(0));
-        best.shift = gnomon_select(full, best.shift, Real(0));
-        list = range_list_place(range_list_count_merge(list, best), best.merged);
     }
     return range_list_place(list, r);
 }
@@ -2264,17 +2282,9 @@ template <class Real, class = require_real<Real>> struct interval_weights { Real
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr depth_time_range<Real> interval_merge(depth_time_range<Real> a, depth_time_range<Real> b)
 {
-    depth_time_range<Real> both;
-    both.t0 = gnomon_min(a.t0, b.t0);
-    both.t1 = gnomon_max(a.t1, b.t1);
-    Real nearer0 = gnomon_min(a.z0, b.z0);
-    Real nearer1 = gnomon_min(a.z1, b.z1);
-    both.z0 = gnomon_select(a.t0 < b.t0, a.z0, gnomon_select(b.t0 < a.t0, b.z0, nearer0));
-    both.z1 = gnomon_select(b.t1 < a.t1, a.z1, gnomon_select(a.t1 < b.t1, b.z1, nearer1));
-    both.id = gnomon_select(a.id == b.id, a.id, literal<Real>(range_mixed));
     mask_t<Real> some_a = a.t0 < a.t1;
     mask_t<Real> some_b = b.t0 < b.t1;
-    return range_select(some_a && some_b, both, range_select(some_a, a, b));
+    return range_select(some_a && some_b, range_hull(a, b), range_select(some_a, a, b));
 }
 
 /// Cost of merging a and b, at most 2^60; -1 if one is empty. The difference in depth is that between the end of the
@@ -2351,17 +2361,8 @@ GNOMON_INLINE constexpr range_list<Real, capacity> interval_list_insert(range_li
             }
             place = place + Real(1);
         }
-        place = Real(0);
-        for (int n = 0; n < capacity; ++n) {
-            mask_t<Real> merged = full && (place == first || place == second);
-            list.ranges[n] = range_keep_if(!merged, list.ranges[n]);
-            place = place + Real(1);
-        }
+        list = range_list_replace(list, full, first, second, best);
         r = range_keep_if(!(full && second < Real(0)), r);
-        best.merged = range_keep_if(full, best.merged);
-        best.gap = gnomon_select(full, best.gap, Real(0));
-        best.shift = gnomon_select(full, best.shift, Real(0));
-        list = range_list_place(range_list_count_merge(list, best), best.merged);
     }
     return range_list_place(list, r);
 }
@@ -7327,9 +7328,9 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 #endif
 
 // motion/layers/layer_sums.h ------------------------------------------------------------------------------------------
-// What a texel of a layer's grid holds, and the visibility of a receiver through the layer (Andersson et al. 2015, Sec.
-// 4.1 and 4.2). A sample in the layer or behind it has weight w = 1, one in front of the layer has none. A sample in
-// the layer has opacity a = 1: where one sees past the layer, it is transparent. Per texel
+// Sums that a texel of a layer's grid holds, and the visibility of a receiver through the layer (Andersson et al. 2015,
+// Sec. 4.1 and 4.2). A sample in the layer or behind it has weight w = 1, one in front of the layer has none. A sample
+// in the layer has opacity a = 1: where one sees past the layer, it is transparent. Per texel
 //
 //     variance       sums of w a z, w a z^2, w a, w                                layer_sums, Eq. 7
 //     four moments   sums of w a z, ..., w a z^4, w a, w                           layer_moments4_sums

@@ -1267,12 +1267,9 @@ struct range_pair
 
 static const float gnomon_range_merge_margin = 0.000003814697265625; // 2^-18, exact
 
-/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
-/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
-/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
-/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
-/// the result is the other one, unchanged.
-depth_time_range gnomon_range_merge(depth_time_range a, depth_time_range b)
+/// The range from the begin of the earlier of a and b to the end of the later one, on the line between the depths
+/// there. Of two begins or ends at one time the nearer counts. The id is that of both, or range_mixed if they differ.
+depth_time_range gnomon_range_hull(depth_time_range a, depth_time_range b)
 {
     depth_time_range hull;
     hull.t0 = gnomon_min(a.t0, b.t0);
@@ -1282,14 +1279,24 @@ depth_time_range gnomon_range_merge(depth_time_range a, depth_time_range b)
     hull.z0 = gnomon_select(a.t0 < b.t0, a.z0, gnomon_select(b.t0 < a.t0, b.z0, nearer0));
     hull.z1 = gnomon_select(b.t1 < a.t1, a.z1, gnomon_select(a.t1 < b.t1, b.z1, nearer1));
     hull.id = gnomon_select(a.id == b.id, a.id, range_mixed);
+    return hull;
+}
 
+/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
+/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
+/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
+/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
+/// the result is the other one, unchanged.
+depth_time_range gnomon_range_merge(depth_time_range a, depth_time_range b)
+{
+    depth_time_range hull = gnomon_range_hull(a, b);
     float back = gnomon_max(gnomon_max(range_depth(hull, a.t0) - a.z0, range_depth(hull, a.t1) - a.z1),
                             gnomon_max(range_depth(hull, b.t0) - b.z0, range_depth(hull, b.t1) - b.z1));
     back = gnomon_max(back, 0.0);
     float size = gnomon_max(gnomon_max(gnomon_abs(a.z0), gnomon_abs(a.z1)),
                             gnomon_max(gnomon_abs(b.z0), gnomon_abs(b.z1)));
     float margin = size * gnomon_range_merge_margin;
-    float level = gnomon_min(nearer0, nearer1);
+    float level = gnomon_min(gnomon_min(a.z0, b.z0), gnomon_min(a.z1, b.z1));
     float sloped0 = hull.z0 - back;
     float sloped1 = hull.z1 - back;
     bool slopes = level + level < sloped0 + sloped1 && gnomon_abs(sloped0) + gnomon_abs(sloped1) < range_far;
@@ -1453,6 +1460,22 @@ range_list gnomon_range_list_place(range_list list, depth_time_range r)
     return list;
 }
 
+/// Replace the ranges at the places first and second by the merge of both, and count its cost, if the list is full. A
+/// place of -1 is none.
+range_list gnomon_range_list_replace(range_list list, bool full, float first, float second, range_pair merge)
+{
+    float place = 0.0;
+    for (int i = 0; i < GNOMON_RANGE_CAPACITY; ++i) {
+        bool merged = full && (place == first || place == second);
+        list.ranges[i] = gnomon_range_keep_if(!merged, list.ranges[i]);
+        place = place + 1.0;
+    }
+    merge.merged = gnomon_range_keep_if(full, merge.merged);
+    merge.gap = gnomon_select(full, merge.gap, 0.0);
+    merge.shift = gnomon_select(full, merge.shift, 0.0);
+    return gnomon_range_list_place(gnomon_range_list_count_merge(list, merge), merge.merged);
+}
+
 /// Insert r, clipped to times in [0, 1]. Without an overflow the ranges of the list do not depend on the order of
 /// insertion, bit for bit, except for the sign of a zero. With an overflow they do, but at no time is the front farther
 /// than that of all inserted ranges. That holds strictly, for exact depth lines, however steep and brief the ranges
@@ -1508,17 +1531,8 @@ range_list range_list_insert(range_list list, depth_time_range r)
             }
             place = place + 1.0;
         }
-        place = 0.0;
-        for (int n = 0; n < GNOMON_RANGE_CAPACITY; ++n) {
-            bool merged = full && (place == first || place == second);
-            list.ranges[n] = gnomon_range_keep_if(!merged, list.ranges[n]);
-            place = place + 1.0;
-        }
+        list = gnomon_range_list_replace(list, full, first, second, best);
         r = gnomon_range_keep_if(!(full && second < 0.0), r);
-        best.merged = gnomon_range_keep_if(full, best.merged);
-        best.gap = gnomon_select(full, best.gap, 0.0);
-        best.shift = gnomon_select(full, best.shift, 0.0);
-        list = gnomon_range_list_place(gnomon_range_list_count_merge(list, best), best.merged);
     }
     return gnomon_range_list_place(list, r);
 }
@@ -1629,17 +1643,9 @@ struct gnomon_interval_weights { float area, gap, depth, slope, duration; };
 /// Source: Gribel 2010
 depth_time_range interval_merge(depth_time_range a, depth_time_range b)
 {
-    depth_time_range both;
-    both.t0 = gnomon_min(a.t0, b.t0);
-    both.t1 = gnomon_max(a.t1, b.t1);
-    float nearer0 = gnomon_min(a.z0, b.z0);
-    float nearer1 = gnomon_min(a.z1, b.z1);
-    both.z0 = gnomon_select(a.t0 < b.t0, a.z0, gnomon_select(b.t0 < a.t0, b.z0, nearer0));
-    both.z1 = gnomon_select(b.t1 < a.t1, a.z1, gnomon_select(a.t1 < b.t1, b.z1, nearer1));
-    both.id = gnomon_select(a.id == b.id, a.id, range_mixed);
     bool some_a = a.t0 < a.t1;
     bool some_b = b.t0 < b.t1;
-    return gnomon_range_select(some_a && some_b, both, gnomon_range_select(some_a, a, b));
+    return gnomon_range_select(some_a && some_b, gnomon_range_hull(a, b), gnomon_range_select(some_a, a, b));
 }
 
 /// Cost of merging a and b, at most 2^60; -1 if one is empty. The difference in depth is that between the end of the
@@ -1709,17 +1715,8 @@ range_list interval_list_insert(range_list list, depth_time_range r, gnomon_inte
             }
             place = place + 1.0;
         }
-        place = 0.0;
-        for (int n = 0; n < GNOMON_RANGE_CAPACITY; ++n) {
-            bool merged = full && (place == first || place == second);
-            list.ranges[n] = gnomon_range_keep_if(!merged, list.ranges[n]);
-            place = place + 1.0;
-        }
+        list = gnomon_range_list_replace(list, full, first, second, best);
         r = gnomon_range_keep_if(!(full && second < 0.0), r);
-        best.merged = gnomon_range_keep_if(full, best.merged);
-        best.gap = gnomon_select(full, best.gap, 0.0);
-        best.shift = gnomon_select(full, best.shift, 0.0);
-        list = gnomon_range_list_place(gnomon_range_list_count_merge(list, best), best.merged);
     }
     return gnomon_range_list_place(list, r);
 }
@@ -6148,9 +6145,9 @@ gnomon_layer_neighbour layer_neighbour_at(float x, float tile)
 #endif
 
 // motion/layers/layer_sums.h ------------------------------------------------------------------------------------------
-// What a texel of a layer's grid holds, and the visibility of a receiver through the layer (Andersson et al. 2015, Sec.
-// 4.1 and 4.2). A sample in the layer or behind it has weight w = 1, one in front of the layer has none. A sample in
-// the layer has opacity a = 1: where one sees past the layer, it is transparent. Per texel
+// Sums that a texel of a layer's grid holds, and the visibility of a receiver through the layer (Andersson et al. 2015,
+// Sec. 4.1 and 4.2). A sample in the layer or behind it has weight w = 1, one in front of the layer has none. A sample
+// in the layer has opacity a = 1: where one sees past the layer, it is transparent. Per texel
 //
 //     variance       sums of w a z, w a z^2, w a, w                                layer_sums, Eq. 7
 //     four moments   sums of w a z, ..., w a z^4, w a, w                           gnomon_layer_moments4_sums

@@ -1207,12 +1207,9 @@ struct range_pair
 
 const gnomon_range_merge_margin: f32 = 0.000003814697265625; // 2^-18, exact
 
-/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
-/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
-/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
-/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
-/// the result is the other one, unchanged.
-fn gnomon_range_merge(a: depth_time_range, b: depth_time_range) -> depth_time_range
+/// The range from the begin of the earlier of a and b to the end of the later one, on the line between the depths
+/// there. Of two begins or ends at one time the nearer counts. The id is that of both, or range_mixed if they differ.
+fn gnomon_range_hull(a: depth_time_range, b: depth_time_range) -> depth_time_range
 {
     var hull: depth_time_range;
     hull.t0_ = gnomon_min(a.t0_, b.t0_);
@@ -1222,14 +1219,24 @@ fn gnomon_range_merge(a: depth_time_range, b: depth_time_range) -> depth_time_ra
     hull.z0_ = gnomon_select(a.t0_ < b.t0_, a.z0_, gnomon_select(b.t0_ < a.t0_, b.z0_, nearer0));
     hull.z1_ = gnomon_select(b.t1_ < a.t1_, a.z1_, gnomon_select(a.t1_ < b.t1_, b.z1_, nearer1));
     hull.id = gnomon_select(a.id == b.id, a.id, range_mixed);
+    return hull;
+}
 
+/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
+/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
+/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
+/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
+/// the result is the other one, unchanged.
+fn gnomon_range_merge(a: depth_time_range, b: depth_time_range) -> depth_time_range
+{
+    var hull = gnomon_range_hull(a, b);
     var back = gnomon_max(gnomon_max(range_depth(hull, a.t0_) - a.z0_, range_depth(hull, a.t1_) - a.z1_),
                           gnomon_max(range_depth(hull, b.t0_) - b.z0_, range_depth(hull, b.t1_) - b.z1_));
     back = gnomon_max(back, 0.0);
     let size = gnomon_max(gnomon_max(gnomon_abs(a.z0_), gnomon_abs(a.z1_)),
                           gnomon_max(gnomon_abs(b.z0_), gnomon_abs(b.z1_)));
     let margin = size * gnomon_range_merge_margin;
-    let level = gnomon_min(nearer0, nearer1);
+    let level = gnomon_min(gnomon_min(a.z0_, b.z0_), gnomon_min(a.z1_, b.z1_));
     let sloped0 = hull.z0_ - back;
     let sloped1 = hull.z1_ - back;
     let slopes = level + level < sloped0 + sloped1 && gnomon_abs(sloped0) + gnomon_abs(sloped1) < range_far;
@@ -1391,6 +1398,25 @@ fn gnomon_range_list_place(given_list: range_list, given_r: depth_time_range) ->
     return list;
 }
 
+/// Replace the ranges at the places first and second by the merge of both, and count its cost, if the list is full. A
+/// place of -1 is none.
+fn gnomon_range_list_replace(given_list: range_list, full: bool, first: f32, second: f32,
+                             given_merge: range_pair) -> range_list
+{
+    var merge = given_merge;
+    var list = given_list;
+    var place = 0.0;
+    for (var i = 0; i < gnomon_range_capacity; i++) {
+        let merged = full && (place == first || place == second);
+        list.ranges[i] = gnomon_range_keep_if(!merged, list.ranges[i]);
+        place = place + 1.0;
+    }
+    merge.merged = gnomon_range_keep_if(full, merge.merged);
+    merge.gap = gnomon_select(full, merge.gap, 0.0);
+    merge.shift = gnomon_select(full, merge.shift, 0.0);
+    return gnomon_range_list_place(gnomon_range_list_count_merge(list, merge), merge.merged);
+}
+
 /// Insert r, clipped to times in [0, 1]. Without an overflow the ranges of the list do not depend on the order of
 /// insertion, bit for bit, except for the sign of a zero. With an overflow they do, but at no time is the front farther
 /// than that of all inserted ranges. That holds strictly, for exact depth lines, however steep and brief the ranges
@@ -1449,17 +1475,8 @@ fn range_list_insert(given_list: range_list, given_r: depth_time_range) -> range
             }
             place = place + 1.0;
         }
-        place = 0.0;
-        for (var n = 0; n < gnomon_range_capacity; n++) {
-            let merged = full && (place == first || place == second);
-            list.ranges[n] = gnomon_range_keep_if(!merged, list.ranges[n]);
-            place = place + 1.0;
-        }
+        list = gnomon_range_list_replace(list, full, first, second, best);
         r = gnomon_range_keep_if(!(full && second < 0.0), r);
-        best.merged = gnomon_range_keep_if(full, best.merged);
-        best.gap = gnomon_select(full, best.gap, 0.0);
-        best.shift = gnomon_select(full, best.shift, 0.0);
-        list = gnomon_range_list_place(gnomon_range_list_count_merge(list, best), best.merged);
     }
     return gnomon_range_list_place(list, r);
 }
@@ -1571,17 +1588,9 @@ struct gnomon_interval_weights { area: f32, gap: f32, depth: f32, slope: f32, du
 /// Source: Gribel 2010
 fn interval_merge(a: depth_time_range, b: depth_time_range) -> depth_time_range
 {
-    var both: depth_time_range;
-    both.t0_ = gnomon_min(a.t0_, b.t0_);
-    both.t1_ = gnomon_max(a.t1_, b.t1_);
-    let nearer0 = gnomon_min(a.z0_, b.z0_);
-    let nearer1 = gnomon_min(a.z1_, b.z1_);
-    both.z0_ = gnomon_select(a.t0_ < b.t0_, a.z0_, gnomon_select(b.t0_ < a.t0_, b.z0_, nearer0));
-    both.z1_ = gnomon_select(b.t1_ < a.t1_, a.z1_, gnomon_select(a.t1_ < b.t1_, b.z1_, nearer1));
-    both.id = gnomon_select(a.id == b.id, a.id, range_mixed);
     let some_a = a.t0_ < a.t1_;
     let some_b = b.t0_ < b.t1_;
-    return gnomon_range_select(some_a && some_b, both, gnomon_range_select(some_a, a, b));
+    return gnomon_range_select(some_a && some_b, gnomon_range_hull(a, b), gnomon_range_select(some_a, a, b));
 }
 
 /// Cost of merging a and b, at most 2^60; -1 if one is empty. The difference in depth is that between the end of the
@@ -1654,17 +1663,8 @@ fn interval_list_insert(given_list: range_list, given_r: depth_time_range, weigh
             }
             place = place + 1.0;
         }
-        place = 0.0;
-        for (var n = 0; n < gnomon_range_capacity; n++) {
-            let merged = full && (place == first || place == second);
-            list.ranges[n] = gnomon_range_keep_if(!merged, list.ranges[n]);
-            place = place + 1.0;
-        }
+        list = gnomon_range_list_replace(list, full, first, second, best);
         r = gnomon_range_keep_if(!(full && second < 0.0), r);
-        best.merged = gnomon_range_keep_if(full, best.merged);
-        best.gap = gnomon_select(full, best.gap, 0.0);
-        best.shift = gnomon_select(full, best.shift, 0.0);
-        list = gnomon_range_list_place(gnomon_range_list_count_merge(list, best), best.merged);
     }
     return gnomon_range_list_place(list, r);
 }
@@ -5933,9 +5933,9 @@ fn layer_neighbour_at(x: f32, tile: f32) -> gnomon_layer_neighbour
 }
 
 // motion/layers/layer_sums.h ------------------------------------------------------------------------------------------
-// What a texel of a layer's grid holds, and the visibility of a receiver through the layer (Andersson et al. 2015, Sec.
-// 4.1 and 4.2). A sample in the layer or behind it has weight w = 1, one in front of the layer has none. A sample in
-// the layer has opacity a = 1: where one sees past the layer, it is transparent. Per texel
+// Sums that a texel of a layer's grid holds, and the visibility of a receiver through the layer (Andersson et al. 2015,
+// Sec. 4.1 and 4.2). A sample in the layer or behind it has weight w = 1, one in front of the layer has none. A sample
+// in the layer has opacity a = 1: where one sees past the layer, it is transparent. Per texel
 //
 //     variance       sums of w a z, w a z^2, w a, w                                layer_sums, Eq. 7
 //     four moments   sums of w a z, ..., w a z^4, w a, w                           gnomon_layer_moments4_sums

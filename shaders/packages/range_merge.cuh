@@ -696,13 +696,10 @@ template <class Real, class = require_real<Real>> struct range_pair
 
 inline constexpr double range_merge_margin = 0.000003814697265625; // 2^-18, exact
 
-/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
-/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
-/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
-/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
-/// the result is the other one, unchanged.
+/// The range from the begin of the earlier of a and b to the end of the later one, on the line between the depths
+/// there. Of two begins or ends at one time the nearer counts. The id is that of both, or range_mixed if they differ.
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr depth_time_range<Real> range_merge(depth_time_range<Real> a, depth_time_range<Real> b)
+GNOMON_INLINE constexpr depth_time_range<Real> range_hull(depth_time_range<Real> a, depth_time_range<Real> b)
 {
     depth_time_range<Real> hull;
     hull.t0 = gnomon_min(a.t0, b.t0);
@@ -712,14 +709,25 @@ GNOMON_INLINE constexpr depth_time_range<Real> range_merge(depth_time_range<Real
     hull.z0 = gnomon_select(a.t0 < b.t0, a.z0, gnomon_select(b.t0 < a.t0, b.z0, nearer0));
     hull.z1 = gnomon_select(b.t1 < a.t1, a.z1, gnomon_select(a.t1 < b.t1, b.z1, nearer1));
     hull.id = gnomon_select(a.id == b.id, a.id, literal<Real>(range_mixed));
+    return hull;
+}
 
+/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
+/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
+/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
+/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
+/// the result is the other one, unchanged.
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr depth_time_range<Real> range_merge(depth_time_range<Real> a, depth_time_range<Real> b)
+{
+    depth_time_range hull = range_hull(a, b);
     Real back = gnomon_max(gnomon_max(range_depth(hull, a.t0) - a.z0, range_depth(hull, a.t1) - a.z1),
                            gnomon_max(range_depth(hull, b.t0) - b.z0, range_depth(hull, b.t1) - b.z1));
     back = gnomon_max(back, Real(0));
     Real size = gnomon_max(gnomon_max(gnomon_abs(a.z0), gnomon_abs(a.z1)),
                            gnomon_max(gnomon_abs(b.z0), gnomon_abs(b.z1)));
     Real margin = size * literal<Real>(range_merge_margin);
-    Real level = gnomon_min(nearer0, nearer1);
+    Real level = gnomon_min(gnomon_min(a.z0, b.z0), gnomon_min(a.z1, b.z1));
     Real sloped0 = hull.z0 - back;
     Real sloped1 = hull.z1 - back;
     mask_t<Real> slopes = level + level < sloped0 + sloped1 && gnomon_abs(sloped0) +

@@ -314,12 +314,9 @@ struct range_pair
 
 constant constexpr float range_merge_margin = 0.000003814697265625f; // 2^-18, exact
 
-/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
-/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
-/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
-/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
-/// the result is the other one, unchanged.
-inline depth_time_range range_merge(depth_time_range a, depth_time_range b)
+/// The range from the begin of the earlier of a and b to the end of the later one, on the line between the depths
+/// there. Of two begins or ends at one time the nearer counts. The id is that of both, or range_mixed if they differ.
+inline depth_time_range range_hull(depth_time_range a, depth_time_range b)
 {
     depth_time_range hull;
     hull.t0 = gnomon_min(a.t0, b.t0);
@@ -329,14 +326,24 @@ inline depth_time_range range_merge(depth_time_range a, depth_time_range b)
     hull.z0 = gnomon_select(a.t0 < b.t0, a.z0, gnomon_select(b.t0 < a.t0, b.z0, nearer0));
     hull.z1 = gnomon_select(b.t1 < a.t1, a.z1, gnomon_select(a.t1 < b.t1, b.z1, nearer1));
     hull.id = gnomon_select(a.id == b.id, a.id, range_mixed);
+    return hull;
+}
 
+/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
+/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
+/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
+/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
+/// the result is the other one, unchanged.
+inline depth_time_range range_merge(depth_time_range a, depth_time_range b)
+{
+    depth_time_range hull = range_hull(a, b);
     float back = gnomon_max(gnomon_max(range_depth(hull, a.t0) - a.z0, range_depth(hull, a.t1) - a.z1),
                             gnomon_max(range_depth(hull, b.t0) - b.z0, range_depth(hull, b.t1) - b.z1));
     back = gnomon_max(back, 0.0f);
     float size = gnomon_max(gnomon_max(gnomon_abs(a.z0), gnomon_abs(a.z1)),
                             gnomon_max(gnomon_abs(b.z0), gnomon_abs(b.z1)));
     float margin = size * range_merge_margin;
-    float level = gnomon_min(nearer0, nearer1);
+    float level = gnomon_min(gnomon_min(a.z0, b.z0), gnomon_min(a.z1, b.z1));
     float sloped0 = hull.z0 - back;
     float sloped1 = hull.z1 - back;
     bool slopes = level + level < sloped0 + sloped1 && gnomon_abs(sloped0) + gnomon_abs(sloped1) < range_far;

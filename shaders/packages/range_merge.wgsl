@@ -263,12 +263,9 @@ struct range_pair
 
 const gnomon_range_merge_margin: f32 = 0.000003814697265625; // 2^-18, exact
 
-/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
-/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
-/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
-/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
-/// the result is the other one, unchanged.
-fn gnomon_range_merge(a: depth_time_range, b: depth_time_range) -> depth_time_range
+/// The range from the begin of the earlier of a and b to the end of the later one, on the line between the depths
+/// there. Of two begins or ends at one time the nearer counts. The id is that of both, or range_mixed if they differ.
+fn gnomon_range_hull(a: depth_time_range, b: depth_time_range) -> depth_time_range
 {
     var hull: depth_time_range;
     hull.t0_ = gnomon_min(a.t0_, b.t0_);
@@ -278,14 +275,24 @@ fn gnomon_range_merge(a: depth_time_range, b: depth_time_range) -> depth_time_ra
     hull.z0_ = gnomon_select(a.t0_ < b.t0_, a.z0_, gnomon_select(b.t0_ < a.t0_, b.z0_, nearer0));
     hull.z1_ = gnomon_select(b.t1_ < a.t1_, a.z1_, gnomon_select(a.t1_ < b.t1_, b.z1_, nearer1));
     hull.id = gnomon_select(a.id == b.id, a.id, range_mixed);
+    return hull;
+}
 
+/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
+/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
+/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
+/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
+/// the result is the other one, unchanged.
+fn gnomon_range_merge(a: depth_time_range, b: depth_time_range) -> depth_time_range
+{
+    var hull = gnomon_range_hull(a, b);
     var back = gnomon_max(gnomon_max(range_depth(hull, a.t0_) - a.z0_, range_depth(hull, a.t1_) - a.z1_),
                           gnomon_max(range_depth(hull, b.t0_) - b.z0_, range_depth(hull, b.t1_) - b.z1_));
     back = gnomon_max(back, 0.0);
     let size = gnomon_max(gnomon_max(gnomon_abs(a.z0_), gnomon_abs(a.z1_)),
                           gnomon_max(gnomon_abs(b.z0_), gnomon_abs(b.z1_)));
     let margin = size * gnomon_range_merge_margin;
-    let level = gnomon_min(nearer0, nearer1);
+    let level = gnomon_min(gnomon_min(a.z0_, b.z0_), gnomon_min(a.z1_, b.z1_));
     let sloped0 = hull.z0_ - back;
     let sloped1 = hull.z1_ - back;
     let slopes = level + level < sloped0 + sloped1 && gnomon_abs(sloped0) + gnomon_abs(sloped1) < range_far;

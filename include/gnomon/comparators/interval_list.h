@@ -23,17 +23,9 @@ GNOMON_STRUCT(interval_weights) { Real area, gap, depth, slope, duration; };
 /// Source: Gribel 2010
 GNOMON_KERNEL GNOMON_T(depth_time_range) interval_merge(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
 {
-    GNOMON_T(depth_time_range) both;
-    both.t0 = gnomon_min(a.t0, b.t0);
-    both.t1 = gnomon_max(a.t1, b.t1);
-    Real nearer0 = gnomon_min(a.z0, b.z0);
-    Real nearer1 = gnomon_min(a.z1, b.z1);
-    both.z0 = gnomon_select(a.t0 < b.t0, a.z0, gnomon_select(b.t0 < a.t0, b.z0, nearer0));
-    both.z1 = gnomon_select(b.t1 < a.t1, a.z1, gnomon_select(a.t1 < b.t1, b.z1, nearer1));
-    both.id = gnomon_select(a.id == b.id, a.id, GNOMON_LITERAL(range_mixed));
     GNOMON_MASK some_a = a.t0 < a.t1;
     GNOMON_MASK some_b = b.t0 < b.t1;
-    return range_select(some_a && some_b, both, range_select(some_a, a, b));
+    return range_select(some_a && some_b, range_hull(a, b), range_select(some_a, a, b));
 }
 
 /// Cost of merging a and b, at most 2^60; -1 if one is empty. The difference in depth is that between the end of the
@@ -107,17 +99,8 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) interval_list_insert(GNOMON_LIST_T(
             }
             place = place + Real(1);
         }
-        place = Real(0);
-        for (int n = 0; n < GNOMON_CAPACITY; ++n) {
-            GNOMON_MASK merged = full && (place == first || place == second);
-            list.ranges[n] = range_keep_if(!merged, list.ranges[n]);
-            place = place + Real(1);
-        }
+        list = range_list_replace(list, full, first, second, best);
         r = range_keep_if(!(full && second < Real(0)), r);
-        best.merged = range_keep_if(full, best.merged);
-        best.gap = gnomon_select(full, best.gap, Real(0));
-        best.shift = gnomon_select(full, best.shift, Real(0));
-        list = range_list_place(range_list_count_merge(list, best), best.merged);
     }
     return range_list_place(list, r);
 }

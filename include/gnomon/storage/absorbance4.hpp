@@ -21,22 +21,8 @@ template <class Format> concept absorbance_format = texel_format<Format> && requ
 };
 // clang-format on
 
-/// A kind of texel that is cleared to 0 and stores that for channels that have a NaN.
-template <class Texel> struct absorbing_texel : Texel {
-    using typename Texel::texel;
-    template <class Real> using channels = typename Texel::template channels<Real>;
-    static constexpr channels<float> border() { return {}; }
-    static constexpr texel clear() { return {}; }
-    static constexpr texel encode(const channels<float>& c)
-    {
-        if (!are_known(c)) [[unlikely]]
-            return clear();
-        return Texel::encode(c);
-    }
-};
-
 /// 80 bits: five half floats.
-struct absorbance4_half : absorbing_texel<half_texel<channels5>> {
+struct absorbance4_half : zeroed_texel<half_texel<channels5>> {
     static constexpr std::string_view name = "5x16 half", id = "absorbance4_half";
 
     template <class Real> static constexpr channels<Real> from_fragment(Real z, Real alpha)
@@ -53,7 +39,7 @@ struct absorbance4_half : absorbing_texel<half_texel<channels5>> {
 static_assert(absorbance_format<absorbance4_half> && !storage_format<absorbance4_half>);
 
 /// 160 bits: five floats.
-struct absorbance4_float : absorbing_texel<float_texel<channels5>> {
+struct absorbance4_float : zeroed_texel<float_texel<channels5>> {
     static constexpr std::string_view name = "5x32 float", id = "absorbance4_float";
 
     template <class Real> static constexpr channels<Real> from_fragment(Real z, Real alpha)

@@ -194,5 +194,19 @@ template <class Format, class Texel> struct stored_texel : Texel {
     }
 };
 
+/// A kind of texel that is cleared to 0, no information, and stores that for channels that have a NaN.
+template <class Texel> struct zeroed_texel : Texel {
+    using typename Texel::texel;
+    template <class Real> using channels = typename Texel::template channels<Real>;
+    static constexpr channels<float> border() { return {}; }
+    static constexpr texel clear() { return {}; }
+    static constexpr texel encode(const channels<float>& c)
+    {
+        if (!are_known(c)) [[unlikely]]
+            return clear();
+        return Texel::encode(c);
+    }
+};
+
 GNOMON_NAMESPACE_END
 #endif

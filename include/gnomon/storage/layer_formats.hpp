@@ -29,20 +29,6 @@ template <class Format> concept layer_format = texel_format<Format> && requires(
 };
 // clang-format on
 
-/// A kind of texel that is cleared to 0, no information, and stores that for channels that have a NaN.
-template <class Texel> struct layer_texel : Texel {
-    using typename Texel::texel;
-    template <class Real> using channels = typename Texel::template channels<Real>;
-    static constexpr channels<float> border() { return {}; }
-    static constexpr texel clear() { return {}; }
-    static constexpr texel encode(const channels<float>& c)
-    {
-        if (!are_known(c)) [[unlikely]]
-            return clear();
-        return Texel::encode(c);
-    }
-};
-
 /// Functions of the sums of two moments.
 struct layer_variance_sums {
     template <class Real>
@@ -60,21 +46,21 @@ struct layer_variance_sums {
 };
 
 /// 128 bits: two moments of depth, opacity and weight as floats.
-struct layer_variance_float : layer_texel<float_texel<layer_sums>>, layer_variance_sums {
+struct layer_variance_float : zeroed_texel<float_texel<layer_sums>>, layer_variance_sums {
     static constexpr std::string_view name = "4x32 float", id = "layer_variance_float";
     static constexpr double least_variance = 0x1p-20;
 };
 static_assert(layer_format<layer_variance_float>);
 
 /// 64 bits: two moments of depth, opacity and weight as half floats.
-struct layer_variance_half : layer_texel<half_texel<layer_sums>>, layer_variance_sums {
+struct layer_variance_half : zeroed_texel<half_texel<layer_sums>>, layer_variance_sums {
     static constexpr std::string_view name = "4x16 half", id = "layer_variance_half";
     static constexpr double least_variance = 0x1p-9;
 };
 static_assert(layer_format<layer_variance_half>);
 
 /// 192 bits: four moments of depth, opacity and weight as floats.
-struct layer_moments4_float : layer_texel<float_texel<layer_moments4_sums>> {
+struct layer_moments4_float : zeroed_texel<float_texel<layer_moments4_sums>> {
     static constexpr std::string_view name = "6x32 float", id = "layer_moments4_float";
     static constexpr double least_variance = 0; // the bias of the moments hides roundings
     static constexpr double roundings = 64;     // of sums in passes, and by filters
@@ -114,7 +100,7 @@ struct layer_exponential_functions {
 };
 
 /// 96 bits: a warped depth, opacity and weight as floats.
-struct layer_exponential_float : layer_texel<float_texel<layer_exponential_sums>>, layer_exponential_functions {
+struct layer_exponential_float : zeroed_texel<float_texel<layer_exponential_sums>>, layer_exponential_functions {
     static constexpr std::string_view name = "3x32 float", id = "layer_exponential_float";
 };
 static_assert(layer_format<layer_exponential_float>);

@@ -20,6 +20,7 @@ shared layer_sums texels[85];
 shared int texel_of[batch], next_in_row[batch], first_in_row[8];
 shared float depth_of[batch], opacity_of[batch];
 #include "layer_window.h"
+#include "layer_no_sums.h"
 #include "layer_accumulate.h"
 
 void main() { accumulate_tile(gl_WorkGroupID.x, gl_LocalInvocationID.x); }

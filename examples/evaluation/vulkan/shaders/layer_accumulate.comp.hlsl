@@ -19,6 +19,7 @@ groupshared int texel_of[batch], next_in_row[batch], first_in_row[8];
 groupshared float depth_of[batch], opacity_of[batch];
 #define const static const
 #include "layer_window.h"
+#include "layer_no_sums.h"
 #include "layer_accumulate.h"
 #undef const
 

@@ -83,16 +83,6 @@ layer_sums plus(layer_sums a, layer_sums b)
     return a;
 }
 
-layer_sums no_sums()
-{
-    layer_sums s;
-    s.z = 0.0;
-    s.zz = 0.0;
-    s.opacity = 0.0;
-    s.weight = 0.0;
-    return s;
-}
-
 // The sums of the shared texels in this column, by a tent across the motion.
 layer_sums blurred(int u, int v, float radius)
 {

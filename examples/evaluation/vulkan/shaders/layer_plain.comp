@@ -9,6 +9,7 @@ layout(binding = 0) readonly buffer samples_buffer { stochastic_sample all_sampl
 layout(binding = 1) readonly buffer blocks_buffer { uint blocks[]; };
 layout(binding = 2) buffer plain_buffer { layer_sums plain[]; };
 layout(push_constant) uniform push { layer_push given; };
+#include "layer_no_sums.h"
 #include "layer_plain.h"
 
 void main() { fill_plain(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y); }

@@ -6,6 +6,7 @@
 [[vk::binding(1)]] StructuredBuffer<uint> blocks;
 [[vk::binding(2)]] RWStructuredBuffer<layer_sums> plain;
 [[vk::push_constant]] cbuffer push { layer_push given; };
+#include "layer_no_sums.h"
 #include "layer_plain.h"
 
 [numthreads(8, 8, 1)]

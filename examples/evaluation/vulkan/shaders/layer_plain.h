@@ -7,16 +7,6 @@ uint level_begin(uint level)
     return begin;
 }
 
-layer_sums no_sums()
-{
-    layer_sums s;
-    s.z = 0.0;
-    s.zz = 0.0;
-    s.opacity = 0.0;
-    s.weight = 0.0;
-    return s;
-}
-
 layer_sums plain_texel(uint x, uint y)
 {
     layer_sums sums = no_sums();

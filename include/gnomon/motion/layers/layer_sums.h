@@ -1,5 +1,5 @@
-// What a texel of a layer's grid holds, and the visibility of a receiver through the layer (Andersson et al. 2015, Sec. 4.1
-// and 4.2). A sample in the layer or behind it has weight w = 1, one in front of the layer has none. A sample in the layer
+// Sums that a texel of a layer's grid holds, and the visibility of a receiver through the layer (Andersson et al. 2015,
+// Sec. 4.1 and 4.2). A sample in the layer or behind it has weight w = 1, one in front of the layer has none. A sample in the layer
 // has opacity a = 1: where one sees past the layer, it is transparent. Per texel
 //
 //     variance       sums of w a z, w a z^2, w a, w                                layer_sums, Eq. 7

@@ -83,6 +83,24 @@ GNOMON_DETAIL_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_place(GNOMON_LIST
     return list;
 }
 
+/// Replace the ranges at the places first and second by the merge of both, and count its cost, if the list is full. A place
+/// of -1 is none.
+GNOMON_DETAIL_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_replace(GNOMON_LIST_T(range_list) list, GNOMON_MASK full,
+                                                                       Real first, Real second,
+                                                                       GNOMON_T(range_pair) merge)
+{
+    Real place = Real(0);
+    for (int i = 0; i < GNOMON_CAPACITY; ++i) {
+        GNOMON_MASK merged = full && (place == first || place == second);
+        list.ranges[i] = range_keep_if(!merged, list.ranges[i]);
+        place = place + Real(1);
+    }
+    merge.merged = range_keep_if(full, merge.merged);
+    merge.gap = gnomon_select(full, merge.gap, Real(0));
+    merge.shift = gnomon_select(full, merge.shift, Real(0));
+    return range_list_place(range_list_count_merge(list, merge), merge.merged);
+}
+
 /// Insert r, clipped to times in [0, 1]. Without an overflow the ranges of the list do not depend on the order of
 /// insertion, bit for bit, except for the sign of a zero. With an overflow they do, but at no time is the front farther
 /// than that of all inserted ranges. That holds strictly, for exact depth lines, however steep and brief the ranges
@@ -139,17 +157,8 @@ GNOMON_LIST_KERNEL GNOMON_LIST_T(range_list) range_list_insert(GNOMON_LIST_T(ran
             }
             place = place + Real(1);
         }
-        place = Real(0);
-        for (int n = 0; n < GNOMON_CAPACITY; ++n) {
-            GNOMON_MASK merged = full && (place == first || place == second);
-            list.ranges[n] = range_keep_if(!merged, list.ranges[n]);
-            place = place + Real(1);
-        }
+        list = range_list_replace(list, full, first, second, best);
         r = range_keep_if(!(full && second < Real(0)), r);
-        best.merged = range_keep_if(full, best.merged);
-        best.gap = gnomon_select(full, best.gap, Real(0));
-        best.shift = gnomon_select(full, best.shift, Real(0));
-        list = range_list_place(range_list_count_merge(list, best), best.merged);
     }
     return range_list_place(list, r);
 }

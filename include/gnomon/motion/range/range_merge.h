@@ -20,12 +20,9 @@ GNOMON_STRUCT(range_pair)
 
 GNOMON_CONSTANT(range_merge_margin, 0.000003814697265625); // 2^-18, exact
 
-/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
-/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
-/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
-/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
-/// the result is the other one, unchanged.
-GNOMON_DETAIL_KERNEL GNOMON_T(depth_time_range) range_merge(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+/// The range from the begin of the earlier of a and b to the end of the later one, on the line between the depths there. Of
+/// two begins or ends at one time the nearer counts. The id is that of both, or range_mixed if they differ.
+GNOMON_DETAIL_KERNEL GNOMON_T(depth_time_range) range_hull(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
 {
     GNOMON_T(depth_time_range) hull;
     hull.t0 = gnomon_min(a.t0, b.t0);
@@ -35,14 +32,24 @@ GNOMON_DETAIL_KERNEL GNOMON_T(depth_time_range) range_merge(GNOMON_T(depth_time_
     hull.z0 = gnomon_select(a.t0 < b.t0, a.z0, gnomon_select(b.t0 < a.t0, b.z0, nearer0));
     hull.z1 = gnomon_select(b.t1 < a.t1, a.z1, gnomon_select(a.t1 < b.t1, b.z1, nearer1));
     hull.id = gnomon_select(a.id == b.id, a.id, GNOMON_LITERAL(range_mixed));
+    return hull;
+}
 
+/// A range in front of both a and b. Of two candidates the one that darkens less: the line between the outer ends,
+/// moved towards the light until it is in front of both ranges, or the level line through the nearest end. A margin of
+/// 2^-18 of the largest depth is added. It exceeds the rounding of all lines in float, 59 2^-24, so by range_depth the
+/// result is at no time behind a or b. The id is that of both, or range_mixed if they differ. If one range is empty,
+/// the result is the other one, unchanged.
+GNOMON_DETAIL_KERNEL GNOMON_T(depth_time_range) range_merge(GNOMON_T(depth_time_range) a, GNOMON_T(depth_time_range) b)
+{
+    depth_time_range hull = range_hull(a, b);
     Real back = gnomon_max(gnomon_max(range_depth(hull, a.t0) - a.z0, range_depth(hull, a.t1) - a.z1),
                            gnomon_max(range_depth(hull, b.t0) - b.z0, range_depth(hull, b.t1) - b.z1));
     back = gnomon_max(back, Real(0));
     Real size =
         gnomon_max(gnomon_max(gnomon_abs(a.z0), gnomon_abs(a.z1)), gnomon_max(gnomon_abs(b.z0), gnomon_abs(b.z1)));
     Real margin = size * GNOMON_LITERAL(range_merge_margin);
-    Real level = gnomon_min(nearer0, nearer1);
+    Real level = gnomon_min(gnomon_min(a.z0, b.z0), gnomon_min(a.z1, b.z1));
     Real sloped0 = hull.z0 - back;
     Real sloped1 = hull.z1 - back;
     GNOMON_MASK slopes =
