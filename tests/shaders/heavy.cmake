@@ -130,7 +130,10 @@ endforeach()
 # What holds under fast mathematics, and the intensities of filters.
 set(held_kernels nearest_integer two_product two_difference two_difference_ordered subtract_product subtract_product_ordered
     subtract_product_rounded saturate_or_zero)
-file(STRINGS ${table} intensities REGEX "^[a-z0-9_]+_(intensity(_within)?|lower|bounds|side|end):.* -> unit")
+foreach(file ${tables})
+    file(STRINGS ${file} some REGEX "^[a-z0-9_]+_(intensity(_within)?|lower|bounds|side|end):.* -> unit")
+    list(APPEND intensities ${some})
+endforeach()
 list(TRANSFORM intensities REPLACE ":.*" "")
 list(FILTER intensities EXCLUDE REGEX "^range_")
 set(routes cross-essl300 cross-essl310 cross-glsl330 cross-hlsl naga-essl300 naga-glsl330 naga-hlsl)

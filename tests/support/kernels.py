@@ -23,7 +23,7 @@ class Kernel(NamedTuple):
 
 
 class Line(NamedTuple):
-    number: int
+    place: str # FILE:NUMBER
     families: list
     unit: bool
 
@@ -77,10 +77,14 @@ def table(path):
     for number, text in enumerate(Path(path).read_text().splitlines(), 1):
         if not text or text.startswith("#"):
             continue
-        match = re.fullmatch(r"(\w+):((?: \w+)+)( -> unit)?", text)
-        if not match or match[1] in lines:
+        if text.startswith("include "):
+            more = table(Path(path).parent / text.removeprefix("include "))
+        else:
+            match = re.fullmatch(r"(\w+):((?: \w+)+)( -> unit)?", text)
+            more = match and {match[1]: Line(f"{path}:{number}", match[2].split(), bool(match[3]))}
+        if not more or more.keys() & lines.keys():
             raise ValueError(f"{path}:{number}: KERNEL: FAMILY... [-> unit] expected, once per kernel")
-        lines[match[1]] = Line(number, match[2].split(), bool(match[3]))
+        lines |= more
     return lines
 
 
@@ -93,9 +97,9 @@ def read(path, headers):
             raise ValueError(f"{path}: no line for {kernel.name} ({kernel.header})")
     for name, line in lines.items():
         if name in details:
-            raise ValueError(f"{path}:{line.number}: {name} is a GNOMON_DETAIL_KERNEL, which runs as a part of others: no line")
+            raise ValueError(f"{line.place}: {name} is a GNOMON_DETAIL_KERNEL, which runs as a part of others: no line")
         if name not in names:
-            raise ValueError(f"{path}:{line.number}: no header defines {name}")
+            raise ValueError(f"{line.place}: no header defines {name}")
     return found, lines
 
 
