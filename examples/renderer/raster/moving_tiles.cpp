@@ -23,7 +23,7 @@ namespace gnomon::renderer {
 
 namespace {
 
-constexpr int largest_extent = 1 << 14;        // texels
+constexpr int largest_map_size = 1 << 14;      // texels
 constexpr std::size_t largest_count = 1 << 24; // triangles
 
 bool finite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
@@ -170,9 +170,9 @@ tiled_triangles::tiled_triangles(const moving_scene& world, const moving_camera&
                                  faces visible, float reach)
     : size_(width, height), grid_((size_ + moving_tile_size - 1) / moving_tile_size), reach_(reach)
 {
-    if (width < 1 || height < 1 || width > largest_extent || height > largest_extent)
+    if (width < 1 || height < 1 || width > largest_map_size || height > largest_map_size)
         throw std::invalid_argument(fmt::format("moving rasterizer: {}x{} texels, 1 to {} per side are possible", width,
-                                                height, largest_extent));
+                                                height, largest_map_size));
     setups_ = set_up(world, {eye.open, eye.at(1), size_, double(reach)}, visible);
     sort_into_tiles();
 }

@@ -1,5 +1,6 @@
 #include "layered_stages.hpp"
 #include "moving_stage_builder.hpp"
+#include "paint.hpp"
 #include "tube.hpp"
 
 #include <glm/common.hpp>

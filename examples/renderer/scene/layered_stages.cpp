@@ -1,6 +1,7 @@
 #include "layered_stages.hpp"
 
 #include "moving_stage_builder.hpp"
+#include "paint.hpp"
 #include "tree.hpp"
 #include "tube.hpp"
 

@@ -1,5 +1,7 @@
 #include "moving_stage_builder.hpp"
 
+#include "paint.hpp"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>

@@ -1,6 +1,7 @@
 #include "moving_stages.hpp"
 
 #include "moving_stage_builder.hpp"
+#include "paint.hpp"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>

@@ -1,5 +1,6 @@
 #include "scattering_stages.hpp"
 
+#include "paint.hpp"
 #include "tree.hpp"
 #include "tube.hpp"
 
@@ -43,8 +44,6 @@ scattering_stage staged(scene world, const glm::dvec3& light, const view& from, 
     result.eye = perspective_view_from(from.position, from.target, corners, glm::radians(from.degrees), aspect);
     return result;
 }
-
-const glm::vec3 green(0.05f, 0.6f, 0.1f), orange(0.95f, 0.35f, 0.02f), cyan(0.02f, 0.6f, 0.7f);
 
 // A wall across z with windows in it: its own extent, and that of the windows along z.
 void add_windowed_wall(mesh& wall, mesh& bars, const glm::vec3& lower, const glm::vec3& upper, const glm::vec2& heights,
@@ -176,9 +175,9 @@ scattering_stage room_stage(double aspect)
         .scattering = glm::vec3(0.05f), .absorption = glm::vec3(0.005f), .asymmetry = 0.2f, .irradiance = sunlight(9)};
     scattering_stage result = staged({"room", {walls, dark, roof, floor, bars, benches}}, {-0.8, -0.62, -0.18},
                                      {{-2.6, 1.9, 4.4}, {0.5, 2.5, -9}, 58}, air, aspect);
-    result.interests = {{"opening", "opening to the dark chamber", {1.5f, 2.2f, far}, orange},
-                        {"leak", "corner under the roof", {-half, 5.2f, -6.5f}, green},
-                        {"shaft", "shafts of light", {1.0f, 2.6f, -5}, cyan}};
+    result.interests = {{"opening", "opening to the dark chamber", {1.5f, 2.2f, far}, paint::orange},
+                        {"leak", "corner under the roof", {-half, 5.2f, -6.5f}, paint::green},
+                        {"shaft", "shafts of light", {1.0f, 2.6f, -5}, paint::cyan}};
     return result;
 }
 
@@ -212,8 +211,8 @@ scattering_stage trees_stage(double aspect)
                      .irradiance = sunlight(1.3f)};
     const scene world{"trees", {wood, leaves, ground({0, 0, -3}, 28, 30, {0.20f, 0.18f, 0.09f})}};
     scattering_stage result = staged(world, {0.30, -0.62, 0.72}, {{0.3, 1.7, 10.5}, {0.0, 4.4, -4}, 52}, air, aspect);
-    result.interests = {{"crown", "behind a crown", {-2.0f, 5.4f, 3.0f}, orange},
-                        {"ground", "between the trunks", {0.0f, 1.5f, -6}, green}};
+    result.interests = {{"crown", "behind a crown", {-2.0f, 5.4f, 3.0f}, paint::orange},
+                        {"ground", "between the trunks", {0.0f, 1.5f, -6}, paint::green}};
     return result;
 }
 
@@ -232,8 +231,8 @@ scattering_stage gate_stage(double aspect, float time)
     const double aside = 0.3 * static_cast<double>(time);
     scattering_stage result =
         staged(world, {0.22, -0.42, 0.88}, {{0.9 + aside, 1.6, 7.0}, {0.1 + aside, 2.4, 0}, 46}, air, aspect);
-    result.interests = {{"bars", "shadows of the bars", {0.6f, 1.2f, 2}, orange},
-                        {"rays", "rays beside the gate", {-3.5f, 2.2f, 0}, green}};
+    result.interests = {{"bars", "shadows of the bars", {0.6f, 1.2f, 2}, paint::orange},
+                        {"rays", "rays beside the gate", {-3.5f, 2.2f, 0}, paint::green}};
     return result;
 }
 
@@ -261,8 +260,8 @@ scattering_stage entering_stage(double aspect, bool present)
         .scattering = glm::vec3(0.05f), .absorption = glm::vec3(0.003f), .asymmetry = 0.3f, .irradiance = sunlight(8)};
     scattering_stage result =
         staged(std::move(world), {0.30, -0.88, 0.22}, {{-1.2, 2.0, 9.0}, {0.3, 3.5, 0}, 54}, air, aspect);
-    result.interests = {{"above", "beams above the dragon", {-0.3f, 5.6f, 0.9f}, orange},
-                        {"below", "shadow below the dragon", {0.9f, 2.0f, 1.8f}, green}};
+    result.interests = {{"above", "beams above the dragon", {-0.3f, 5.6f, 0.9f}, paint::orange},
+                        {"below", "shadow below the dragon", {0.9f, 2.0f, 1.8f}, paint::green}};
     return result;
 }
 
@@ -274,7 +273,7 @@ scattering_stage tower_stage(double aspect)
                      .asymmetry = 0.6f,
                      .irradiance = sunlight(0.6f)};
     scattering_stage result = staged(tower_scene(), eye - sun_behind, {eye, {0.1, 11.2, 0}, 48}, air, aspect);
-    result.interests = {{"epipole", "the light behind the tower", glm::vec3(sun_behind), orange}};
+    result.interests = {{"epipole", "the light behind the tower", glm::vec3(sun_behind), paint::orange}};
     return result;
 }
 
@@ -287,14 +286,14 @@ scattering_stage antipode_stage(double aspect)
                      .irradiance = sunlight(4)};
     scattering_stage result = staged(tower_scene(), along - eye, {eye, {-1.5, 7.5, 0}, 48}, air, aspect);
     result.world.name = "antipode";
-    result.interests = {{"antipode", "rays along the light", glm::vec3(along), orange}};
+    result.interests = {{"antipode", "rays along the light", glm::vec3(along), paint::orange}};
     return result;
 }
 
 scattering_stage hazy_model_stage(scene model, double aspect)
 {
     const stage plain = model_stage(std::move(model), aspect);
-    const bounds box = bounds_of({"", {plain.world.meshes.begin(), plain.world.meshes.end() - 1}});
+    const bounds box = bounds_of(scene{"", {plain.world.meshes.begin(), plain.world.meshes.end() - 1}});
     // The light comes from the far side, over the model.
     const glm::dvec3 across = plain.eye.forward;
     scattering_stage result{plain,

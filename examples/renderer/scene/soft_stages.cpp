@@ -1,5 +1,6 @@
 #include "soft_stages.hpp"
 
+#include "paint.hpp"
 #include "tube.hpp"
 
 #include <glm/geometric.hpp>
@@ -80,8 +81,8 @@ stage models_stage(double aspect)
     result.world.meshes.push_back(ground({0, 0, 0}, 30, 30, glm::vec3(0.42f)));
     result.eye = perspective_view_from({0.7, 2.1, 4.0}, {0.12, 0.68, 0}, bounds_of(result.world).corners(),
                                        glm::radians(34.0), aspect);
-    result.interests = {{"contact", "contact of the chair", {0.75f, 0, 0.1f}, {0.05f, 0.6f, 0.1f}},
-                        {"far", "far shadow of the knot", {0.3f, 0, -0.6f}, {0.95f, 0.35f, 0.02f}}};
+    result.interests = {{"contact", "contact of the chair", {0.75f, 0, 0.1f}, paint::green},
+                        {"far", "far shadow of the knot", {0.3f, 0, -0.6f}, paint::orange}};
     return result;
 }
 
@@ -129,9 +130,9 @@ stage long_range_stage(double aspect)
     result.world.meshes.push_back(ground({0, 0, 0}, 60, 60, {0.40f, 0.39f, 0.36f}));
     result.eye = perspective_view_from({-6.5, 6.0, 14.0}, {0.7, 2.35, 1.0}, bounds_of(result.world).corners(),
                                        glm::radians(34.0), aspect);
-    result.interests = {{"sign", "shadow of a sign", {-0.6f, 0, 3.2f}, {0.05f, 0.6f, 0.1f}},
-                        {"cables", "shadows of cables", {2.5f, 0, 2.0f}, {0.02f, 0.6f, 0.7f}},
-                        {"bench", "shadow of the bench", {0.8f, 0, 1.9f}, {0.95f, 0.35f, 0.02f}}};
+    result.interests = {{"sign", "shadow of a sign", {-0.6f, 0, 3.2f}, paint::green},
+                        {"cables", "shadows of cables", {2.5f, 0, 2.0f}, paint::cyan},
+                        {"bench", "shadow of the bench", {0.8f, 0, 1.9f}, paint::orange}};
     return result;
 }
 
@@ -151,8 +152,8 @@ stage pillar_stage(double aspect)
     result.world.meshes.push_back(ground({0, 0, 0}, 40, 40, {0.40f, 0.39f, 0.36f}));
     result.eye = perspective_view_from({-0.5, 2.3, 3.3}, {0.5, 0.65, -0.6}, bounds_of(result.world).corners(),
                                        glm::radians(46.0), aspect);
-    result.interests = {{"alone", "contact of the pillar alone", {-half, 0, half + 0.1f}, {0.05f, 0.6f, 0.1f}},
-                        {"both", "contact beside the wall's shadow", {half, 0, half + 0.1f}, {0.95f, 0.35f, 0.02f}}};
+    result.interests = {{"alone", "contact of the pillar alone", {-half, 0, half + 0.1f}, paint::green},
+                        {"both", "contact beside the wall's shadow", {half, 0, half + 0.1f}, paint::orange}};
     return result;
 }
 
@@ -173,8 +174,8 @@ stage grazing_stage(double aspect)
     result.world.meshes.push_back(ground({0, 0, 0}, 40, 40, {0.62f, 0.60f, 0.56f}));
     result.eye = perspective_view_from({-1.6, 2.6, 5.2}, {2.6, 0.35, 0}, bounds_of(result.world).corners(),
                                        glm::radians(38.0), aspect);
-    result.interests = {{"penumbra", "beside the penumbra", {4.5f, 0, 0.35f}, {0.95f, 0.35f, 0.02f}},
-                        {"contact", "contact of the column", {0.5f, 0, 0.3f}, {0.05f, 0.6f, 0.1f}}};
+    result.interests = {{"penumbra", "beside the penumbra", {4.5f, 0, 0.35f}, paint::orange},
+                        {"contact", "contact of the column", {0.5f, 0, 0.3f}, paint::green}};
     return result;
 }
 

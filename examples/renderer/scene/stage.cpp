@@ -1,5 +1,7 @@
 #include "stage.hpp"
 
+#include "paint.hpp"
+
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
@@ -94,15 +96,15 @@ stage fence_stage(double aspect)
     result.eye = perspective_view_from({3.6, 4.6, 1.2}, {0.34, 0.28, 0.16}, bounds_of(result.world).corners(),
                                        glm::radians(36.0), aspect);
     result.light = orthographic_view(casters_and_shadows(bounds_of(casters), fence_light), fence_light);
-    result.interests = {{"fence", "fence", {0.75f, 0, -1.4f}, {0.05f, 0.6f, 0.1f}},
-                        {"fence_wall", "fence and wall", {0.95f, 0, 1.9f}, {0.02f, 0.6f, 0.7f}},
-                        {"sign_fence_wall", "sign, fence and wall", {0.84f, 0, 0.89f}, {0.95f, 0.35f, 0.02f}}};
+    result.interests = {{"fence", "fence", {0.75f, 0, -1.4f}, paint::green},
+                        {"fence_wall", "fence and wall", {0.95f, 0, 1.9f}, paint::cyan},
+                        {"sign_fence_wall", "sign, fence and wall", {0.84f, 0, 0.89f}, paint::orange}};
     return result;
 }
 
 stage contact_stage(double aspect)
 {
-    const std::array<glm::vec3, 3> colours{{{0.05f, 0.6f, 0.1f}, {0.02f, 0.6f, 0.7f}, {0.95f, 0.35f, 0.02f}}};
+    const std::array<glm::vec3, 3> colours{{paint::green, paint::cyan, paint::orange}};
     stage result{{"contact", {}}, {}, {}, {}};
     result.light = orthographic_view(yard.corners(), noon_light);
     const double metres_per_depth = 0.5 * (result.light.far_distance - result.light.near_distance);

@@ -1,5 +1,6 @@
 #include "translucent_stage.hpp"
 
+#include "paint.hpp"
 #include "tube.hpp"
 
 #include <glm/common.hpp>
@@ -207,9 +208,9 @@ stage translucent_stage(double aspect)
     result.eye = perspective_view_from({-1.9, 2.3, 5.8}, {0.1, 1.3, -0.6}, bounds_of(result.world).corners(),
                                        glm::radians(36.0), aspect);
     result.light = orthographic_view(bounds{{-3.6f, 0, -2.3f}, {3.8f, 3.1f, 0.7f}}.corners(), yard_light);
-    result.interests = {{"pipe", "wall behind the green pipe", {-0.35f, 0.72f, -2.0f}, {0.05f, 0.6f, 0.1f}},
+    result.interests = {{"pipe", "wall behind the green pipe", {-0.35f, 0.72f, -2.0f}, paint::green},
                         {"silhouette", "smoke before the blue pipe", {0.62f, 1.42f, -0.3f}, {0.1f, 0.2f, 0.9f}},
-                        {"smoke", "inside the smoke", {-0.1f, 2.0f, -0.35f}, {0.95f, 0.35f, 0.02f}},
+                        {"smoke", "inside the smoke", {-0.1f, 2.0f, -0.35f}, paint::orange},
                         {"glass", "shadow of the window", {1.7f, 0, -0.1f}, {0.75f, 0.05f, 0.6f}}};
     return result;
 }
