@@ -614,8 +614,9 @@ inline constexpr double layer_least_extent = 0.00006103515625; // 2^-14: depths 
 
 /// The depth of a sample in the middle of the shutter interval by its own motion, z + (1/2 - t) d_z, limited to [-2,
 /// 2]; layer_background_depth for the background.
-/// Domain: any.
-/// NaN: layer_unknown_depth, also for infinite depths and motions.
+/// Domain: the depth, |d_x|, |d_y| and |d_z| have a sum of at most 65536. A sample beyond that is no information, since
+/// neither its place in a layer nor its depth there is known.
+/// NaN: layer_unknown_depth, as for infinite depths and motions.
 /// Error: 4 2^-p where |d_z| <= 2.
 /// Source: Andersson 2015, Sec. 4.1
 template <class Real, class = require_real<Real>>
@@ -624,7 +625,9 @@ GNOMON_INLINE constexpr Real layer_middle_depth(stochastic_sample<Real> s)
     Real z = s.z + (Real(0.5) - s.t) * s.d_z;
     Real limit = literal<Real>(layer_depth_limit);
     Real inside = gnomon_max(gnomon_min(z, limit), Real(-1) * limit);
-    mask_t<Real> known = gnomon_abs(z) <= literal<Real>(texel_limit);
+    // One comparison of a sum, since Mesa makes one of several, by a maximum that loses a NaN.
+    Real size = ((gnomon_abs(s.d_x) + gnomon_abs(s.d_y)) + gnomon_abs(s.d_z)) + gnomon_abs(z);
+    mask_t<Real> known = size <= literal<Real>(texel_limit);
     Real middle = gnomon_select(known, inside, literal<Real>(layer_unknown_depth));
     return gnomon_select(s.id < Real(0), literal<Real>(layer_background_depth), middle);
 }

@@ -226,8 +226,9 @@ const float gnomon_layer_least_extent = 0.00006103515625; // 2^-14: depths that 
 
 /// The depth of a sample in the middle of the shutter interval by its own motion, z + (1/2 - t) d_z, limited to [-2,
 /// 2]; gnomon_layer_background_depth for the background.
-/// Domain: any.
-/// NaN: gnomon_layer_unknown_depth, also for infinite depths and motions.
+/// Domain: the depth, |d_x|, |d_y| and |d_z| have a sum of at most 65536. A sample beyond that is no information, since
+/// neither its place in a layer nor its depth there is known.
+/// NaN: gnomon_layer_unknown_depth, as for infinite depths and motions.
 /// Error: 4 2^-p where |d_z| <= 2.
 /// Source: Andersson 2015, Sec. 4.1
 float layer_middle_depth(stochastic_sample s)
@@ -235,7 +236,9 @@ float layer_middle_depth(stochastic_sample s)
     float z = s.z + (0.5 - s.t) * s.d_z;
     float limit = gnomon_layer_depth_limit;
     float inside = gnomon_max(gnomon_min(z, limit), -1.0 * limit);
-    bool known = gnomon_abs(z) <= gnomon_texel_limit;
+    // One comparison of a sum, since Mesa makes one of several, by a maximum that loses a NaN.
+    float size = ((gnomon_abs(s.d_x) + gnomon_abs(s.d_y)) + gnomon_abs(s.d_z)) + gnomon_abs(z);
+    bool known = size <= gnomon_texel_limit;
     float middle = gnomon_select(known, inside, gnomon_layer_unknown_depth);
     return gnomon_select(s.id < 0.0, gnomon_layer_background_depth, middle);
 }

@@ -525,8 +525,9 @@ static const float gnomon_layer_least_extent = 0.00006103515625; // 2^-14: depth
 
 /// The depth of a sample in the middle of the shutter interval by its own motion, z + (1/2 - t) d_z, limited to [-2,
 /// 2]; gnomon_layer_background_depth for the background.
-/// Domain: any.
-/// NaN: gnomon_layer_unknown_depth, also for infinite depths and motions.
+/// Domain: the depth, |d_x|, |d_y| and |d_z| have a sum of at most 65536. A sample beyond that is no information, since
+/// neither its place in a layer nor its depth there is known.
+/// NaN: gnomon_layer_unknown_depth, as for infinite depths and motions.
 /// Error: 4 2^-p where |d_z| <= 2.
 /// Source: Andersson 2015, Sec. 4.1
 float layer_middle_depth(stochastic_sample s)
@@ -534,7 +535,9 @@ float layer_middle_depth(stochastic_sample s)
     float z = s.z + (0.5 - s.t) * s.d_z;
     float limit = gnomon_layer_depth_limit;
     float inside = gnomon_max(gnomon_min(z, limit), -1.0 * limit);
-    bool known = gnomon_abs(z) <= gnomon_texel_limit;
+    // One comparison of a sum, since Mesa makes one of several, by a maximum that loses a NaN.
+    float size = ((gnomon_abs(s.d_x) + gnomon_abs(s.d_y)) + gnomon_abs(s.d_z)) + gnomon_abs(z);
+    bool known = size <= gnomon_texel_limit;
     float middle = gnomon_select(known, inside, gnomon_layer_unknown_depth);
     return gnomon_select(s.id < 0.0, gnomon_layer_background_depth, middle);
 }
@@ -689,7 +692,8 @@ float layer_of(float middle, gnomon_layer_cuts cuts)
 #define GNOMON_MOTION_LAYERS_LAYER_GRID_H
 
 /// A fold over the samples of a layer: a motion, sums of differences from it and of their squares, the number of
-/// samples, and the least and greatest middle depths and motions in depth.
+/// samples, and the least and greatest of their motions in depth and of their depths in the middle of the shutter
+/// interval, which are not limited as those of layer_middle_depth are.
 struct gnomon_layer_motion_sums
 {
     float first_x, first_y, first_z, x, y, z, square, square_z, count;
@@ -716,8 +720,8 @@ gnomon_layer_motion_sums layer_motion_begin(stochastic_sample first)
     r.square = 0.0;
     r.square_z = 0.0;
     r.count = 0.0;
-    r.least = gnomon_layer_background_depth;
-    r.greatest = gnomon_layer_unknown_depth;
+    r.least = limit;
+    r.greatest = -1.0 * limit;
     r.least_d = limit;
     r.greatest_d = -1.0 * limit;
     return r;
@@ -746,8 +750,9 @@ gnomon_layer_motion_sums layer_motion_add(gnomon_layer_motion_sums state, stocha
     state.square = state.square + (x * x + y * y);
     state.square_z = state.square_z + z * z;
     state.count = state.count + gnomon_select(known, 1.0, 0.0);
-    state.least = gnomon_select(known && middle < state.least, middle, state.least);
-    state.greatest = gnomon_select(known && state.greatest < middle, middle, state.greatest);
+    float moved = s.z + (0.5 - s.t) * s.d_z;
+    state.least = gnomon_select(known && moved < state.least, moved, state.least);
+    state.greatest = gnomon_select(known && state.greatest < moved, moved, state.greatest);
     state.least_d = gnomon_select(known && s.d_z < state.least_d, s.d_z, state.least_d);
     state.greatest_d = gnomon_select(known && state.greatest_d < s.d_z, s.d_z, state.greatest_d);
     return state;

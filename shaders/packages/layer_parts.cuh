@@ -1979,8 +1979,9 @@ inline constexpr double layer_least_extent = 0.00006103515625; // 2^-14: depths 
 
 /// The depth of a sample in the middle of the shutter interval by its own motion, z + (1/2 - t) d_z, limited to [-2,
 /// 2]; layer_background_depth for the background.
-/// Domain: any.
-/// NaN: layer_unknown_depth, also for infinite depths and motions.
+/// Domain: the depth, |d_x|, |d_y| and |d_z| have a sum of at most 65536. A sample beyond that is no information, since
+/// neither its place in a layer nor its depth there is known.
+/// NaN: layer_unknown_depth, as for infinite depths and motions.
 /// Error: 4 2^-p where |d_z| <= 2.
 /// Source: Andersson 2015, Sec. 4.1
 template <class Real, class = require_real<Real>>
@@ -1989,7 +1990,9 @@ GNOMON_INLINE constexpr Real layer_middle_depth(stochastic_sample<Real> s)
     Real z = s.z + (Real(0.5) - s.t) * s.d_z;
     Real limit = literal<Real>(layer_depth_limit);
     Real inside = gnomon_max(gnomon_min(z, limit), Real(-1) * limit);
-    mask_t<Real> known = gnomon_abs(z) <= literal<Real>(texel_limit);
+    // One comparison of a sum, since Mesa makes one of several, by a maximum that loses a NaN.
+    Real size = ((gnomon_abs(s.d_x) + gnomon_abs(s.d_y)) + gnomon_abs(s.d_z)) + gnomon_abs(z);
+    mask_t<Real> known = size <= literal<Real>(texel_limit);
     Real middle = gnomon_select(known, inside, literal<Real>(layer_unknown_depth));
     return gnomon_select(s.id < Real(0), literal<Real>(layer_background_depth), middle);
 }
@@ -2158,7 +2161,8 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 GNOMON_WARNINGS_OFF namespace gnomon {
 
 /// A fold over the samples of a layer: a motion, sums of differences from it and of their squares, the number of
-/// samples, and the least and greatest middle depths and motions in depth.
+/// samples, and the least and greatest of their motions in depth and of their depths in the middle of the shutter
+/// interval, which are not limited as those of layer_middle_depth are.
 template <class Real, class = require_real<Real>> struct layer_motion_sums
 {
     Real first_x, first_y, first_z, x, y, z, square, square_z, count;
@@ -2187,8 +2191,8 @@ GNOMON_INLINE constexpr layer_motion_sums<Real> layer_motion_begin(stochastic_sa
     r.square = Real(0);
     r.square_z = Real(0);
     r.count = Real(0);
-    r.least = literal<Real>(layer_background_depth);
-    r.greatest = literal<Real>(layer_unknown_depth);
+    r.least = limit;
+    r.greatest = Real(-1) * limit;
     r.least_d = limit;
     r.greatest_d = Real(-1) * limit;
     return r;
@@ -2220,8 +2224,9 @@ GNOMON_INLINE constexpr layer_motion_sums<Real> layer_motion_add(layer_motion_su
     state.square = state.square + (x * x + y * y);
     state.square_z = state.square_z + z * z;
     state.count = state.count + gnomon_select(known, Real(1), Real(0));
-    state.least = gnomon_select(known && middle < state.least, middle, state.least);
-    state.greatest = gnomon_select(known && state.greatest < middle, middle, state.greatest);
+    Real moved = s.z + (Real(0.5) - s.t) * s.d_z;
+    state.least = gnomon_select(known && moved < state.least, moved, state.least);
+    state.greatest = gnomon_select(known && state.greatest < moved, moved, state.greatest);
     state.least_d = gnomon_select(known && s.d_z < state.least_d, s.d_z, state.least_d);
     state.greatest_d = gnomon_select(known && state.greatest_d < s.d_z, s.d_z, state.greatest_d);
     return state;

@@ -78,6 +78,10 @@ TEST_CASE("samples that tell nothing shadow nothing")
     lit_everywhere(every([](auto& s) { s.d_z = none; }));
     lit_everywhere(every([](auto& s) { s.x = inf, s.d_x = 3; })); // beside every window
     lit_everywhere(every([](auto& s) { s.t = none, s.d_x = 3; }));
+    for (const float unknown : {none, inf, -inf, 1e9f, 70000.0f}) { // no place is known, so none is behind a receiver
+        lit_everywhere(every([&](auto& s) { s.d_x = unknown; }));
+        lit_everywhere(every([&](auto& s) { s.d_y = unknown, s.z = 0.5f + 0.4f * s.t; }));
+    }
     lit_everywhere(every([](auto& s) { s = {none, none, none, none, none, none, none, none}; }));
 }
 
@@ -97,7 +101,7 @@ TEST_CASE("one sample is found from everywhere in its tile")
 TEST_CASE("motions that cancel, or are far longer than the window, keep the shadow of what covers all")
 {
     bit_source bits(4);
-    for (const float length : {1.0f, 30.0f, 4000.0f, 1e9f})
+    for (const float length : {1.0f, 30.0f, 4000.0f, 60000.0f})
         for (const bool cancel : {false, true}) {
             auto samples = sample_quads({{-0.5f, 0}, {}}, 24, 24, 4, bits);
             for (auto& s : samples.of) s.d_x = cancel && bits.chance(0.5) ? -length : length;
@@ -110,6 +114,32 @@ TEST_CASE("motions that cancel, or are far longer than the window, keep the shad
                 }
             }
         }
+}
+
+TEST_CASE_TEMPLATE("a level surface that moves by any distance, in depth too, does not shadow itself", Format,
+                   layer_variance_float, layer_variance_half, layer_moments4_float, layer_exponential_float)
+{
+    bit_source bits(6);
+    for (std::int64_t i = 0; i < effort(200); ++i) {
+        const auto any = [&](double least, double most) {
+            return float(std::exp2(bits.uniform(least, most)) * (bits.chance(0.5) ? 1 : -1));
+        };
+        const float d_x = any(-22, 20), d_y = any(-22, 20), d_z = bits.chance(0.2) ? 0 : any(-20, 15);
+        // Depth 0 is passed at time `level`. All samples and receivers see the surface between the planes.
+        const float level = float(bits.uniform(0, 1)), reach = std::min(0.9f / std::abs(d_z), 1.0f);
+        const auto time = [&] { return std::clamp(level + reach * float(bits.uniform(-1, 1)), 0.0f, 1.0f); };
+        auto samples = sample_quads({{0, 0}, {}}, 14, 11, 3, bits);
+        for (auto& s : samples.of) s.t = time(), s.z = (s.t - level) * d_z, s.d_x = d_x, s.d_y = d_y, s.d_z = d_z;
+        const layers_of<Format> layers(samples, all_settings[bits.below(4)]);
+        for (int k = 0; k < 40; ++k) {
+            const float t = time();
+            const auto r =
+                still_receiver(float(bits.uniform(0, 14)), float(bits.uniform(0, 11)), (t - level) * d_z, t, bits);
+            const float shadow = layers.intensity(r, {layer_tiles(k % 3), bits.chance(0.5)});
+            INFO(Format::id << ": " << d_x << ", " << d_y << ", " << d_z << " from " << level << " on, at " << t);
+            REQUIRE(shadow <= 1e-3f);
+        }
+    }
 }
 
 TEST_CASE("clusters are those of the kernels")

@@ -95,7 +95,8 @@ float visibility_through(layer_grid grid, texel_source from, float x, float y, l
     grid.spread = 0.0;
     grid.spread_z = 0.0;
     float bias = layer_bias(grid, r.slope, r.slope, r.t, given.reach, given.limit);
-    float z = layer_grid_own_depth(grid, r.z - (bias + given.rounding), r.t);
+    float rounding = max(given.rounding, 0.0625 * given.rounding * abs(grid.d_z));
+    float z = layer_grid_own_depth(grid, r.z - (bias + rounding), r.t);
     if (!(z > -1.0)) return 1.0; // before all of it
     gnomon_layer_footprint footprint = layer_footprint_make(grid, r.x0 - x, r.y0 - y, r.t0, r.x1 - x, r.y1 - y, r.t1,
                                                             r.cross_x, r.cross_y, layer_widening(grid, r.t));

@@ -27,8 +27,9 @@ GNOMON_CONSTANT(layer_least_extent, 0.00006103515625); // 2^-14: depths that lie
 
 /// The depth of a sample in the middle of the shutter interval by its own motion, z + (1/2 - t) d_z, limited to [-2, 2];
 /// layer_background_depth for the background.
-/// Domain: any.
-/// NaN: layer_unknown_depth, also for infinite depths and motions.
+/// Domain: the depth, |d_x|, |d_y| and |d_z| have a sum of at most 65536. A sample beyond that is no information, since
+/// neither its place in a layer nor its depth there is known.
+/// NaN: layer_unknown_depth, as for infinite depths and motions.
 /// Error: 4 2^-p where |d_z| <= 2.
 /// Source: Andersson 2015, Sec. 4.1
 GNOMON_KERNEL Real layer_middle_depth(GNOMON_T(stochastic_sample) s)
@@ -36,7 +37,9 @@ GNOMON_KERNEL Real layer_middle_depth(GNOMON_T(stochastic_sample) s)
     Real z = s.z + (Real(0.5) - s.t) * s.d_z;
     Real limit = GNOMON_LITERAL(layer_depth_limit);
     Real inside = gnomon_max(gnomon_min(z, limit), Real(-1) * limit);
-    GNOMON_MASK known = gnomon_abs(z) <= GNOMON_LITERAL(texel_limit);
+    // One comparison of a sum, since Mesa makes one of several, by a maximum that loses a NaN.
+    Real size = ((gnomon_abs(s.d_x) + gnomon_abs(s.d_y)) + gnomon_abs(s.d_z)) + gnomon_abs(z);
+    GNOMON_MASK known = size <= GNOMON_LITERAL(texel_limit);
     Real middle = gnomon_select(known, inside, GNOMON_LITERAL(layer_unknown_depth));
     return gnomon_select(s.id < Real(0), GNOMON_LITERAL(layer_background_depth), middle);
 }

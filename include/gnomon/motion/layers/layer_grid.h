@@ -19,7 +19,8 @@
 GNOMON_NAMESPACE_BEGIN
 
 /// A fold over the samples of a layer: a motion, sums of differences from it and of their squares, the number of samples,
-/// and the least and greatest middle depths and motions in depth.
+/// and the least and greatest of their motions in depth and of their depths in the middle of the shutter interval, which are
+/// not limited as those of layer_middle_depth are.
 GNOMON_STRUCT(layer_motion_sums)
 {
     Real first_x, first_y, first_z, x, y, z, square, square_z, count;
@@ -46,8 +47,8 @@ GNOMON_KERNEL GNOMON_T(layer_motion_sums) layer_motion_begin(GNOMON_T(stochastic
     r.square = Real(0);
     r.square_z = Real(0);
     r.count = Real(0);
-    r.least = GNOMON_LITERAL(layer_background_depth);
-    r.greatest = GNOMON_LITERAL(layer_unknown_depth);
+    r.least = limit;
+    r.greatest = Real(-1) * limit;
     r.least_d = limit;
     r.greatest_d = Real(-1) * limit;
     return r;
@@ -77,8 +78,9 @@ GNOMON_KERNEL GNOMON_T(layer_motion_sums) layer_motion_add(GNOMON_T(layer_motion
     state.square = state.square + (x * x + y * y);
     state.square_z = state.square_z + z * z;
     state.count = state.count + gnomon_select(known, Real(1), Real(0));
-    state.least = gnomon_select(known && middle < state.least, middle, state.least);
-    state.greatest = gnomon_select(known && state.greatest < middle, middle, state.greatest);
+    Real moved = s.z + (Real(0.5) - s.t) * s.d_z;
+    state.least = gnomon_select(known && moved < state.least, moved, state.least);
+    state.greatest = gnomon_select(known && state.greatest < moved, moved, state.greatest);
     state.least_d = gnomon_select(known && s.d_z < state.least_d, s.d_z, state.least_d);
     state.greatest_d = gnomon_select(known && state.greatest_d < s.d_z, s.d_z, state.greatest_d);
     return state;

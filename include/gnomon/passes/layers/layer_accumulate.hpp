@@ -30,11 +30,10 @@ struct motion_lanes {
     /// Add samples n to n + count - 1 of a batch that are in the layer, as of layer_motion_add.
     void add(const sample_batch& s, std::size_t n, const layer_cuts<float>& cuts, float layer)
     {
-        const float limit = float(texel_limit);
         for (std::size_t k = 0; k < count; ++k) {
-            const float middle = s.middle[n + k], d_x = s.d_x[n + k], d_y = s.d_y[n + k], d_z = s.d_z[n + k];
-            const float length = (gnomon_abs(d_x) + gnomon_abs(d_y)) + gnomon_abs(d_z);
-            const bool counts = (unsigned(length <= limit) & unsigned(layer_of(middle, cuts) == layer)) != 0;
+            const float d_x = s.d_x[n + k], d_y = s.d_y[n + k], d_z = s.d_z[n + k];
+            const float middle = s.z[n + k] + (0.5f - s.t[n + k]) * d_z;
+            const bool counts = layer_of(s.middle[n + k], cuts) == layer;
             const float dx = counts ? d_x - sums.first_x : 0;
             const float dy = counts ? d_y - sums.first_y : 0;
             const float dz = counts ? d_z - sums.first_z : 0;

@@ -25,12 +25,14 @@ enum class layer_tiles {
     blended // it and its neighbours, by weights that leave no border
 };
 
+/// The bias and the filters of a look-up. `rounding` is a bias in depth for the roundings by which samples and receivers on
+/// one surface differ; for a layer that moves in depth by more than 16 it grows in proportion.
 struct layer_look_up {
     layer_tiles tiles = layer_tiles::random;
     bool widen = false;       // footprints, bias and least variance by the spread of motion in a layer
     float reach = 0.5f;       // texels of a layer over which the bias follows the slope
     float limit = 0.25f;      // the largest bias of a slope
-    float rounding = 8e-6f;   // of depth, by which samples and receivers on one surface may differ
+    float rounding = 8e-6f;   // in depth
     float least_variance = 0; // of depth
 };
 
@@ -146,7 +148,9 @@ float visibility_through(layer_grid<float> grid, const auto& mips, float x, floa
 {
     if (!look_up.widen) grid.spread = grid.spread_z = 0;
     const float bias = layer_bias(grid, r.slope, r.slope, r.t, look_up.reach, look_up.limit);
-    const float z = layer_grid_own_depth(grid, r.z - (bias + look_up.rounding), r.t);
+    // Depths that move by d_z are rounded by less than 2^-22 (1 + |d_z|), which 8e-6 hides up to 16.
+    const float rounding = gnomon_max(look_up.rounding, 0.0625f * look_up.rounding * gnomon_abs(grid.d_z));
+    const float z = layer_grid_own_depth(grid, r.z - (bias + rounding), r.t);
     if (!(z > -1)) return 1; // before all of it
     const auto footprint = layer_footprint_make(grid, r.x0 - x, r.y0 - y, r.t0, r.x1 - x, r.y1 - y, r.t1, r.cross_x,
                                                 r.cross_y, layer_widening(grid, r.t));
