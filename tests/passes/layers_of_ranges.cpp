@@ -5,7 +5,9 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 using namespace gnomon;
 using namespace gnomon::test;
@@ -118,6 +120,27 @@ TEST_CASE("layers of ranges are less noisy than layers of random samples, and un
             CHECK(std::abs(mean / 512) < 0.015);
             CHECK(of_exact < 0.5 * of_random);
         }
+}
+
+TEST_CASE("ranges of no surface and of NaN are not sampled, those of several are a surface without motion")
+{
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    const auto id_and_depth = [](std::vector<depth_time_range<float>> list) {
+        std::vector<std::uint32_t> first(range_map<float>::texels(1, 1) + 1, std::uint32_t(list.size()));
+        first[0] = 0;
+        std::vector<stochastic_sample<float>> samples(3);
+        const auto moving = [](float, float, float, float) { return triangle_motion<float>{1, 2, 3}; };
+        sample_ranges<range_map<float>, float>({1, 1, first, list}, 3, moving, samples, {0, 1});
+        for (const auto& s : samples) CHECK((s.id == samples[0].id && s.d_x == (s.id > 0 ? 1 : 0)));
+        return std::pair(samples[0].id, samples[0].z);
+    };
+    const depth_time_range<float> surface{0, 1, 0.25f, 0.25f, 7}, farther{0, 1, 0.5f, 0.5f, 8};
+    CHECK(id_and_depth({}) == std::pair(float(stochastic_nothing), 1.f));
+    CHECK(id_and_depth({{0, 1, 1, 1, float(range_nothing)}}) == std::pair(float(stochastic_nothing), 1.f));
+    CHECK(id_and_depth({{0, 1, nan, nan, 3}}) == std::pair(float(stochastic_nothing), 1.f));
+    CHECK(id_and_depth({{0, 1, nan, 0, 3}, farther, surface}) == std::pair(7.f, 0.25f));
+    CHECK(id_and_depth({{0, nan, 0, 0, 3}, surface, farther}) == std::pair(7.f, 0.25f));
+    CHECK(id_and_depth({{0, 1, 0, 0, float(range_mixed)}, surface}) == std::pair(0.f, 0.f));
 }
 
 #if defined(__cpp_exceptions)

@@ -221,6 +221,9 @@ TEST_CASE("shapes that do not fit are refused before anything is written")
     refused([](auto& map, auto&, auto&, auto&) { map.settings.texels = 6; });
     refused([](auto& map, auto&, auto&, auto&) { map.settings.guard = 3; });
     refused([](auto& map, auto&, auto&, auto&) { map.settings.guard = 13; });
+    refused([](auto& map, auto&, auto&, auto&) { map.settings.guard = 300; });
+    refused([](auto& map, auto&, auto&, auto&) { map.settings.tile = 0; });
+    refused([](auto& map, auto&, auto&, auto&) { map.settings.layers = 0; });
     refused([](auto& map, auto&, auto&, auto&) { map.settings.layers = 5; });
     refused([](auto& map, auto&, auto&, auto&) { map.first = map.first.first(7); });
     refused([](auto& map, auto&, auto&, auto&) { map.grids = map.grids.first(1); });

@@ -98,12 +98,13 @@ void count_deep(T tolerance, std::span<std::uint32_t> first, const Vertices& ver
     begins_from_counts(first);
 }
 
+/// Write the layers of each texel, from its begin on.
 template <class T, class Vertices>
 void fill_deep(T tolerance, std::span<const std::uint32_t> first, std::span<deep_layer<T>> layers,
                const Vertices& vertices)
 {
     GNOMON_EXPECTS(layers.size() == first.back(),
-                   mismatch("deep_shadow", "layers.size()", layers.size(), "first.back()", first.back()));
+                   mismatch("fill_deep_layers", "layers.size()", layers.size(), "first.back()", first.back()));
     for (std::size_t i = 0; i + 1 < first.size(); ++i) {
         std::size_t next = first[i];
         compress_deep(
@@ -115,13 +116,20 @@ void fill_deep(T tolerance, std::span<const std::uint32_t> first, std::span<deep
     }
 }
 
-inline void expect_deep_samples(std::size_t depths, std::size_t samples, std::size_t firsts)
+/// Check that a table of begins has one for each texel, and one more.
+inline void expect_begins(std::string_view pass, std::size_t firsts, std::string_view texels_and_one,
+                          std::size_t texels)
 {
-    GNOMON_EXPECTS(samples > 0, mismatch("deep_shadow", "samples", samples, "at least", 1));
+    GNOMON_EXPECTS(firsts == texels + 1, mismatch(pass, "first.size()", firsts, texels_and_one, texels + 1));
+}
+
+/// Check that there are depths, `samples` for each texel.
+inline void expect_deep_samples(std::string_view pass, std::size_t depths, std::size_t samples, std::size_t firsts)
+{
+    GNOMON_EXPECTS(samples > 0, mismatch(pass, "samples", samples, "the least", 1));
     GNOMON_EXPECTS(depths > 0 && depths % samples == 0,
-                   mismatch("deep_shadow", "depths.size()", depths, "a multiple of samples", samples));
-    GNOMON_EXPECTS(firsts == depths / samples + 1, mismatch("deep_shadow", "first.size()", firsts,
-                                                            "depths.size() / samples + 1", depths / samples + 1));
+                   mismatch(pass, "depths.size()", depths, "samples, of which it has to be a multiple,", samples));
+    expect_begins(pass, firsts, "depths.size() / samples + 1", depths / samples);
 }
 
 } // namespace detail
@@ -132,7 +140,7 @@ inline void expect_deep_samples(std::size_t depths, std::size_t samples, std::si
 template <class T>
 void count_deep_layers(std::span<T> depths, std::size_t samples, T tolerance, std::span<std::uint32_t> first)
 {
-    detail::expect_deep_samples(depths.size(), samples, first.size());
+    detail::expect_deep_samples("count_deep_layers", depths.size(), samples, first.size());
     for (std::size_t i = 0; i < depths.size(); i += samples) {
         const std::span<T> of = depths.subspan(i, samples);
         for (T& z : of) z = z < 1 ? z : T(1);
@@ -149,7 +157,7 @@ template <class T>
 void fill_deep_layers(std::span<const T> depths, std::size_t samples, T tolerance, std::span<const std::uint32_t> first,
                       std::span<deep_layer<T>> layers)
 {
-    detail::expect_deep_samples(depths.size(), samples, first.size());
+    detail::expect_deep_samples("fill_deep_layers", depths.size(), samples, first.size());
     detail::fill_deep(tolerance, first, layers, [&](std::size_t i, const auto& add) {
         detail::deep_vertices_of_depths(depths.subspan(i * samples, samples), add);
     });
@@ -159,8 +167,8 @@ void fill_deep_layers(std::span<const T> depths, std::size_t samples, T toleranc
 /// of all layers.
 template <class T> void count_deep_layers(const range_map<T>& map, T tolerance, std::span<std::uint32_t> first)
 {
-    check_shape(map, "deep_shadow");
-    detail::expect_deep_samples(map.width * map.height, 1, first.size());
+    check_shape(map, "count_deep_layers");
+    detail::expect_begins("count_deep_layers", first.size(), "map.width map.height + 1", map.width * map.height);
     detail::count_deep(tolerance, first, [&](std::size_t i, const auto& add) {
         detail::deep_vertices_of_ranges(map(i % map.width, i / map.width), add);
     });
@@ -172,8 +180,8 @@ template <class T>
 void fill_deep_layers(const range_map<T>& map, T tolerance, std::span<const std::uint32_t> first,
                       std::span<deep_layer<T>> layers)
 {
-    check_shape(map, "deep_shadow");
-    detail::expect_deep_samples(map.width * map.height, 1, first.size());
+    check_shape(map, "fill_deep_layers");
+    detail::expect_begins("fill_deep_layers", first.size(), "map.width map.height + 1", map.width * map.height);
     detail::fill_deep(tolerance, first, layers, [&](std::size_t i, const auto& add) {
         detail::deep_vertices_of_ranges(map(i % map.width, i / map.width), add);
     });
@@ -182,7 +190,8 @@ void fill_deep_layers(const range_map<T>& map, T tolerance, std::span<const std:
 /// Check the sizes of a map's arrays.
 template <class T> void check_shape(const deep_shadow_map<T>& map, std::string_view pass)
 {
-    detail::expect_deep_samples(map.width * map.height, 1, map.first.size());
+    GNOMON_EXPECTS(map.width > 0 && map.height > 0, mismatch(pass, "map.width", map.width, "map.height", map.height));
+    detail::expect_begins(pass, map.first.size(), "map.width map.height + 1", map.width * map.height);
     GNOMON_EXPECTS(map.first.back() == map.layers.size(),
                    mismatch(pass, "map.first.back()", map.first.back(), "map.layers.size()", map.layers.size()));
 }

@@ -25,14 +25,24 @@ template <class T> struct sample_map {
     }
 };
 
+namespace detail {
+
+/// The product of three sizes, or the largest number where that is beyond it.
+constexpr std::size_t product_or_most(std::size_t a, std::size_t b, std::size_t c)
+{
+    constexpr std::size_t most = (std::numeric_limits<std::size_t>::max)();
+    if (a == 0 || b == 0 || c == 0) return 0;
+    return a <= most / b && a * b <= most / c ? a * b * c : most;
+}
+
+} // namespace detail
+
 /// Check that the map has texels and samples, and that its array has as many.
 template <class T> void check_shape(const sample_map<T>& map, std::string_view pass)
 {
     GNOMON_EXPECTS(map.width > 0 && map.height > 0, mismatch(pass, "map.width", map.width, "map.height", map.height));
-    GNOMON_EXPECTS(map.samples > 0, mismatch(pass, "map.samples", map.samples, "at least", 1));
-    constexpr std::size_t most = (std::numeric_limits<std::size_t>::max)();
-    const bool countable = map.width <= most / map.height && map.width * map.height <= most / map.samples;
-    const std::size_t all = countable ? map.width * map.height * map.samples : most;
+    GNOMON_EXPECTS(map.samples > 0, mismatch(pass, "map.samples", map.samples, "the least", 1));
+    const std::size_t all = detail::product_or_most(map.width, map.height, map.samples);
     GNOMON_EXPECTS(map.of.size() == all,
                    mismatch(pass, "map.of.size()", map.of.size(), "map.width map.height map.samples", all));
 }

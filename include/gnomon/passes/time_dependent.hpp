@@ -47,6 +47,7 @@ template <class Texel> struct time_dependent_map {
 
     static constexpr std::size_t texel(std::size_t width, std::size_t x, std::size_t y) { return y * width + x; }
 };
+
 /// A receiver at time t: place in texels, depth, and the most that the depth of its surface changes per texel. A
 /// constant depth bias, if there is one, is subtracted from z.
 template <class T> struct time_dependent_receiver {
@@ -56,9 +57,9 @@ template <class T> struct time_dependent_receiver {
 /// Fill the texels of a map, one for each sample: sample k of each texel goes to slice k.
 template <class Texel, class T> void fill_time_dependent(const sample_map<T>& from, std::span<Texel> texels)
 {
-    check_shape(from, "time_dependent");
+    check_shape(from, "fill_time_dependent");
     GNOMON_EXPECTS(texels.size() == from.of.size(),
-                   mismatch("time_dependent", "texels.size()", texels.size(), "from.of.size()", from.of.size()));
+                   mismatch("fill_time_dependent", "texels.size()", texels.size(), "from.of.size()", from.of.size()));
     const std::size_t each = from.width * from.height;
     for (std::size_t i = 0; i < each; ++i)
         for (std::size_t k = 0; k < from.samples; ++k) {
@@ -73,10 +74,10 @@ template <class Texel, class T> void fill_time_dependent(const sample_map<T>& fr
 template <class Texel> void check_shape(const time_dependent_map<Texel>& map, std::string_view pass)
 {
     GNOMON_EXPECTS(map.width > 0 && map.height > 0, mismatch(pass, "map.width", map.width, "map.height", map.height));
-    GNOMON_EXPECTS(map.slices > 0, mismatch(pass, "map.slices", map.slices, "at least", 1));
-    GNOMON_EXPECTS(map.texels.size() / map.width / map.height == map.slices,
-                   mismatch(pass, "map.texels.size() / (map.width map.height)",
-                            map.texels.size() / map.width / map.height, "map.slices", map.slices));
+    GNOMON_EXPECTS(map.slices > 0, mismatch(pass, "map.slices", map.slices, "the least", 1));
+    const std::size_t all = detail::product_or_most(map.width, map.height, map.slices);
+    GNOMON_EXPECTS(map.texels.size() == all,
+                   mismatch(pass, "map.texels.size()", map.texels.size(), "map.width map.height map.slices", all));
 }
 
 /// Shadow intensity in [0, 1] of a receiver by K x K bilinear look-ups, K = look_ups, in the slice of its time; by the
@@ -86,7 +87,7 @@ template <class Texel> void check_shape(const time_dependent_map<Texel>& map, st
 template <class Texel, class T>
 T time_dependent_intensity(const time_dependent_map<Texel>& map, const time_dependent_receiver<T>& r, int look_ups = 1)
 {
-    if (look_ups != 0) detail::expect_look_ups("time_dependent", look_ups);
+    if (look_ups != 0) detail::expect_look_ups("time_dependent_intensity", look_ups);
     constexpr T diagonal = T(1.4142135623730951);
     const T texels = diagonal * (T(0.5) * T(look_ups) + T(1));
     const std::size_t slice = std::size_t(slice_of(r.t, T(map.slices)));

@@ -7,7 +7,7 @@
 //     layer_cluster(samples, settings, clusters, rows)             how many layers each tile has, and which depths
 //     layer_allocate(settings, clusters, width, height, first, blocks)   where layers and blocks begin, and how many there are
 //     layer_accumulate<Format>(samples, clusters, map, rows)       sums of samples, in grids and in blocks
-//     layer_mips<Format>(map)                                      the smaller levels
+//     layer_mips<Format>(map, rows)                                the smaller levels
 //     layer_intensity<Format>(map, receiver)                       look-up
 #ifndef GNOMON_PASSES_LAYER_MAP_HPP
 #define GNOMON_PASSES_LAYER_MAP_HPP
@@ -109,12 +109,17 @@ template <class Texel> std::size_t layer_bytes(const layer_map<Texel>& map)
 /// Check settings against what grids and windows can be.
 inline void check_settings(const layer_settings& s, std::string_view pass)
 {
-    GNOMON_EXPECTS(s.tile > 0 && s.guard >= s.tile && s.guard <= layer_most_guard,
-                   mismatch(pass, "settings.guard", s.guard, "settings.tile", s.tile));
-    GNOMON_EXPECTS((s.guard - s.tile) % 2 == 0, mismatch(pass, "settings.guard", s.guard, "settings.tile", s.tile));
+    GNOMON_EXPECTS(s.tile > 0, mismatch(pass, "settings.tile", s.tile, "the least", 1));
+    GNOMON_EXPECTS(s.guard >= s.tile,
+                   mismatch(pass, "settings.guard", s.guard, "settings.tile, which it contains,", s.tile));
+    GNOMON_EXPECTS(s.guard <= layer_most_guard,
+                   mismatch(pass, "settings.guard", s.guard, "the most", layer_most_guard));
+    GNOMON_EXPECTS((s.guard - s.tile) % 2 == 0, mismatch(pass, "settings.guard", s.guard,
+                                                         "settings.tile, with the same margin on both sides,", s.tile));
     GNOMON_EXPECTS(std::has_single_bit(s.texels) && s.texels <= layer_most_texels,
-                   mismatch(pass, "settings.texels", s.texels, "a power of two of at most", layer_most_texels));
-    GNOMON_EXPECTS(s.layers >= 1 && s.layers <= 4, mismatch(pass, "settings.layers", s.layers, "at most", 4));
+                   mismatch(pass, "settings.texels", s.texels, "the largest power of two", layer_most_texels));
+    GNOMON_EXPECTS(s.layers > 0, mismatch(pass, "settings.layers", s.layers, "the least", 1));
+    GNOMON_EXPECTS(s.layers <= 4, mismatch(pass, "settings.layers", s.layers, "the most", 4));
 }
 
 /// Check the sizes of a map's arrays.

@@ -17,13 +17,13 @@ GNOMON_NAMESPACE_BEGIN
 template <texel_format Format, class T>
 void fill_range_moments(const range_map<T>& from, map_view<format_texel<Format>> target, row_range rows)
 {
-    check_shape(from, "range_moments");
-    expect_map("range_moments", "target", target);
+    check_shape(from, "fill_range_moments");
+    expect_map("fill_range_moments", "target", target);
     GNOMON_EXPECTS(target.width == from.width,
-                   mismatch("range_moments", "target.width", target.width, "from.width", from.width));
+                   mismatch("fill_range_moments", "target.width", target.width, "from.width", from.width));
     GNOMON_EXPECTS(target.height == from.height,
-                   mismatch("range_moments", "target.height", target.height, "from.height", from.height));
-    expect_rows("range_moments", target, rows);
+                   mismatch("fill_range_moments", "target.height", target.height, "from.height", from.height));
+    expect_rows("fill_range_moments", target, rows);
     for (std::size_t y = rows.first; y < rows.last; ++y)
         for (std::size_t x = 0; x < from.width; ++x) {
             range_moments4<T> state = range_moments4_begin(T(1));

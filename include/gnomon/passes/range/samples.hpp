@@ -21,7 +21,8 @@ inline float instant_of_texel(std::size_t x, std::size_t y)
 
 /// Fill the samples of the given rows of texels, `each` for a texel as in sample_map, with the nearest range at their
 /// times, or the background. motion(id, x, y, t) returns the triangle_motion of the surface of this id at the texel's
-/// centre (x, y). Ranges of id range_mixed become surface 0 without motion.
+/// centre (x, y). Ranges of id range_mixed become surface 0 without motion, those of id range_nothing the background.
+/// NaN: a range with a NaN is left out.
 template <class Map, class T, class Motion>
 void sample_ranges(const Map& map, std::size_t each, const Motion& motion, std::span<stochastic_sample<T>> samples,
                    row_range rows)
@@ -40,16 +41,16 @@ void sample_ranges(const Map& map, std::size_t each, const Motion& motion, std::
             for (std::size_t k = 0; k < each; ++k) {
                 const T t = stratified_time(T(k), T(each), jitter);
                 stochastic_sample<T> s = stochastic_background(at_x, at_y, t);
-                bool covered = false;
+                T nearest = T(range_far);
                 for (const depth_time_range<T>& r : list) {
-                    if (!(r.t0 <= t && t < r.t1)) continue;
+                    if (!(r.t0 <= t && t < r.t1) || r.id == T(range_nothing)) continue;
                     const T z = range_depth(r, t);
-                    if (covered && !(z < s.z)) continue;
-                    covered = true;
-                    s.z = z;
+                    if (!(z < nearest)) continue;
+                    nearest = z;
                     s.id = r.id;
                 }
-                if (covered) {
+                if (nearest < T(range_far)) {
+                    s.z = nearest;
                     const triangle_motion<T> m = s.id >= 0 ? motion(s.id, at_x, at_y, t) : triangle_motion<T>{};
                     s.d_x = m.d_x;
                     s.d_y = m.d_y;
