@@ -35,6 +35,29 @@ double occluded_time(const auto& list, double z)
     return sum;
 }
 
+/// A list of any capacity, whose merges keep the time that ranges cover, and keep within their depths. Conservative ones keep
+/// all shadow.
+template <int capacity>
+void check_merges(const ranges<double>& all, const interval_weights<double>& weights, double conservative)
+{
+    const auto list = merged_list<capacity>(all, weights, conservative);
+    double nearest = 1, farthest = -1;
+    for (const auto& r : all)
+        if (lasts(r)) nearest = std::min({nearest, r.z0, r.z1}), farthest = std::max({farthest, r.z0, r.z1});
+    for (const auto& r : list.ranges) {
+        if (!lasts(r) || conservative > 0) continue;
+        RC_ASSERT(std::min(r.z0, r.z1) >= nearest - 4 * u<double>);
+        RC_ASSERT(std::max(r.z0, r.z1) <= farthest + 4 * u<double>);
+    }
+    for (int k = 0; k < 64; ++k) {
+        const double t = (k + 0.5) / 64, z = front_at(all, t);
+        if (z == nowhere) continue;
+        const double front = front_at(list.ranges, t);
+        RC_ASSERT(front != nowhere);
+        if (conservative > 0) RC_ASSERT(front <= z + slack<double>(all, t));
+    }
+}
+
 } // namespace
 
 TEST_CASE("the cost is the weighted sum of gap, differences and durations, in 120 digits")
@@ -76,6 +99,22 @@ TEST_CASE("by area and conservatively, an interval list is a range list that dro
             RC_ASSERT(front_at(list.ranges, t) <= z + slack<double>(all, t));
             RC_ASSERT(front_at(resolved.ranges, t) <= z + 2 * slack<double>(all, t));
         }
+    }));
+}
+
+TEST_CASE("by weights or by area, conservatively or not, lists of any capacity cover what their ranges do")
+{
+    CHECK(rc::check("of 1, 2, 8 and 16 ranges", [](std::uint32_t seed) {
+        bit_source bits(seed);
+        const auto all = any_ranges<double>(2 + bits.below(24), bits);
+        for (const interval_weights<double>& weights :
+             {by_area, evenly, interval_weights<double>{0, 0, 1, 0, 0}, interval_weights<double>{0, 0, 0, 0, 0}})
+            for (const double conservative : {0.0, 1.0}) {
+                check_merges<1>(all, weights, conservative);
+                check_merges<2>(all, weights, conservative);
+                check_merges<8>(all, weights, conservative);
+                check_merges<16>(all, weights, conservative);
+            }
     }));
 }
 
