@@ -40,6 +40,8 @@ EXAMPLES = {
     },
     "docs/layered_motion.md": {
         "Passes": (".cpp", ["g++", *CXX, "-c"]),
+        "From samples to layers": (".comp", GLSLANG),
+        "Look-up": (".frag", GLSLANG),
     },
     "docs/scattering.md": {
         "Passes": (".cpp", ["g++", *CXX, "-c"]),

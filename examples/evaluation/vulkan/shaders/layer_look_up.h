@@ -89,17 +89,26 @@ layer_sums sums_over(gnomon_layer_footprint footprint, texel_source from)
     return sums;
 }
 
+// The layer's own depth of a receiver, less a bias that covers `reach` texels of the layer.
+float biased_depth(layer_grid grid, layer_receiver r, float reach)
+{
+    float bias = layer_bias(grid, r.slope, r.slope, r.t, reach, given.limit);
+    float rounding = max(given.rounding, 0.0625 * given.rounding * abs(grid.d_z));
+    return layer_grid_own_depth(grid, r.z - (bias + rounding), r.t);
+}
+
 // Visibility through one layer of a tile with this centre.
 float visibility_through(layer_grid grid, texel_source from, float x, float y, layer_receiver r)
 {
     grid.spread = 0.0;
     grid.spread_z = 0.0;
-    float bias = layer_bias(grid, r.slope, r.slope, r.t, given.reach, given.limit);
-    float rounding = max(given.rounding, 0.0625 * given.rounding * abs(grid.d_z));
-    float z = layer_grid_own_depth(grid, r.z - (bias + rounding), r.t);
-    if (!(z > -1.0)) return 1.0; // before all of it
+    if (!(biased_depth(grid, r, given.reach) > -1.0)) return 1.0; // before all of it
     gnomon_layer_footprint footprint = layer_footprint_make(grid, r.x0 - x, r.y0 - y, r.t0, r.x1 - x, r.y1 - y, r.t1,
                                                             r.cross_x, r.cross_y, layer_widening(grid, r.t));
+    gnomon_layer_place place = layer_grid_place(grid, r.x - x, r.y - y, r.t);
+    float beside = max(abs(place.u - footprint.u), abs(place.v - footprint.v));
+    float z = biased_depth(grid, r, given.reach + beside);
+    if (!(z > -1.0)) return 1.0;
     float least = max(layer_minimum_variance(grid, r.slope, 0.0), given.least_variance);
     return layer_visibility(sums_over(footprint, from), z, least);
 }

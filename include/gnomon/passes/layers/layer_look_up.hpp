@@ -147,13 +147,20 @@ float visibility_through(layer_grid<float> grid, const auto& mips, float x, floa
                          const layer_look_up& look_up)
 {
     if (!look_up.widen) grid.spread = grid.spread_z = 0;
-    const float bias = layer_bias(grid, r.slope, r.slope, r.t, look_up.reach, look_up.limit);
     // Depths that move by d_z are rounded by less than 2^-22 (1 + |d_z|), which 8e-6 hides up to 16.
     const float rounding = gnomon_max(look_up.rounding, 0.0625f * look_up.rounding * gnomon_abs(grid.d_z));
-    const float z = layer_grid_own_depth(grid, r.z - (bias + rounding), r.t);
-    if (!(z > -1)) return 1; // before all of it
+    const auto own_depth = [&](float reach) {
+        const float bias = layer_bias(grid, r.slope, r.slope, r.t, reach, look_up.limit);
+        return layer_grid_own_depth(grid, r.z - (bias + rounding), r.t);
+    };
+    if (!(own_depth(look_up.reach) > -1)) return 1; // before all of it
     const auto footprint = layer_footprint_make(grid, r.x0 - x, r.y0 - y, r.t0, r.x1 - x, r.y1 - y, r.t1, r.cross_x,
                                                 r.cross_y, layer_widening(grid, r.t));
+    // The centre of a footprint that ends at the shutter's times, or at the grid's border, is beside the receiver.
+    const layer_place<float> place = layer_grid_place(grid, r.x - x, r.y - y, r.t);
+    const float beside = gnomon_max(gnomon_abs(place.u - footprint.u), gnomon_abs(place.v - footprint.v));
+    const float z = own_depth(look_up.reach + beside);
+    if (!(z > -1)) return 1;
     const float least = layer_minimum_variance(grid, r.slope, look_up.least_variance);
     const auto sums = gnomon_bit_cast<format_channels<Format>>(sums_over<Format>(footprint, mips));
     return Format::visibility(sums, z, gnomon_max(least, float(Format::least_variance)));
