@@ -1,6 +1,6 @@
 // How do a few samples in time become the smooth shadow of something that moves?
 //
-// The light takes four samples for each texel of its map, each at a time of its own, and so does the camera for each pixel.
+// The light has four samples for each texel of its map, each at a time of its own, and the camera has four for each pixel.
 // To compare one of these with one of those makes noise. But surfaces that are near in depth often move alike: so the
 // samples of a tile are parted by depth into layers, and those of a layer are moved along their mean motion to the middle of
 // the shutter interval, where they can be filtered like any shadow map. A look-up moves a sample of the camera there, too.
@@ -58,7 +58,7 @@ int main()
         const float t0 = std::max(s.t0 - 0.5f / samples, 0.0f), t1 = std::min(s.t0 + 0.5f / samples, 1.0f);
         const auto slope = float(plane_slope(s.p0, s.n0, light.at(double(s.t0)), side));
         const glm::vec3 at = place(s.t0, s.p0), begin = held(t0), end = held(t1);
-        // The place; the ends of the footprint, and its width, a texel; the slope, by which the look-up takes a bias.
+        // The place; the ends of the footprint, and its width, a texel; the slope, for the bias of the look-up.
         // clang-format off
         const gnomon::layer_receiver<float> receiver{at.x, at.y, at.z, s.t0, begin.x, begin.y, t0,
                                                      end.x, end.y, t1, 0, 1, slope, 0, 0};

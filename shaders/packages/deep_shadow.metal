@@ -304,8 +304,9 @@ inline float range_intensity(depth_time_range r, float t, float z, float id, flo
 // The layers of a texel come from its transmittance as a polyline over depth, which is compressed to a tolerance by a
 // greedy window of slopes: one line goes on for as long as it passes all vertices within the tolerance.
 //     window = deep_window_begin(tolerance);
-//     for each vertex from near to far: window = deep_window_add(window, z, v), and keep window.layer if it is opaque
-//     layer = deep_window_end(window), kept if it is opaque
+//     for each vertex from near to far: window = deep_window_add(window, z, v), and keep window.layer
+//     layer = deep_window_end(window), kept, too
+// Layers of opacity 0 are not kept.
 // The n sorted depths of samples have two vertices each: (z_k, 1 - k / n) and (z_k, 1 - (k + 1) / n), k from 0.
 //
 // With ever more samples the polyline becomes the one of a resolved list, in closed form: each range that covers the
@@ -350,7 +351,7 @@ inline float deep_shadow_share(depth_time_range r, float z_f)
 
 /// The tolerance; the line from depth z0 and transmittance v0 to depth z1 and transmittance v1, and the slopes between
 /// which it passes its vertices, least above most if it ends here; the last vertex's transmittance, v; touched, 1 if
-/// the line has a vertex besides its begin; and the layer that the last vertex has completed, of opacity 0 if none.
+/// the line has a vertex after its begin; and the layer that the last vertex has completed, of opacity 0 if none.
 struct deep_window
 {
     float tolerance, z0, v0, z1, v1, least, most, v, touched;
@@ -369,7 +370,7 @@ inline deep_layer deep_window_end(deep_window window)
     return r;
 }
 
-/// A line that begins where the last one ends, without a vertex besides.
+/// A line that begins where the last one ends, and has no other vertex.
 inline deep_window deep_window_next(deep_window window)
 {
     window.layer = deep_window_end(window);
@@ -381,8 +382,8 @@ inline deep_window deep_window_next(deep_window window)
     return window;
 }
 
-/// Begin at the near plane, -1, with transmittance 1. Tolerance is the most by which lines may
-/// depart from the polyline. With 0 every step and every slope of the polyline becomes a layer.
+/// Begin at the near plane, -1, with transmittance 1. tolerance is the most by which lines may depart from the
+/// polyline. With 0 every step and every slope of the polyline becomes a layer.
 /// NaN: a tolerance of 0.
 inline deep_window deep_window_begin(float tolerance)
 {

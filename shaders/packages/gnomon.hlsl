@@ -1166,8 +1166,8 @@ float range_intensity(depth_time_range r, float t, float z, float id, float bias
 #ifndef GNOMON_MOTION_RANGE_RANGE_FRONT_H
 #define GNOMON_MOTION_RANGE_RANGE_FRONT_H
 
-/// The range in front just after the time begin, until when the comparisons that found it come out the same, and until
-/// when no range passes in front of it.
+/// The range in front just after the time `begin`. Up to the time `unchanged` the comparisons that found it have the
+/// same results, and up to the time `end` no range passes in front of it.
 struct range_front
 {
     depth_time_range nearest;
@@ -5832,8 +5832,8 @@ gnomon_layer_motion_sums layer_motion_begin(stochastic_sample first)
     return r;
 }
 
-/// True if a sample of this middle depth tells of a layer's motion: a surface, and |d_x| + |d_y| + |d_z| at most 65536.
-/// One comparison of a sum, since Mesa makes one of three, by a maximum that loses a NaN.
+/// True if a layer's motion includes the sample: a surface by its middle depth, with |d_x| + |d_y| + |d_z| at most
+/// 65536. The sum is compared once, since Mesa makes one comparison of three, by a maximum that loses a NaN.
 bool gnomon_layer_motion_is_known(stochastic_sample s, float middle)
 {
     float length = (gnomon_abs(s.d_x) + gnomon_abs(s.d_y)) + gnomon_abs(s.d_z);
@@ -5901,7 +5901,7 @@ static const float gnomon_layer_least_motion = 0.00000095367431640625;
 static const float gnomon_layer_least_depths = 0.0009765625;
 
 /// The grid of a layer of this motion, with `texels` by `texels` texels for a window of `guard` by `guard` texels of
-/// the map. A motion of less than 2^-20 texels counts as none, and the axes are those of the map.
+/// the map. For a motion of less than 2^-20 texels the axes are those of the map, and its length is 0.
 /// Domain: motions up to 65536 texels; guard > 0; texels > 0.
 /// NaN: a NaN in the motion, guard or texels stays NaN where it matters; layer_place_is_inside is then 0.
 /// Source: Andersson 2015, Eq. 11
@@ -5960,10 +5960,13 @@ float layer_place_is_inside(layer_grid grid, gnomon_layer_place place)
 
 /// The depth in the middle of the shutter interval of a depth z at time t, by the motion of the layer: z + (1/2 - t)
 /// d_z.
+/// NaN: NaN.
+/// Error: 2 2^-p (|z| + |d_z|), for times in [0, 1].
 /// Source: Andersson 2015, Sec. 4.2
 float layer_grid_depth(layer_grid grid, float z, float t) { return z + (0.5 - t) * grid.d_z; }
 
-/// That depth in the layer's own scale: samples of the layer are in [-1, 1], a receiver behind all of them is above 1.
+/// The layer's own depth of a depth z at time t: layer_grid_depth in the scale in which samples of the layer are in
+/// [-1, 1]. A receiver behind all of them is above 1.
 /// NaN: NaN.
 /// Error: scale times 4 2^-p (|z| + |d_z| + |centre|).
 float layer_grid_own_depth(layer_grid grid, float z, float t)
@@ -5975,8 +5978,8 @@ float layer_grid_own_depth(layer_grid grid, float z, float t)
 
 // motion/layers/layer_look_up.h ---------------------------------------------------------------------------------------
 // Look-up in a layer's grid: the footprint of a receiver with its probes and mip level, the bias and the least variance
-// that a layer calls for, the filter across the motion, and blends with the neighbouring tile (Andersson et al. 2015,
-// Sec. 4.2 and 5).
+// that a layer needs, the filter across the motion, and blends with the neighbouring tile (Andersson et al. 2015, Sec.
+// 4.2 and 5).
 //
 // A camera sample stands for the time t_r -+ 1/(2N), while which its world point is held in camera space. The light
 // sees that point move: the ends of the footprint are its places at both times, each by the grid at its own time, so
@@ -6164,8 +6167,8 @@ gnomon_layer_neighbour layer_neighbour_at(float x, float tile)
 //     V = 1 - a intensity                                                          Eq. 10
 //
 // and a receiver sees the product over all layers. A layer whose samples are all before the receiver has intensity 1,
-// one whose samples are all behind has 0, whatever bound is used. A sum of weights of 0 is no information: filters grow
-// until there is some, and without any the layer counts as transparent.
+// one whose samples are all behind has 0, with every bound. A sum of weights of 0 is no information: filters grow until
+// there is some, and without any the layer counts as transparent.
 //
 //     share = layer_share_of(layer_of(layer_middle_depth(s), cuts), layer);
 //     sums = layer_sums_add(sums, layer_grid_own_depth(grid, s.z, s.t), share);    into the texel at
@@ -6318,8 +6321,7 @@ float layer_exponential_visibility(gnomon_layer_exponential_sums sums, float z, 
 
 // motion/layers/layer_parts.h -----------------------------------------------------------------------------------------
 // Parts of one layer that move unlike: samples of one range of depths, divided by their motion (the future work of
-// Andersson et al. 2015, Sec. 7). Depth alone does not tell leaves from the branch between them, and a mean motion
-// serves neither.
+// Andersson et al. 2015, Sec. 7). Leaves and the branch between them have like depths, but unlike motions.
 //
 // The motions of a layer's samples vary most along one direction. Their places on it, in standard deviations, are
 // clustered as depths are (layer_clusters.h): equal bins, and a cut at the longest interior run of empty ones. Either
@@ -6712,8 +6714,8 @@ float shutter_piecewise(float t, float begin, float end, shutter_weights w)
 // stratum of the shutter interval. A look-up at the sample's own time is as noisy as the camera; the mean over the time
 // that the sample stands for is not.
 //
-// The point has to follow its surface meanwhile (receiver_path.h). Held in place it would leave the surface, which then
-// shadows it. With the path of the point and ranges, the mean is known in closed form:
+// During that time the point has to follow its surface (receiver_path.h). Held in place it would leave the surface,
+// which then shadows it. With the path of the point and ranges, the mean is known in closed form:
 //     exposure = footprint_stratum(t, N);
 //     path = receiver_path_clip(path, exposure.begin, exposure.end);
 //     moving_receiver_begin(path, exposure.begin, exposure.end), and so on (moving_receiver.h)
@@ -6750,8 +6752,9 @@ shutter_exposure footprint_stratum(float t, float count)
 // The layers of a texel come from its transmittance as a polyline over depth, which is compressed to a tolerance by a
 // greedy window of slopes: one line goes on for as long as it passes all vertices within the tolerance.
 //     window = deep_window_begin(tolerance);
-//     for each vertex from near to far: window = deep_window_add(window, z, v), and keep window.layer if it is opaque
-//     layer = deep_window_end(window), kept if it is opaque
+//     for each vertex from near to far: window = deep_window_add(window, z, v), and keep window.layer
+//     layer = deep_window_end(window), kept, too
+// Layers of opacity 0 are not kept.
 // The n sorted depths of samples have two vertices each: (z_k, 1 - k / n) and (z_k, 1 - (k + 1) / n), k from 0.
 //
 // With ever more samples the polyline becomes the one of a resolved list, in closed form: each range that covers the
@@ -6794,7 +6797,7 @@ float deep_shadow_share(depth_time_range r, float z_f)
 
 /// The tolerance; the line from depth z0 and transmittance v0 to depth z1 and transmittance v1, and the slopes between
 /// which it passes its vertices, least above most if it ends here; the last vertex's transmittance, v; touched, 1 if
-/// the line has a vertex besides its begin; and the layer that the last vertex has completed, of opacity 0 if none.
+/// the line has a vertex after its begin; and the layer that the last vertex has completed, of opacity 0 if none.
 struct gnomon_deep_window
 {
     float tolerance, z0, v0, z1, v1, least, most, v, touched;
@@ -6813,7 +6816,7 @@ gnomon_deep_layer deep_window_end(gnomon_deep_window window)
     return r;
 }
 
-/// A line that begins where the last one ends, without a vertex besides.
+/// A line that begins where the last one ends, and has no other vertex.
 gnomon_deep_window gnomon_deep_window_next(gnomon_deep_window window)
 {
     window.layer = deep_window_end(window);
@@ -6825,8 +6828,8 @@ gnomon_deep_window gnomon_deep_window_next(gnomon_deep_window window)
     return window;
 }
 
-/// Begin at the near plane, -1, with transmittance 1. Tolerance is the most by which lines may
-/// depart from the polyline. With 0 every step and every slope of the polyline becomes a layer.
+/// Begin at the near plane, -1, with transmittance 1. tolerance is the most by which lines may depart from the
+/// polyline. With 0 every step and every slope of the polyline becomes a layer.
 /// NaN: a tolerance of 0.
 gnomon_deep_window deep_window_begin(float tolerance)
 {
@@ -7674,8 +7677,8 @@ float moving_receiver_end(moving_receiver state) { return saturate_or_zero(state
 // motion/receiver/time_dependent.h ------------------------------------------------------------------------------------
 // Time-dependent shadow maps (Akenine-Moller, Munkberg & Hasselgren 2007): the shutter interval is cut into slices, and
 // each slice has a shadow map whose texels have one sample each, at a time of their own within the slice. A receiver
-// that is seen at time t_r reads the slice of that time, but the sample's time t is another one. Meanwhile the surface
-// that the sample shows has moved: by itself it would shadow itself (Andersson et al. 2015, Figure 10).
+// that is seen at time t_r reads the slice of that time, but the sample's time t is another one. In between, the
+// surface that the sample shows has moved, and would shadow itself (Andersson et al. 2015, Figure 10).
 //
 //     sample.travel = time_dependent_travel(d_x, d_y);                         when the map is made
 //     state = percentage_closer_begin(z_f - constant_bias);                    filters/percentage_closer.h
@@ -7683,16 +7686,16 @@ float moving_receiver_end(moving_receiver state) { return saturate_or_zero(state
 //         state = percentage_closer_add(state, z, weight), where z is one of
 //             sample.z                                                         constant bias alone
 //             time_dependent_depth(sample, t_r)                                moved along with its surface in depth
-//             time_dependent_biased_depth(sample, t_r, slope, texels)          and spared by the surface's slope
+//             time_dependent_biased_depth(sample, t_r, slope, texels)          and biased by the surface's slope
 //     intensity = percentage_closer_end(state);
 //
-// Motion in depth alone does not spare a tilted surface: in the time between, the sample moves across the map as well,
-// and where it goes the surface is at another depth. The third depth adds the most that this can be.
+// Motion in depth is not enough for a tilted surface: in the time between, the sample moves across the map, too, and at
+// its new place the surface has another depth. The third depth adds the most by which these differ.
 #ifndef GNOMON_MOTION_RECEIVER_TIME_DEPENDENT_H
 #define GNOMON_MOTION_RECEIVER_TIME_DEPENDENT_H
 
 /// Depth z and time t of a sample, and the motion of the point that it shows over the whole shutter interval: in depth,
-/// d_z, and the length of its way over the map in texels, travel.
+/// d_z, and the length of its path over the map in texels, travel.
 struct time_dependent_sample { float z, t, d_z, travel; };
 
 /// Length in texels of a motion over the map.

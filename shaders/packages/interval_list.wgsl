@@ -259,8 +259,8 @@ fn range_intensity(r: depth_time_range, t: f32, z: f32, id: f32, bias: f32) -> f
 // Spans are contiguous. One with the id range_nothing has no range and may be left out of a resolved list. The ranges
 // of the list overlap in time as they please; their order matters only where three of them meet within rounding.
 
-/// The range in front just after the time begin, until when the comparisons that found it come out the same, and until
-/// when no range passes in front of it.
+/// The range in front just after the time `begin`. Up to the time `unchanged` the comparisons that found it have the
+/// same results, and up to the time `end` no range passes in front of it.
 struct range_front
 {
     nearest: depth_time_range,

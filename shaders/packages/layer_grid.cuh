@@ -833,8 +833,8 @@ GNOMON_INLINE constexpr layer_motion_sums<Real> layer_motion_begin(stochastic_sa
     return r;
 }
 
-/// True if a sample of this middle depth tells of a layer's motion: a surface, and |d_x| + |d_y| + |d_z| at most 65536.
-/// One comparison of a sum, since Mesa makes one of three, by a maximum that loses a NaN.
+/// True if a layer's motion includes the sample: a surface by its middle depth, with |d_x| + |d_y| + |d_z| at most
+/// 65536. The sum is compared once, since Mesa makes one comparison of three, by a maximum that loses a NaN.
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr mask_t<Real> layer_motion_is_known(stochastic_sample<Real> s, Real middle)
 {
@@ -905,7 +905,7 @@ inline constexpr double layer_least_motion = 0.00000095367431640625; // 2^-20 te
 inline constexpr double layer_least_depths = 0.0009765625;
 
 /// The grid of a layer of this motion, with `texels` by `texels` texels for a window of `guard` by `guard` texels of
-/// the map. A motion of less than 2^-20 texels counts as none, and the axes are those of the map.
+/// the map. For a motion of less than 2^-20 texels the axes are those of the map, and its length is 0.
 /// Domain: motions up to 65536 texels; guard > 0; texels > 0.
 /// NaN: a NaN in the motion, guard or texels stays NaN where it matters; layer_place_is_inside is then 0.
 /// Source: Andersson 2015, Eq. 11
@@ -969,6 +969,8 @@ GNOMON_INLINE constexpr Real layer_place_is_inside(layer_grid<Real> grid, layer_
 
 /// The depth in the middle of the shutter interval of a depth z at time t, by the motion of the layer: z + (1/2 - t)
 /// d_z.
+/// NaN: NaN.
+/// Error: 2 2^-p (|z| + |d_z|), for times in [0, 1].
 /// Source: Andersson 2015, Sec. 4.2
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr Real layer_grid_depth(layer_grid<Real> grid, Real z, Real t)
@@ -976,7 +978,8 @@ GNOMON_INLINE constexpr Real layer_grid_depth(layer_grid<Real> grid, Real z, Rea
     return z + (Real(0.5) - t) * grid.d_z;
 }
 
-/// That depth in the layer's own scale: samples of the layer are in [-1, 1], a receiver behind all of them is above 1.
+/// The layer's own depth of a depth z at time t: layer_grid_depth in the scale in which samples of the layer are in
+/// [-1, 1]. A receiver behind all of them is above 1.
 /// NaN: NaN.
 /// Error: scale times 4 2^-p (|z| + |d_z| + |centre|).
 template <class Real, class = require_real<Real>>

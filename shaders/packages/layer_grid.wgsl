@@ -381,8 +381,8 @@ fn layer_motion_begin(first: stochastic_sample) -> gnomon_layer_motion_sums
     return r;
 }
 
-/// True if a sample of this middle depth tells of a layer's motion: a surface, and |d_x| + |d_y| + |d_z| at most 65536.
-/// One comparison of a sum, since Mesa makes one of three, by a maximum that loses a NaN.
+/// True if a layer's motion includes the sample: a surface by its middle depth, with |d_x| + |d_y| + |d_z| at most
+/// 65536. The sum is compared once, since Mesa makes one comparison of three, by a maximum that loses a NaN.
 fn gnomon_layer_motion_is_known(s: stochastic_sample, middle: f32) -> bool
 {
     let length = (gnomon_abs(s.d_x) + gnomon_abs(s.d_y)) + gnomon_abs(s.d_z);
@@ -451,7 +451,7 @@ const gnomon_layer_least_motion: f32 = 0.00000095367431640625; // 2^-20 texels: 
 const gnomon_layer_least_depths: f32 = 0.0009765625; // 2^-10: no layer is stretched as if it were thinner
 
 /// The grid of a layer of this motion, with `texels` by `texels` texels for a window of `guard` by `guard` texels of
-/// the map. A motion of less than 2^-20 texels counts as none, and the axes are those of the map.
+/// the map. For a motion of less than 2^-20 texels the axes are those of the map, and its length is 0.
 /// Domain: motions up to 65536 texels; guard > 0; texels > 0.
 /// NaN: a NaN in the motion, guard or texels stays NaN where it matters; layer_place_is_inside is then 0.
 /// Source: Andersson 2015, Eq. 11
@@ -510,10 +510,13 @@ fn layer_place_is_inside(grid: layer_grid, place: gnomon_layer_place) -> f32
 
 /// The depth in the middle of the shutter interval of a depth z at time t, by the motion of the layer: z + (1/2 - t)
 /// d_z.
+/// NaN: NaN.
+/// Error: 2 2^-p (|z| + |d_z|), for times in [0, 1].
 /// Source: Andersson 2015, Sec. 4.2
 fn layer_grid_depth(grid: layer_grid, z: f32, t: f32) -> f32 { return z + (0.5 - t) * grid.d_z; }
 
-/// That depth in the layer's own scale: samples of the layer are in [-1, 1], a receiver behind all of them is above 1.
+/// The layer's own depth of a depth z at time t: layer_grid_depth in the scale in which samples of the layer are in
+/// [-1, 1]. A receiver behind all of them is above 1.
 /// NaN: NaN.
 /// Error: scale times 4 2^-p (|z| + |d_z| + |centre|).
 fn layer_grid_own_depth(grid: layer_grid, z: f32, t: f32) -> f32

@@ -285,8 +285,8 @@ float range_intensity(depth_time_range r, float t, float z, float id, float bias
 #ifndef GNOMON_MOTION_RANGE_RANGE_FRONT_H
 #define GNOMON_MOTION_RANGE_RANGE_FRONT_H
 
-/// The range in front just after the time begin, until when the comparisons that found it come out the same, and until
-/// when no range passes in front of it.
+/// The range in front just after the time `begin`. Up to the time `unchanged` the comparisons that found it have the
+/// same results, and up to the time `end` no range passes in front of it.
 struct range_front
 {
     depth_time_range nearest;

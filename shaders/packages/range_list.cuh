@@ -692,8 +692,8 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 
 GNOMON_WARNINGS_OFF namespace gnomon {
 
-/// The range in front just after the time begin, until when the comparisons that found it come out the same, and until
-/// when no range passes in front of it.
+/// The range in front just after the time `begin`. Up to the time `unchanged` the comparisons that found it have the
+/// same results, and up to the time `end` no range passes in front of it.
 template <class Real, class = require_real<Real>> struct range_front
 {
     depth_time_range<Real> nearest;

@@ -685,8 +685,8 @@ static inline float slice_of(float t, float count)
 // stratum of the shutter interval. A look-up at the sample's own time is as noisy as the camera; the mean over the time
 // that the sample stands for is not.
 //
-// The point has to follow its surface meanwhile (receiver_path.h). Held in place it would leave the surface, which then
-// shadows it. With the path of the point and ranges, the mean is known in closed form:
+// During that time the point has to follow its surface (receiver_path.h). Held in place it would leave the surface,
+// which then shadows it. With the path of the point and ranges, the mean is known in closed form:
 //     exposure = footprint_stratum(t, N);
 //     path = receiver_path_clip(path, exposure.begin, exposure.end);
 //     moving_receiver_begin(path, exposure.begin, exposure.end), and so on (moving_receiver.h)

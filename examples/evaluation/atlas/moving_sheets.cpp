@@ -32,7 +32,7 @@ struct turned_sheet : moving_sheet {
     explicit turned_sheet(const moving_sheet& s) : moving_sheet(s), c(std::cos(s.direction)), n(std::sin(s.direction))
     {}
 
-    // Whether the sheet covers (x, y), from the middle of the map, at time t, and how its point there moves.
+    // The sheet at (x, y), from the middle of the map, at time t: true if it covers that place, and the motion of its point there.
     seen_sheet at(double x, double y, double t) const
     {
         const double along = x * c + y * n, aside = y * c - x * n, passed = t - 0.5;

@@ -129,7 +129,7 @@ TEST_CASE_TEMPLATE("clusters: a level surface, a single sample and the backgroun
     CHECK(uncut({T(0), T(1), T(layer_background_depth), nan})[0] == T(0.5));
     const layer_window<T> empty = window_of(std::vector<T>{nan, T(layer_background_depth)});
     CHECK(empty.least > empty.greatest);
-    // Bins that the caller fills at random are not cut either, whatever the window is.
+    // Bins that the caller fills at random are not cut either, in any window.
     for (const layer_window<T> w : {layer_window<T>{nan, nan}, layer_window<T>{T(-INFINITY), T(INFINITY)}, empty}) {
         layer_runs<T> state = layer_cuts_begin(w);
         for (int k = 0; k < 64; ++k) state = layer_cuts_add(state, T(k % 5 == 0));

@@ -205,8 +205,18 @@ TEST_CASE_TEMPLATE("layer grid: what moves with the layer stays in its place, an
     CHECK(layer_place_is_inside(grid_of<T>(1, 0, 0, double(nan), 8), layer_place<T>{nan, 1}) == 0);
 }
 
-TEST_CASE_TEMPLATE("layer grid: own depths within the stated error", T, float, double)
+TEST_CASE_TEMPLATE("layer grid: depths and own depths within the stated errors", T, float, double)
 {
+    const auto moved = [](const std::vector<double>& p) {
+        const layer_grid<T> g = layer_grid_make(layer_motion<T>{0, 0, T(4 * p[0] - 2), 0, 0, -1, 1}, T(12), T(8));
+        const T z = T(2 * p[1] - 1), t = T(p[2]);
+        const wide exact = wide(z) + (0.5L - wide(t)) * wide(g.d_z);
+        return double(std::abs(wide(layer_grid_depth(g, z, t)) - exact) /
+                      (2 * wide(u<T>) * (std::abs(wide(z)) + std::abs(wide(g.d_z)))));
+    };
+    const summit of_depth = climb(3, 100'000, 49, moved);
+    CHECK(of_depth.score <= 1);
+    CHECK(of_depth.score > 0.25);
     const auto score = [](const std::vector<double>& p) {
         const layer_motion<T> m{0, 0, T(4 * p[0] - 2), 0, 0, T(2 * p[1] - 1), T(2 * p[1] - 1 + std::exp2(-12 * p[2]))};
         const layer_grid<T> g = layer_grid_make(m, T(12), T(8));

@@ -31,7 +31,7 @@ template <class T> layer_window<T> window_of(const std::vector<T>& middle)
     return w;
 }
 
-/// Which of the 64 bins of a window are occupied.
+/// The 64 bins of a window, true if occupied.
 template <class T> std::array<bool, 64> occupied_bins(const std::vector<T>& middle, const layer_window<T>& window)
 {
     std::array<bool, 64> bins{};

@@ -65,7 +65,7 @@ template <class T> texel_content<T> content_at(const std::vector<double>& p)
     return c;
 }
 
-/// By how much the visibility by each kind of sums is below that of the samples, in units of what is stated.
+/// Distance by which the visibility by each kind of sums is below that of the samples, in units of the stated error.
 template <class T> std::array<double, 3> darkening(const texel_content<T>& c, T z, T least)
 {
     const wide exact = exact_visibility(c, z), samples = wide(c.depths.size());

@@ -63,7 +63,7 @@ template <class T> std::array<wide, 2> sides_of(const polyline<T>& line, T z)
     return sides;
 }
 
-/// How far the layers are from the polyline, beyond the tolerance, in roundings for each layer.
+/// Distance of the layers from the polyline, beyond the tolerance, in roundings for each layer.
 template <class T> double excess_at(const std::vector<deep_layer<T>>& layers, const polyline<T>& line, T z, T tolerance)
 {
     const auto [before, behind] = sides_of(line, z);

@@ -21,7 +21,7 @@ struct moving_plane {
         return slope_x * (x - d_x * t) + slope_y * (y - d_y * t) + d_z * t;
     }
     double slope() const { return std::hypot(slope_x, slope_y); }
-    /// What a texel keeps of the point that it sees at a place and a time.
+    /// The texel of the point that is seen at a place and a time.
     template <class T> time_dependent_sample<T> at(double x, double y, double t) const
     {
         return {T((*this)(x, y, t)), T(t), T(d_z), time_dependent_travel(T(d_x), T(d_y))};
@@ -30,7 +30,7 @@ struct moving_plane {
 
 const double diagonal = std::sqrt(2.0);
 
-/// By how much the third depth is in front of a receiver on the plane, over the largest rounding; the receiver and the
+/// Distance by which the third depth is in front of a receiver on the plane, over the largest rounding. The receiver and the
 /// sample lie in one texel, or in 2 x 2.
 template <class T> double in_front(const std::vector<double>& p, double across)
 {

@@ -53,7 +53,7 @@ vec2 clipped(vec2 ends, float axis, float place, float low, float high)
     return vec2(max(ends.x, min(a, b)), min(ends.y, max(a, b)));
 }
 
-// One over the share of the shutter interval in which the samples of texel (u, v) are in the window, which is at least 1/8.
+// The inverse of the share of the shutter interval in which the samples of texel (u, v) are in the window, at most 8.
 float evening_factor(layer_grid g, tile_window w, int u, int v)
 {
     float reach = 0.5 * (g.motion + 1.0 / g.scale_u), across = (float(v) + 0.5 - g.middle) / g.scale_v;

@@ -1,4 +1,4 @@
-// What shaders of layers have in GLSL and not in HLSL.
+// Words of GLSL that shaders of layers need and HLSL lacks.
 #define barrier GroupMemoryBarrierWithGroupSync
 #define atomicOr InterlockedOr
 #define atomicMin InterlockedMin

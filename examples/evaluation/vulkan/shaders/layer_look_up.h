@@ -171,7 +171,7 @@ float layer_intensity(layer_receiver r)
         beyond = row;
         ny.weight = 0.0;
     }
-    // One look-up in this or that tile, or one in each of four.
+    // A look-up in this tile or in a neighbour, or one in each of four.
     bool chosen_x = given.tiles == 1 && r.random_x < nx.weight, chosen_y = given.tiles == 1 && r.random_y < ny.weight;
     float shadow = 0.0;
     for (int k = 0; k < (given.tiles == 2 ? 4 : 1); ++k) {

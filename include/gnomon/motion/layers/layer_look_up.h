@@ -1,5 +1,5 @@
 // Look-up in a layer's grid: the footprint of a receiver with its probes and mip level, the bias and the least variance that
-// a layer calls for, the filter across the motion, and blends with the neighbouring tile (Andersson et al. 2015, Sec. 4.2
+// a layer needs, the filter across the motion, and blends with the neighbouring tile (Andersson et al. 2015, Sec. 4.2
 // and 5).
 //
 // A camera sample stands for the time t_r -+ 1/(2N), while which its world point is held in camera space. The light sees

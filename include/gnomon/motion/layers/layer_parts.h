@@ -1,5 +1,5 @@
 // Parts of one layer that move unlike: samples of one range of depths, divided by their motion (the future work of Andersson
-// et al. 2015, Sec. 7). Depth alone does not tell leaves from the branch between them, and a mean motion serves neither.
+// et al. 2015, Sec. 7). Leaves and the branch between them have like depths, but unlike motions.
 //
 // The motions of a layer's samples vary most along one direction. Their places on it, in standard deviations, are clustered
 // as depths are (layer_clusters.h): equal bins, and a cut at the longest interior run of empty ones. Either part has sums on

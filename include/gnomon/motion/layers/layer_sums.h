@@ -12,7 +12,7 @@
 //     V = 1 - a intensity                                                          Eq. 10
 //
 // and a receiver sees the product over all layers. A layer whose samples are all before the receiver has intensity 1, one
-// whose samples are all behind has 0, whatever bound is used. A sum of weights of 0 is no information: filters grow until
+// whose samples are all behind has 0, with every bound. A sum of weights of 0 is no information: filters grow until
 // there is some, and without any the layer counts as transparent.
 //
 //     share = layer_share_of(layer_of(layer_middle_depth(s), cuts), layer);

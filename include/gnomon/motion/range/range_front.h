@@ -16,8 +16,8 @@
 #include "range.h"
 GNOMON_NAMESPACE_BEGIN
 
-/// The range in front just after the time begin, until when the comparisons that found it come out the same, and until
-/// when no range passes in front of it.
+/// The range in front just after the time `begin`. Up to the time `unchanged` the comparisons that found it have the same
+/// results, and up to the time `end` no range passes in front of it.
 GNOMON_STRUCT(range_front)
 {
     GNOMON_T(depth_time_range) nearest;

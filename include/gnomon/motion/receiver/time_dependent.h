@@ -1,7 +1,7 @@
 // Time-dependent shadow maps (Akenine-Moller, Munkberg & Hasselgren 2007): the shutter interval is cut into slices, and
 // each slice has a shadow map whose texels have one sample each, at a time of their own within the slice. A receiver
-// that is seen at time t_r reads the slice of that time, but the sample's time t is another one. Meanwhile the surface
-// that the sample shows has moved: by itself it would shadow itself (Andersson et al. 2015, Figure 10).
+// that is seen at time t_r reads the slice of that time, but the sample's time t is another one. In between, the surface
+// that the sample shows has moved, and would shadow itself (Andersson et al. 2015, Figure 10).
 //
 //     sample.travel = time_dependent_travel(d_x, d_y);                         when the map is made
 //     state = percentage_closer_begin(z_f - constant_bias);                    filters/percentage_closer.h
@@ -9,18 +9,18 @@
 //         state = percentage_closer_add(state, z, weight), where z is one of
 //             sample.z                                                         constant bias alone
 //             time_dependent_depth(sample, t_r)                                moved along with its surface in depth
-//             time_dependent_biased_depth(sample, t_r, slope, texels)          and spared by the surface's slope
+//             time_dependent_biased_depth(sample, t_r, slope, texels)          and biased by the surface's slope
 //     intensity = percentage_closer_end(state);
 //
-// Motion in depth alone does not spare a tilted surface: in the time between, the sample moves across the map as well,
-// and where it goes the surface is at another depth. The third depth adds the most that this can be.
+// Motion in depth is not enough for a tilted surface: in the time between, the sample moves across the map, too, and at its
+// new place the surface has another depth. The third depth adds the most by which these differ.
 #ifndef GNOMON_MOTION_RECEIVER_TIME_DEPENDENT_H
 #define GNOMON_MOTION_RECEIVER_TIME_DEPENDENT_H
 #include "../../filters/percentage_closer.h"
 GNOMON_NAMESPACE_BEGIN
 
 /// Depth z and time t of a sample, and the motion of the point that it shows over the whole shutter interval: in depth,
-/// d_z, and the length of its way over the map in texels, travel.
+/// d_z, and the length of its path over the map in texels, travel.
 GNOMON_STRUCT(time_dependent_sample) { Real z, t, d_z, travel; };
 
 /// Length in texels of a motion over the map.

@@ -221,7 +221,8 @@ void expect_samples(std::string_view pass, const sample_map<float>& samples, con
 } // namespace detail
 
 /// Fill the grids of the layers of the given rows of tiles, and the largest level of these and of the blocks that begin in
-/// these rows.
+/// these rows. clusters are those of the same samples by layer_cluster, for all tiles; map has the tables of layer_allocate.
+/// NaN: samples with a NaN in depth, time or motion are left out.
 /// Source: Andersson 2015, Sec. 4.1
 template <layer_format Format>
 void layer_accumulate(const sample_map<float>& samples, std::span<const tile_clusters> clusters,
@@ -282,7 +283,8 @@ void build_square_mips(format_texel<Format>* texels, std::size_t side, std::size
 
 } // namespace detail
 
-/// Fill the smaller levels of the layers of the given rows of tiles, and of the blocks that begin in these rows.
+/// Fill the smaller levels of the layers of the given rows of tiles, and of the blocks that begin in these rows, from those
+/// of layer_accumulate. A texel is the mean of four.
 template <layer_format Format> void layer_mips(const layer_map<format_texel<Format>>& map, row_range rows)
 {
     constexpr std::string_view pass = "layer_mips";

@@ -99,7 +99,7 @@ template <class Texel> struct layer_map {
     }
 };
 
-/// Bytes that a map takes: texels, grids and tables.
+/// The size of a map in bytes: texels, grids and tables.
 template <class Texel> std::size_t layer_bytes(const layer_map<Texel>& map)
 {
     return map.first.size_bytes() + map.blocks.size_bytes() + map.grids.size_bytes() + map.texels.size_bytes() +
