@@ -36,7 +36,7 @@ void draw(const vulkan::device& gpu)
     const auto corners =
         vulkan::filled<glm::vec3>(gpu, vulkan::corners_of(scenery.world), vk::BufferUsageFlagBits::eVertexBuffer);
     const auto uniforms = vulkan::filled<glm::vec4>(gpu, frame, vk::BufferUsageFlagBits::eUniformBuffer);
-    const auto taps = vulkan::filled<float>(gpu, gnomon::gaussian_weights(), vk::BufferUsageFlagBits::eStorageBuffer);
+    const auto taps = vulkan::filled<float>(gpu, gnomon::gaussian_weights());
 
     // What they draw into and read: depths from the light, the map, a scratch map for the blur, and the screen.
     const vk::Format depth = vk::Format::eD32Sfloat, unorm16 = vk::Format::eR16G16B16A16Unorm;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::alpha_test {
 
 namespace {
 
@@ -43,4 +43,4 @@ const registered<sweep> entry{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::alpha_test

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::blends {
 
 namespace {
 
@@ -31,4 +31,4 @@ const registered<sweep> entry{sweep{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::blends

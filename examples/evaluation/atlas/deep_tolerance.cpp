@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::deep_tolerance {
 
 namespace {
 
@@ -102,4 +102,4 @@ const registered<sweep> entry{sweep{.id = "deep_tolerance",
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::deep_tolerance

@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::depth_range {
 
 namespace {
 
@@ -32,4 +32,4 @@ const registered<sweep> entry{sweep{.id = "depth_range",
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::depth_range

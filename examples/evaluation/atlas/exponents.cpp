@@ -11,7 +11,7 @@
 #include <cmath>
 #include <vector>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::exponents {
 
 namespace {
 
@@ -78,4 +78,4 @@ const registered<sweep> entry{sweep{.id = "exponents",
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::exponents

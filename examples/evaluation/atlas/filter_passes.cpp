@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::filter_passes {
 
 namespace {
 
@@ -59,4 +59,4 @@ const registered<sweep> entry{sweep{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::filter_passes

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::fog_receiver {
 
 namespace {
 
@@ -88,4 +88,4 @@ const registered<sweep> entry{sweep{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::fog_receiver

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::layer_motion {
 
 namespace {
 
@@ -39,4 +39,4 @@ const registered<sweep> entry{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::layer_motion

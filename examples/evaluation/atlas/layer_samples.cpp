@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::layer_samples {
 
 namespace {
 
@@ -55,4 +55,4 @@ const registered<sweep> entry{sweep{.id = "layer_samples",
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::layer_samples

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::layer_tile {
 
 namespace {
 
@@ -46,4 +46,4 @@ const registered<sweep> entry{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::layer_tile

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::layer_turn {
 
 namespace {
 
@@ -34,4 +34,4 @@ const registered<sweep> entry{sweep{.id = "layer_turn",
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::layer_turn

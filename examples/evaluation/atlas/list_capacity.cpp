@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::list_capacity {
 
 namespace {
 
@@ -93,4 +93,4 @@ const registered<sweep> entry{sweep{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::list_capacity

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::lit_slope {
 
 namespace {
 
@@ -47,4 +47,4 @@ const registered<sweep> entry{sweep{.id = "lit_slope",
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::lit_slope

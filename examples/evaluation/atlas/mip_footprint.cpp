@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::mip_footprint {
 
 namespace {
 
@@ -71,4 +71,4 @@ const registered<sweep> entry{sweep{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::mip_footprint

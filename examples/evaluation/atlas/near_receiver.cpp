@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::near_receiver {
 
 namespace {
 
@@ -30,4 +30,4 @@ const registered<sweep> entry{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::near_receiver

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::polar_ends {
 
 namespace {
 
@@ -37,4 +37,4 @@ const registered<sweep> entry{sweep{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::polar_ends

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::prefix_length {
 
 namespace {
 
@@ -99,4 +99,4 @@ const registered<sweep> entry{sweep{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::prefix_length

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::row_step {
 
 namespace {
 
@@ -76,4 +76,4 @@ const registered<sweep> entry{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::row_step

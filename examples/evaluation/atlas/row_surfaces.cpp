@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::row_surfaces {
 
 namespace {
 
@@ -38,4 +38,4 @@ const registered<sweep> entry{sweep{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::row_surfaces

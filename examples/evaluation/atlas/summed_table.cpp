@@ -11,7 +11,7 @@
 #include <cmath>
 #include <vector>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::largest_rectangle {
 
 namespace {
 
@@ -79,4 +79,4 @@ const registered<sweep> entry{sweep{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::largest_rectangle

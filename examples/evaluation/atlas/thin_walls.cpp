@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::thin_walls {
 
 namespace {
 
@@ -28,4 +28,4 @@ const registered<sweep> entry{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::thin_walls

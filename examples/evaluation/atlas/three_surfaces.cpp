@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::three_surfaces {
 
 namespace {
 
@@ -32,4 +32,4 @@ const registered<sweep> entry{sweep{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::three_surfaces

@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::two_surfaces {
 
 namespace {
 
@@ -31,4 +31,4 @@ const registered<sweep> entry{sweep{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::two_surfaces

@@ -25,9 +25,6 @@ using namespace renderer;
 
 namespace {
 
-using format = layer_variance_float;
-using texel = format_texel<format>;
-
 const layered_method& method_of(const char* id)
 {
     return dynamic_cast<const layered_method&>(registry_of<method>().at(id));
@@ -43,6 +40,10 @@ moving_stage stilled(moving_stage stage)
 
 // The sums of all samples of a texel, with mips: a variance shadow map with opacity.
 class plain_map {
+    using format = layer_variance_float;
+    using texel = format_texel<format>;
+    using channels = std::array<float, sizeof(format_channels<format>) / sizeof(float)>;
+
   public:
     explicit plain_map(const sample_map<float>& samples)
         : size_(samples.width), texels_(mip_texels(samples.width, samples.height))
@@ -84,8 +85,6 @@ class plain_map {
     }
 
   private:
-    using channels = std::array<float, sizeof(format_channels<format>) / sizeof(float)>;
-
     std::size_t size_;
     std::vector<texel> texels_;
 };

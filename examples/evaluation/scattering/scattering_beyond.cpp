@@ -37,7 +37,7 @@ struct foggy_stage {
     scattering_stage (*make)(double aspect);
 };
 constexpr std::array foggy{foggy_stage{"room", room_stage}, foggy_stage{"trees", trees_stage}};
-constexpr const char* shown_stage = "trees";
+constexpr const char* shown_scene = "trees";
 
 constexpr std::array of_veils{"ray_march_32",           "min_max_rows",     "scatter4_unorm16_paper",
                               "scatter6_unorm16_paper", "scatter4_unorm16", "scatter6_unorm16"};
@@ -194,7 +194,7 @@ page_part compare_fog(const settings& given, const std::filesystem::path& folder
             const auto exact_error = [&](const measured_map& by) { return compare(by.exact(view.where), traced).rmse; };
             add(m.label, m.its_family().colour, error(follows, falloff), error(other, 0));
             add("exact count", {}, exact_error(follows), exact_error(other));
-            if (falloff == shown_falloff && one.id == std::string_view(shown_stage)) {
+            if (falloff == shown_falloff && one.id == std::string_view(shown_scene)) {
                 pictures.text = fmt::format("With a falloff of {:g}.", falloff);
                 pictures.pictures = {saved(view.shown(follows.visibilities(view.where)), *fog, m.id, m.label, folder),
                                      saved(view.shown(traced), *fog, "traced", scattering_references[1].label, folder)};

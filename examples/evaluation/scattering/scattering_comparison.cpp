@@ -19,7 +19,7 @@ using namespace renderer;
 
 namespace {
 
-const registered<receiver_kind> view_rays{
+const registered<receiver_kind> view_rays_kind{
     receiver_facts{.id = "view_rays", .label = "view rays from the camera to surfaces", .order = 30}};
 
 class comparison {
@@ -57,7 +57,7 @@ class comparison {
         scattering_row_set result{&m, file(m.id), file(m.id + "-error"), {}, map->passes()};
         report_row row = row_of(m);
         row.scene = found_.scene.id;
-        row.receiver = view_rays->id;
+        row.receiver = view_rays_kind->id;
         row.map_bytes = double(map->bytes());
         for (const build_pass& p : result.passes) {
             row.passes.emplace_back(p.name, p.milliseconds);

@@ -46,7 +46,7 @@ blending_renderer::blending_renderer(const vulkan::device& gpu, const stage& sce
       stage_(gpu, scenery, extent, map_resolution, language),
       layers_(vulkan::filled<glm::vec3>(gpu, vulkan::layers_of(scenery.world, scenery.light),
                                         vk::BufferUsageFlagBits::eVertexBuffer)),
-      taps_(vulkan::filled<float>(gpu, taps, vk::BufferUsageFlagBits::eStorageBuffer)),
+      taps_(vulkan::filled<float>(gpu, taps)),
       centre_depths_(gpu, vk::Format::eD32Sfloat, stage_.depths().extent(), usage::eDepthStencilAttachment)
 {}
 

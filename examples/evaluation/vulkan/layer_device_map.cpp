@@ -13,9 +13,7 @@ using namespace renderer;
 
 namespace {
 
-constexpr auto storage = vk::BufferUsageFlagBits::eStorageBuffer;
-constexpr std::size_t block = std::size_t(shading::layer_block);
-static_assert(block == layer_block && sizeof(layer_receiver<float>) == 15 * sizeof(float));
+static_assert(shading::layer_block == layer_block && sizeof(layer_receiver<float>) == 15 * sizeof(float));
 
 const std::size_t levels = block_levels(device_layers), each = layer_texels(device_layers);
 
@@ -28,10 +26,10 @@ std::size_t tiles_of(const shading::layer_push& sizes)
 shading::layer_push sizes_of(const sample_map<float>& samples)
 {
     check_shape(samples, "layer_device_map");
-    if (samples.width != samples.height || samples.width % block != 0)
+    if (samples.width != samples.height || samples.width % layer_block != 0)
         throw std::invalid_argument("layer_device_map: samples of " + std::to_string(samples.width) + " x " +
                                     std::to_string(samples.height) + " texels, not of a square of whole blocks of " +
-                                    std::to_string(block));
+                                    std::to_string(layer_block));
     const layer_look_up usual;
     return {std::uint32_t(samples.width),
             std::uint32_t(samples.samples),
@@ -44,7 +42,10 @@ shading::layer_push sizes_of(const sample_map<float>& samples)
             float(layer_variance_float::least_variance)};
 }
 
-std::size_t blocks_of(const shading::layer_push& sizes) { return sizes.width / block * (sizes.width / block); }
+std::size_t blocks_of(const shading::layer_push& sizes)
+{
+    return sizes.width / layer_block * (sizes.width / layer_block);
+}
 
 std::size_t plain_texels(const shading::layer_push& sizes) { return blocks_of(sizes) * block_texels(device_layers); }
 
@@ -59,10 +60,10 @@ layer_device_map::layer_device_map(const vulkan::device& gpu, const layer_shader
                                    const sample_map<float>& samples)
     : gpu_(gpu),
       sizes_(sizes_of(samples)),
-      samples_(vulkan::filled<stochastic_sample<float>>(gpu, samples.of, storage)),
+      samples_(vulkan::filled<stochastic_sample<float>>(gpu, samples.of)),
       tiles_(room_for<shading::tile_layers>(gpu, tiles_of(sizes_))),
       first_(room_for<std::uint32_t>(gpu, tiles_of(sizes_) + 1)),
-      blocks_(vulkan::filled<std::uint32_t>(gpu, std::vector<std::uint32_t>(blocks_of(sizes_)), storage)),
+      blocks_(vulkan::filled<std::uint32_t>(gpu, std::vector<std::uint32_t>(blocks_of(sizes_)))),
       plain_(room_for<layer_sums<float>>(gpu, plain_texels(sizes_)))
 {
     const auto pass = [&](std::span<const std::uint32_t> text, const std::vector<vulkan::resource>& resources,
@@ -128,7 +129,7 @@ std::vector<named_pass> layer_device_map::passes() const
 layer_device_look_up::layer_device_look_up(const layer_device_map& map, const layer_shaders& texts,
                                            std::span<const layer_receiver<float>> receivers, layer_tiles tiles)
     : sizes_(map.sizes()),
-      receivers_(vulkan::filled(map.gpu(), receivers, storage)),
+      receivers_(vulkan::filled(map.gpu(), receivers)),
       intensities_(room_for<float>(map.gpu(), receivers.size())),
       look_up_(
           map.gpu(), {vulkan::exact_arithmetic(texts.look_up)},

@@ -16,8 +16,7 @@ using namespace renderer;
 
 namespace {
 
-constexpr auto storage = vk::BufferUsageFlagBits::eStorageBuffer;
-constexpr std::uint32_t invocations = 64; // of workgroups
+constexpr std::uint32_t group_size = 64; // invocations of a workgroup
 
 struct fill_push {
     std::uint32_t texels, fills;
@@ -30,7 +29,7 @@ struct look_up_push {
     std::uint32_t begin, end, size, moves;
 };
 
-vk::Extent3D groups(std::uint32_t count) { return {(count + invocations - 1) / invocations, 1, 1}; }
+vk::Extent3D groups(std::uint32_t count) { return {(count + group_size - 1) / group_size, 1, 1}; }
 
 // The triangles of a tile, and for each of its blocks the places of those that touch the block, one block after the other.
 struct tile_triangles {
@@ -84,7 +83,7 @@ tile_triangles triangles_of(const tiled_triangles& scenery, std::size_t tile)
 template <class T> vulkan::buffer buffer_of(const vulkan::device& gpu, std::vector<T> values)
 {
     if (values.empty()) values.emplace_back();
-    return vulkan::filled<T>(gpu, values, storage);
+    return vulkan::filled<T>(gpu, values);
 }
 
 vulkan::buffer room_for(const vulkan::device& gpu, std::size_t ranges)
@@ -191,7 +190,7 @@ range_look_up::range_look_up(const range_device_map& map, const range_shaders& t
     : count_(static_cast<std::uint32_t>(receivers.size())),
       static_(static_cast<std::uint32_t>(static_ones)),
       size_(static_cast<std::uint32_t>(map.resolution())),
-      receivers_(vulkan::filled(map.gpu(), receivers, storage)),
+      receivers_(vulkan::filled(map.gpu(), receivers)),
       intensities_(map.gpu(), receivers.size() * sizeof(float)),
       look_up_(map.gpu(), {vulkan::exact_arithmetic(texts.look_up)},
                {map.resolved_first(), map.resolved_ranges(), receivers_, intensities_}, sizeof(look_up_push))

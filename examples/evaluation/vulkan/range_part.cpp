@@ -85,7 +85,7 @@ table_block times(const std::vector<compared_scene>& all)
 }
 
 // Half the resolution of the page on motion, since the device may be the CPU, in whole tiles.
-motion_sizes sizes_of(const settings& how)
+motion_sizes range_sizes_of(const settings& how)
 {
     constexpr int tile = int(range_map<float>::tile);
     motion_sizes size = motion_sizes_of(how);
@@ -114,7 +114,7 @@ report_row row_for(const method& m, const std::string& device, const compared_sc
 page_part range_part(const vulkan::device& gpu, const settings& how)
 {
     const shader_texts& texts = how.hlsl ? hlsl_shaders() : glsl_shaders();
-    const motion_sizes size = sizes_of(how);
+    const motion_sizes size = range_sizes_of(how);
     std::vector<compared_scene> all;
     page_part result;
     for (const char* id : {"random_cubes", "fan"}) {

@@ -38,7 +38,7 @@ vulkan::buffer rows_in(const vulkan::device& gpu, std::span<const rectified_row>
     std::vector<shading::rectified_row> result;
     for (const rectified_row& one : rows)
         result.push_back({one.cosine, one.sine, one.range.middle, one.range.scale, one.factor, one.optical_depth});
-    return vulkan::filled<shading::rectified_row>(gpu, result, vk::BufferUsageFlagBits::eStorageBuffer);
+    return vulkan::filled<shading::rectified_row>(gpu, result);
 }
 
 resources all_of(std::initializer_list<resources> parts)
@@ -55,7 +55,7 @@ rectified_stage::rectified_stage(const device_stage& drawn, const shading::recti
                                  std::span<const rectified_row> rows, std::size_t columns, bool wraps)
     : drawn_(drawn),
       extent_(std::uint32_t(columns), std::uint32_t(rows.size())),
-      taps_(vulkan::filled<float>(drawn.gpu(), gaussian_weights(), vk::BufferUsageFlagBits::eStorageBuffer)),
+      taps_(vulkan::filled<float>(drawn.gpu(), gaussian_weights())),
       view_(vulkan::filled<shading::rectified_view>(drawn.gpu(), std::array{seen},
                                                     vk::BufferUsageFlagBits::eUniformBuffer)),
       rows_(rows_in(drawn.gpu(), rows)),

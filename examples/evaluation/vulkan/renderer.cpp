@@ -33,8 +33,7 @@ std::vector<const filterable_method*> device_methods()
 
 shadow_renderer::shadow_renderer(const vulkan::device& gpu, const stage& scenery, vk::Extent2D extent,
                                  int map_resolution, std::span<const float> taps, shading_language language)
-    : stage_(gpu, scenery, extent, map_resolution, language),
-      taps_(vulkan::filled<float>(gpu, taps, vk::BufferUsageFlagBits::eStorageBuffer))
+    : stage_(gpu, scenery, extent, map_resolution, language), taps_(vulkan::filled<float>(gpu, taps))
 {}
 
 bool shadow_renderer::supports(const device_method& method) const

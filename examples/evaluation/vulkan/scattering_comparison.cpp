@@ -26,14 +26,14 @@ using namespace renderer;
 
 namespace {
 
-template <class Format> using texels_of = std::vector<format_texel<Format>>;
+template <class Format> using format_texels = std::vector<format_texel<Format>>;
 
 // Level 0 of a map of one image or two, whose texels follow one another in the format's texel.
 template <class Format>
-texels_of<Format> read_texels(const vulkan::device& gpu, const std::vector<vulkan::image>& images)
+format_texels<Format> read_texels(const vulkan::device& gpu, const std::vector<vulkan::image>& images)
 {
     const auto [width, height] = images.front().extent();
-    texels_of<Format> result(std::size_t(width) * height);
+    format_texels<Format> result(std::size_t(width) * height);
     std::size_t offset = 0;
     for (const vulkan::image& one : images) {
         const std::size_t bytes = vk::blockSize(one.format());
@@ -48,7 +48,7 @@ texels_of<Format> read_texels(const vulkan::device& gpu, const std::vector<vulka
 }
 
 template <class Format>
-texel_difference difference(const texels_of<Format>& device, const texels_of<Format>& host, double codes)
+texel_difference difference(const format_texels<Format>& device, const format_texels<Format>& host, double codes)
 {
     std::vector<double> values;
     texel_difference result{.texels = device.size()};
@@ -80,7 +80,7 @@ template <class Real> auto bounds_of(const hankel6<Real>& h, Real z_f) { return 
 template <class Format> class host_side {
   public:
     using texel = format_texel<Format>;
-    using texels = texels_of<Format>;
+    using texels = format_texels<Format>;
 
     host_side(const rectified_scene& rectified, const light_map& light) : rectified_(rectified), light_(light) {}
 
@@ -243,13 +243,13 @@ scattering_comparison compare_format(const both_sides& on, scattering_format for
     result.look_up_tolerance = 0x1p-9f + float(Format::bias_weight);
     result.whole_tolerance = tolerance_of(on.gpu, 0.25f);
     const host_side<Format> host(on.rectified, on.scene.map);
-    const auto compared = [&](const rectified_device_map::images& device, const texels_of<Format>& reference) {
+    const auto compared = [&](const rectified_device_map::images& device, const format_texels<Format>& reference) {
         return difference<Format>(read_texels<Format>(on.gpu, device), reference, codes);
     };
     result.nearest = compared(map.nearest(), host.from_depths(signed_depths(on.gpu, on.stage.depths())));
-    const texels_of<Format> own = host.from_moments(on.view.depths.filtered());
+    const format_texels<Format> own = host.from_moments(on.view.depths.filtered());
     result.filtered = compared(map.filtered(), own);
-    const texels_of<Format> averages = host.averages(read_texels<Format>(on.gpu, map.filtered()));
+    const format_texels<Format> averages = host.averages(read_texels<Format>(on.gpu, map.filtered()));
     result.groups = compared(map.by_groups(), averages);
     if (on.gpu.shuffling_lanes() > 0) result.subgroups = compared(map.by_subgroups(), averages);
 

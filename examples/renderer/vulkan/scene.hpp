@@ -21,7 +21,9 @@ namespace gnomon::renderer::vulkan {
 template <class T> push_constants bytes_of(const T& value) { return std::as_bytes(std::span(&value, 1)); }
 
 // A buffer that holds these values.
-template <class T> buffer filled(const device& owner, std::span<const T> values, vk::BufferUsageFlags usage)
+template <class T>
+buffer filled(const device& owner, std::span<const T> values,
+              vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eStorageBuffer)
 {
     buffer result(owner, values.size_bytes(), usage);
     std::ranges::copy(values, result.mapped<T>().begin());

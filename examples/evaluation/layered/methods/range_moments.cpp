@@ -11,9 +11,9 @@ namespace gnomon::evaluation {
 
 namespace {
 
-using format = moments4_unorm16;
-
 class moments_of_ranges final : public layered_map {
+    using format = moments4_unorm16;
+
   public:
     explicit moments_of_ranges(const range_shadow_map& ranges)
         : texels_(std::size_t(ranges.resolution) * std::size_t(ranges.resolution))
@@ -57,7 +57,7 @@ class range_moments_map final : public layered_method {
                           .label = "time moments of ranges",
                           .order = 42,
                           .map = time_moments_kind->id,
-                          .format = {std::string(format::id), std::string(format::name)}},
+                          .format = {std::string(moments4_unorm16::id), std::string(moments4_unorm16::name)}},
                          {{.comparisons = {equal_input, equal_time, equal_memory}}}, false)
     {}
 

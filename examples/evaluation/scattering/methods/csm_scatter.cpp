@@ -2,7 +2,7 @@
 // al. 2017, Sec. 5.5.1, and with depth and rows as moments have them by default. No offset, since there is no surface to keep lit.
 #include "rectified_moments.hpp"
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::csm_scatter {
 
 namespace {
 
@@ -13,4 +13,4 @@ const registered<rectified_method<convolution_unorm8, rectified_options{}>> usua
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::csm_scatter

@@ -2,7 +2,7 @@
 // bounds themselves, and the middle between them.
 #include "rectified_moments.hpp"
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::scatter_bounds {
 
 namespace {
 
@@ -26,4 +26,4 @@ const registered<paper_method<overestimation::full>> most{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::scatter_bounds

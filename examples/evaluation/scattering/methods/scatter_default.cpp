@@ -3,7 +3,7 @@
 // ray into the light.
 #include "rectified_moments.hpp"
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::scatter_default {
 
 namespace {
 
@@ -22,4 +22,4 @@ const registered<rectified_method<moments6_float, usual>> six_192{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::scatter_default

@@ -2,7 +2,7 @@
 // whole view frustum, and visibility is overestimated adaptively. Without filtering, and by filtered samples of a moment map.
 #include "rectified_moments.hpp"
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::scatter_paper {
 
 namespace {
 
@@ -26,4 +26,4 @@ const registered<paper_method<moments6_unorm16, filtered>> six_96_filtered{metho
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::scatter_paper

@@ -3,7 +3,7 @@
 // without sky has these radii. Polar angles are those of directions, so what is visible does not narrow them.
 #include "rectified_moments.hpp"
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::scatter_settings {
 
 namespace {
 
@@ -33,4 +33,4 @@ const registered<rectified_method<format, fitted>> to_visible{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::scatter_settings

@@ -1,7 +1,7 @@
 // The default with other sources of texels: one texel of the shadow map, and filtered samples of a map of four moments.
 #include "rectified_moments.hpp"
 
-namespace gnomon::evaluation {
+namespace gnomon::evaluation::scatter_sources {
 
 namespace {
 
@@ -26,4 +26,4 @@ const registered<rectified_method<moments6_unorm16, moments>> six_96_moments{
 
 } // namespace
 
-} // namespace gnomon::evaluation
+} // namespace gnomon::evaluation::scatter_sources
