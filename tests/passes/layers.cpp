@@ -234,3 +234,22 @@ TEST_CASE_TEMPLATE("tilted surfaces in motion do not shadow themselves", Format,
             CHECK(without_bias.mean() > 4 * acne.mean());
         }
 }
+
+TEST_CASE("casters that are farther away than the limit of a bias shadow planes of any slope in layers of any motion")
+{
+    bit_source bits(8);
+    const layer_look_up usual, unlimited{.limit = 2};
+    for (const layer_settings& settings : {quality, speed})
+        for (const float d : {0.0f, 12.0f, 200.0f}) {
+            auto samples = sample_quads({{0, 0}, {}}, 64, 64, 4, bits);
+            for (auto& s : samples.of) s.d_x = d;
+            const layers_of<layer_variance_float> layers(samples, settings);
+            for (int i = 0; i < 200; ++i) {
+                auto r = still_receiver(float(bits.uniform(8, 56)), float(bits.uniform(8, 56)), 2 * usual.limit,
+                                        float(bits.uniform(0, 1)), bits);
+                r.slope = float(std::exp2(bits.uniform(0, 20)));
+                REQUIRE(layers.intensity(r, usual) > 0.99f);
+                REQUIRE(layers.intensity(r, unlimited) == 0);
+            }
+        }
+}

@@ -31,7 +31,7 @@ struct layer_look_up {
     layer_tiles tiles = layer_tiles::random;
     bool widen = false;       // footprints, bias and least variance by the spread of motion in a layer
     float reach = 0.5f;       // texels of a layer over which the bias follows the slope
-    float limit = 0.25f;      // the largest bias of a slope
+    float limit = 0.015625f;  // the largest bias of a slope
     float rounding = 8e-6f;   // in depth
     float least_variance = 0; // of depth
 };
