@@ -4,6 +4,7 @@
 #include <gnomon/passes/range/samples.hpp>
 
 #include <doctest/doctest.h>
+#include <rapidcheck.h>
 
 #include <limits>
 #include <stdexcept>
@@ -68,7 +69,7 @@ sampled_quads samples_of_ranges(const quad_scene& scene, std::size_t width, std:
     return s;
 }
 
-const layer_settings quality{}, speed{8, 16, 16};
+const layer_settings quality{.centres = true}, speed{.tile = 8, .guard = 16, .texels = 16, .centres = true};
 
 } // namespace
 
@@ -141,6 +142,37 @@ TEST_CASE("ranges of no surface and of NaN are not sampled, those of several are
     CHECK(id_and_depth({{0, 1, nan, 0, 3}, farther, surface}) == std::pair(7.f, 0.25f));
     CHECK(id_and_depth({{0, nan, 0, 0, 3}, surface, farther}) == std::pair(7.f, 0.25f));
     CHECK(id_and_depth({{0, 1, 0, 0, float(range_mixed)}, surface}) == std::pair(0.f, 0.f));
+}
+
+TEST_CASE("a tilted plane at texel centres is one layer, and what is before it another")
+{
+    CHECK(rc::check("layers of a plane and of a rectangle", [](std::uint32_t seed) {
+        bit_source bits(seed);
+        const float slope_x = float(bits.uniform(-0.02, 0.02)), slope_y = float(bits.uniform(-0.02, 0.02));
+        const bool some = bits.chance(0.5);
+        sampled_quads samples{20, 17, 2, {}};
+        for (std::size_t i = 0; i < 20 * 17 * 2; ++i) {
+            const float x = float(i / 2 % 20) + 0.5f, y = float(i / 40) + 0.5f;
+            const bool before = some && x < 9;
+            samples.of.push_back({x, y, 0.25f + 0.5f * float(i % 2),
+                                  (before ? -0.9f : 0.3f) + slope_x * (x - 10) + slope_y * (y - 8), 0, 0, 0, 1});
+        }
+        for (layer_settings settings : {quality, speed}) {
+            std::array<tile_clusters, 25> clusters;
+            const std::size_t across = tiles_along(20, settings.tile), rows = tiles_along(17, settings.tile);
+            layer_cluster(samples, settings, std::span(clusters).first(across * rows), {0, rows});
+            for (std::size_t i = 0; i < across * rows; ++i) {
+                const auto w = detail::window_around(samples, settings, i % across, i / across);
+                RC_ASSERT(clusters[i].layers == (some && w.x0 < 9 && w.x1 > 9 ? 2u : 1u));
+            }
+        }
+    }));
+    sampled_quads samples{12, 12, 1, {}};
+    for (std::size_t i = 0; i < 144; ++i)
+        samples.of.push_back({float(i % 12) + 0.5f, float(i / 12) + 0.5f, 0.5f, 0.01f * float(i % 12), 0, 0, 0, 1});
+    std::array<tile_clusters, 9> clusters;
+    layer_cluster(samples, {}, clusters, {0, 3});
+    CHECK(clusters[4].layers == 4); // as if they were anywhere in their texels
 }
 
 #if defined(__cpp_exceptions)

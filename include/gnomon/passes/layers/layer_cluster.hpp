@@ -64,13 +64,15 @@ inline std::uint64_t occupied_bins(window_samples& samples, const layer_window<f
     return all;
 }
 
-/// The cuts of a window with these bins: those of the fold of layer_cuts_add over all 64.
-inline layer_cuts<float> cuts_of(const layer_window<float>& window, std::uint64_t occupied, std::size_t layers)
+/// The cuts of a window with these bins: those of the fold of layer_cuts_add over all 64, with runs of less than `gap` empty
+/// bins filled.
+inline layer_cuts<float> cuts_of(const layer_window<float>& window, std::uint64_t occupied, std::size_t layers,
+                                 std::size_t gap)
 {
     layer_runs<float> runs = layer_cuts_begin(window);
     while (occupied != 0) {
         const int empty = std::countr_zero(occupied), full = std::countr_one(occupied >> empty);
-        runs.empty += float(empty) * runs.begun;
+        runs.empty += std::size_t(empty) < gap ? 0 : float(empty) * runs.begun;
         runs.bins += float(empty);
         runs = layer_cuts_add(runs, 1.0f);
         runs.bins += float(full - 1);
@@ -80,14 +82,23 @@ inline layer_cuts<float> cuts_of(const layer_window<float>& window, std::uint64_
 }
 
 /// The cuts of a window of one layer.
-inline layer_cuts<float> no_cuts() { return cuts_of(layer_window_begin(0.0f), 0, 1); }
+inline layer_cuts<float> no_cuts() { return cuts_of(layer_window_begin(0.0f), 0, 1, 1); }
 
-inline tile_clusters clusters_of(window_samples samples, std::size_t layers)
+/// The fewest empty bins that divide layers. Samples at texel centres see a tilted plane at no more depths than there are
+/// columns or rows, which leaves fewer bins empty between them.
+constexpr std::size_t least_gap(const tile_window& w, bool centres)
 {
+    const std::size_t along = (std::max)((std::min)(w.x1 - w.x0, w.y1 - w.y0), std::size_t(2)) - 1;
+    return centres ? (63 + along) / along : 1;
+}
+
+inline tile_clusters clusters_of(const sample_map<float>& map, const tile_window& w, const layer_settings& settings)
+{
+    window_samples samples(map, w);
     const auto [window, moves] = extremes_of(samples);
     tile_clusters tile{no_cuts(), window.least <= window.greatest, !moves};
-    if (layers == 1 || !(window.greatest - window.least >= float(layer_least_extent))) return tile;
-    tile.cuts = cuts_of(window, occupied_bins(samples, window), layers);
+    if (settings.layers == 1 || !(window.greatest - window.least >= float(layer_least_extent))) return tile;
+    tile.cuts = cuts_of(window, occupied_bins(samples, window), settings.layers, least_gap(w, settings.centres));
     const auto cut = [](float c) { return c < float(layer_no_cut) ? 1u : 0u; };
     tile.layers = 1 + cut(tile.cuts.c0) + cut(tile.cuts.c1) + cut(tile.cuts.c2);
     return tile;
@@ -118,7 +129,7 @@ inline void layer_cluster(const sample_map<float>& samples, const layer_settings
     for (std::size_t row = rows.first; row < rows.last; ++row)
         for (std::size_t column = 0; column < across; ++column)
             clusters[row * across + column] =
-                detail::clusters_of({samples, detail::window_around(samples, settings, column, row)}, settings.layers);
+                detail::clusters_of(samples, detail::window_around(samples, settings, column, row), settings);
 }
 
 /// True if the texels of a tile are those of the plain map: one layer in which nothing moves.

@@ -32,6 +32,7 @@ struct layer_settings {
     std::size_t layers = 4;     // the most layers of a tile, 1 to 4
     bool even = true;           // weigh texels alike that are in the window for different parts of the shutter interval
     bool smooth_streaks = true; // blur layers of fast motion across that motion
+    bool centres = false;       // samples are at texel centres (sample_ranges): a tilted plane has no gaps between them
 };
 
 /// The clusters of one tile, between the passes.
