@@ -94,9 +94,10 @@ class layers_comparison {
     void begin(const layered_method& m, const layered_variant& v)
     {
         const bool rival = (has(v, equal_time) || has(v, equal_memory)) && (found_.motion.has("rivals") || size_.full);
+        const bool is_shown = v.scene.empty() ? found_.motion.has("settings") : found_.scene.id == v.scene;
         const bool setting =
-            has(v, of_settings) && (size_.full || (found_.motion.has("settings") &&
-                                                   (m.family == layers_family->id || m.family == slices_family->id)));
+            has(v, of_settings) &&
+            (size_.full || (is_shown && (m.family == layers_family->id || m.family == slices_family->id)));
         if (!v.without.empty() && found_.motion.has(v.without) && !size_.full) return;
         // Models of depth differ little from the usual one in noise.
         const bool model = m.family == layers_family->id && m.id != usual_layers;

@@ -6,14 +6,14 @@
 
 namespace gnomon::evaluation {
 
-const timed_samples& layered_input::samples(int each, int texels)
+const timed_samples& layered_input::samples(int each, int texels, renderer::sample_pattern pattern)
 {
-    const std::pair key(each, texels);
+    const std::tuple key(each, texels, pattern);
     if (const auto found = samples_.find(key); found != samples_.end()) return found->second;
     timed_samples made;
     made.sampling_ms = 1e3 * seconds_on_one_core([&] {
                            made.of = renderer::rasterize_samples(stage.world, stage.light, texels, texels,
-                                                                 {.samples = each, .seed = seed});
+                                                                 {.samples = each, .seed = seed, .pattern = pattern});
                        });
     return samples_.emplace(key, std::move(made)).first->second;
 }

@@ -27,8 +27,9 @@ class layered_input {
     layered_input(const layered_input&) = delete;
     layered_input& operator=(const layered_input&) = delete;
 
-    // So many samples in each texel of a map of so many texels a side. Valid as long as the input.
-    const timed_samples& samples(int each, int texels);
+    // So many samples in each texel of a map of so many texels a side. Valid until reseed().
+    const timed_samples& samples(int each, int texels,
+                                 renderer::sample_pattern pattern = renderer::sample_pattern::stratified);
     const timed_samples& samples(int each = 4) { return samples(each, resolution); }
 
     // Maps of ranges, which no seed changes: with another seed they are the same objects.
@@ -43,7 +44,7 @@ class layered_input {
     std::uint32_t seed;
 
   private:
-    std::map<std::pair<int, int>, timed_samples> samples_;
+    std::map<std::tuple<int, int, renderer::sample_pattern>, timed_samples> samples_;
     std::map<int, map_source> ranges_;
 };
 

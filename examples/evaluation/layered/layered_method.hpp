@@ -40,6 +40,7 @@ struct layered_variant {
     // Ids of comparisons, see below. The first variant of a method is its usual one.
     std::vector<std::string> comparisons{};
     std::string without{}; // a tag of scenes in which it takes too long for all but the full run
+    std::string scene{};   // the one that the quick run shows a setting in; those with the tag "settings" where empty
 };
 
 // Comparisons by their ids: of the same samples of map and camera, which is that of the usual variant of each method; of

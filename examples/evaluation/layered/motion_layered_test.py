@@ -112,6 +112,27 @@ class MotionLayered(unittest.TestCase):
         self.assertEqual(sorted(sizes), [1, 2, 3, 4])
         self.assertEqual([sizes[n] for n in sorted(sizes)], sorted(sizes.values()))
 
+    def setting(self, scene, **parameters):
+        found, = (row for row in self.rows(scene, LAYERS) if parameters.items() <= row["parameters"].items())
+        return found
+
+    def test_layers_of_ranges_are_no_worse_than_those_of_samples(self):
+        exact, random = (self.usual("tentacles_from_above", method)["rmse"] for method in ("layered_ranges", LAYERS))
+        self.assertLess(exact, 1.1 * random)
+
+    def test_even_weights_and_even_times_change_little_in_pictures(self):
+        usual = self.usual("tentacles_from_above", LAYERS)["rmse"]
+        for setting in ({"even": 0}, {"even_times": 1}):
+            self.assertLess(abs(self.setting("tentacles_from_above", **setting)["rmse"] / usual - 1), 0.03, setting)
+
+    def test_a_crown_in_a_moving_light_leaks_by_the_bias_and_by_long_texels(self):
+        usual = self.usual("tree_in_moving_light", LAYERS)
+        biased, fine = (self.setting("tree_in_moving_light", **setting) for setting in ({"limit": 0.25}, {"texels": 16}))
+        self.assertGreater(usual["leak"], 2 * usual["acne"])
+        for error in "rmse", "leak":
+            self.assertGreater(biased[error], 1.2 * usual[error])
+            self.assertLess(fine[error], 0.97 * usual[error])
+
     def test_layers_flicker_less_than_slices(self):
         changes = {row["method"]: row for row in self.report if row["part"] == "change"}
         self.assertLess(changes[LAYERS]["rmse"], 0.8 * changes["time_slices_sloped"]["rmse"])

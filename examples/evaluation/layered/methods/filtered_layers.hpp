@@ -2,9 +2,12 @@
 // and what they are where none is given, as in the paper for maps of 512 x 512 texels:
 //
 //     scale 1       side of the map over the usual one
-//     tile 4, guard 12, texels 8, layers 4, v_filter 1      layer_settings
+//     samples 4     for each texel
+//     even_times 0  1: samples whose times fill their strata evenly over neighbouring texels
+//     tile 4, guard 12, texels 8, layers 4, even 1, v_filter 1, centres 0      layer_settings
 //     neighbour 1   0: the tile of the receiver alone, 1: it or a neighbour at random, 2: all of these, blended
 //     widen 0       1: by the spread of motion in a layer
+//     limit         the largest bias of a slope
 #pragma once
 
 #include "evaluation/core/timing.hpp"
@@ -25,7 +28,9 @@ inline layer_settings layer_settings_of(const parameters& how)
     layer_settings result;
     result.tile = size("tile", result.tile), result.guard = size("guard", result.guard);
     result.texels = size("texels", result.texels), result.layers = size("layers", result.layers);
+    result.even = value_of(how, "even", 1) != 0;
     result.smooth_streaks = value_of(how, "v_filter", 1) != 0;
+    result.centres = value_of(how, "centres", 0) != 0;
     return result;
 }
 
@@ -34,6 +39,7 @@ inline layer_look_up layer_look_up_of(const parameters& how)
     layer_look_up result;
     result.tiles = layer_tiles(int(value_of(how, "neighbour", 1)));
     result.widen = value_of(how, "widen", 0) != 0;
+    result.limit = float(value_of(how, "limit", double(result.limit)));
     return result;
 }
 
@@ -65,11 +71,10 @@ inline layer_receiver<float> layer_receiver_of(const stochastic_receiver& r)
 
 template <layer_format Format> class filtered_layers_map final : public layered_map {
   public:
-    filtered_layers_map(layered_input& from, const parameters& how)
+    filtered_layers_map(const timed_samples& samples, const parameters& how)
         : settings_(layer_settings_of(how)), look_up_(layer_look_up_of(how))
     {
-        resolution = int(value_of(how, "scale", 1) * from.resolution);
-        const timed_samples& samples = from.samples(int(value_of(how, "samples", 4)), resolution);
+        resolution = samples.of.width;
         sampling_ms = samples.sampling_ms;
         const sample_map<float> map = samples.of.map();
         const std::size_t rows = tiles_along(map.height, settings_.tile),
@@ -120,23 +125,27 @@ template <layer_format Format> class filtered_layers_map final : public layered_
     std::vector<texel> texels_, plain_;
 };
 
+// Facts of a method whose layers have this format.
+template <layer_format Format> method_facts facts_of_layers(method_facts facts)
+{
+    facts.map = layers_kind->id;
+    facts.format = {std::string(Format::id), std::string(Format::name)}; // tiles differ in their layers
+    return facts;
+}
+
 template <layer_format Format> class filtered_layers final : public layered_method {
   public:
     filtered_layers(method_facts facts, std::vector<layered_variant> its_variants)
-        : layered_method(completed(std::move(facts)), std::move(its_variants))
+        : layered_method(facts_of_layers<Format>(std::move(facts)), std::move(its_variants))
     {}
 
     std::unique_ptr<layered_map> build(layered_input& from, const evaluation::parameters& how) const override
     {
-        return std::make_unique<filtered_layers_map<Format>>(from, how);
-    }
-
-  private:
-    static method_facts completed(method_facts facts)
-    {
-        facts.map = layers_kind->id;
-        facts.format = {std::string(Format::id), std::string(Format::name)}; // tiles differ in their layers
-        return facts;
+        using enum renderer::sample_pattern;
+        const timed_samples& samples =
+            from.samples(int(value_of(how, "samples", 4)), int(value_of(how, "scale", 1) * from.resolution),
+                         value_of(how, "even_times", 0) != 0 ? even : stratified);
+        return std::make_unique<filtered_layers_map<Format>>(samples, how);
     }
 };
 
