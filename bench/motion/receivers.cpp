@@ -3,6 +3,7 @@
 #include "core/measure.hpp"
 #include "support/hostile.hpp"
 
+#include <gnomon/motion/receiver/line_sample.h>
 #include <gnomon/passes/range/shutters.hpp>
 
 namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC {
@@ -129,7 +130,22 @@ struct receiver_sweep : path_and_range {
     }
 };
 
-[[maybe_unused]] const bool registered = add_kernels<five_samples, five_samples, receiver_static, receiver_behind,
-                                                     receiver_moving, receiver_filtered, receiver_sweep>("receivers");
+struct receiver_crossed : path_and_range {
+    static constexpr auto name = "receiver on crossed lines, one range each";
+    static constexpr bool has_error = true;
+    template <class... Reals> static GNOMON_INLINE constexpr auto run(Reals... operands)
+    {
+        using real = std::common_type_t<Reals...>;
+        const std::array<real, 16> x{operands...};
+        const auto at_x = line_place_of(x[5]), at_y = line_place_of(x[6]);
+        const auto hidden = [&](real place, real z) { return range_intensity(range(&x[11]), place, z, x[4], real(0)); };
+        return crossed_lines_intensity(hidden(at_x.place, x[2]), hidden(at_x.place, x[3]), hidden(at_y.place, x[2]),
+                                       hidden(at_y.place, x[3]), at_x.place, at_y.place);
+    }
+};
+
+[[maybe_unused]] const bool registered =
+    add_kernels<five_samples, five_samples, receiver_static, receiver_behind, receiver_moving, receiver_filtered,
+                receiver_sweep, receiver_crossed>("receivers");
 
 } // namespace gnomon::bench::GNOMON_BENCH_ARITHMETIC

@@ -51,6 +51,7 @@
 #include "motion/range/range_summary.h"
 #include "motion/range/range_transmittance.h"
 #include "motion/receiver/facing.h"
+#include "motion/receiver/line_sample.h"
 #include "motion/receiver/moving_receiver.h"
 #include "motion/receiver/receiver_path.h"
 #include "motion/receiver/shutter.h"

@@ -7019,6 +7019,91 @@ fn facing_function(n: gnomon_moving_vector, d: gnomon_moving_vector) -> gnomon_m
     return f;
 }
 
+// motion/receiver/line_sample.h ---------------------------------------------------------------------------------------
+// Line samples (Gribel, Barringer & Akenine-Moller 2011): a texel of a shadow map sees the scene at one instant along a
+// line through its centre, instead of at all times from its centre. Of a triangle the line sees intervals, which are
+// known exactly, so a shadow's edge that crosses the line is where it is, and not at the border of a texel. Time is
+// sampled: a map of lines is of one instant.
+//
+// Everything else is that of ranges in time, with the place on the line for the time. The line is one texel long: place
+// 0 is at its begin, 1 at its end. A sample that goes along the line while the scene stands still sees what a sample
+// that stands still sees of a scene that goes the other way:
+//
+//     triangle.a = line_sample_vertex(a, segment), b and c alike;       once for each instant
+//     edges = moving_triangle_edges(triangle, s_x, s_y);             and coverage, depth, ranges, lists as of any
+// triangle
+//
+// A receiver asks the line at its own place on it. Lines of one direction leave the other one sampled. So a map of
+// lines along x and one along y are crossed: of the four points at the receiver's x on the lines above and below, and
+// at its y on the lines to the left and to the right,
+//
+//     at = line_place_of(x);   texel at.texel of the row below y - 1/2, and of the next, along x, and so for y
+//     hidden = range_intensity(range, at.place, z, id, bias);        the greatest of the texel's list
+//     intensity = crossed_lines_intensity(up, down, left, right, share_x, share_y);
+
+/// The time t of a line segment, and its extent: (1, 0) is along x and one texel long, (0, 1) along y. The middle is
+/// the centre of the texel.
+struct line_sample { t: f32, along_x: f32, along_y: f32 }
+
+/// A texel along a line's direction, and the place on its line, in [0, 1].
+struct gnomon_line_place { texel: f32, place: f32 }
+
+/// The vertex at the time of the segment, moved against it while the place goes from 0 to 1: shutter open stands for
+/// place 0, shutter close for place 1. The units are those of x / w.
+/// NaN: NaN.
+/// Error: 8 2^-p (|q| + |r| + |along| (|q_w| + |r_w|)) for each coordinate, q and r those at shutter open and close.
+/// Source: Gribel 2011
+fn line_sample_vertex(v: gnomon_moving_vertex, segment: line_sample) -> gnomon_moving_vertex
+{
+    let s = 1.0 - segment.t;
+    let x = v.x0_ * s + v.x1_ * segment.t;
+    let y = v.y0_ * s + v.y1_ * segment.t;
+    var r: gnomon_moving_vertex;
+    r.z0_ = v.z0_ * s + v.z1_ * segment.t;
+    r.w0_ = v.w0_ * s + v.w1_ * segment.t;
+    r.z1_ = r.z0_;
+    r.w1_ = r.w0_;
+    let half_x = (0.5 * segment.along_x) * r.w0_;
+    let half_y = (0.5 * segment.along_y) * r.w0_;
+    r.x0_ = x + half_x;
+    r.y0_ = y + half_y;
+    r.x1_ = x - half_x;
+    r.y1_ = y - half_y;
+    return r;
+}
+
+/// The texel that holds a position along the direction of lines, and the place on its line.
+/// Domain: positions in [-65536, 65536].
+/// NaN: place 0.
+/// Error: exact for positions not below 0; else 2^-p.
+fn line_place_of(x: f32) -> gnomon_line_place
+{
+    var r: gnomon_line_place;
+    r.texel = texel_below(x);
+    r.place = saturate_or_zero(x - r.texel);
+    return r;
+}
+
+/// Shadow intensity in [0, 1] from those of four points around the receiver: up and down on lines along x, left and
+/// right on lines along y. Two opposite points that agree decide, since a straight edge between them would part them;
+/// up and down are first. Else the mean of both pairs, interpolated: share_y of the distance from up to down has passed
+/// at the receiver, share_x of that from left to right.
+/// Domain: intensities 0 or 1. Elsewhere a number in [0, 1].
+/// NaN: 0 for the point, and 0 for a share.
+/// Error: exact if two opposite points agree; else 8 2^-p.
+/// Source: Gribel 2011
+fn crossed_lines_intensity(up: f32, down: f32, left: f32, right: f32, share_x: f32, share_y: f32) -> f32
+{
+    let a = saturate_or_zero(up);
+    let b = saturate_or_zero(down);
+    let c = saturate_or_zero(left);
+    let d = saturate_or_zero(right);
+    let x = saturate_or_zero(share_x);
+    let y = saturate_or_zero(share_y);
+    let mean = 0.5 * ((a * (1.0 - y) + b * y) + (c * (1.0 - x) + d * x));
+    return saturate_or_zero(gnomon_select(a == b, a, gnomon_select(c == d, c, mean)));
+}
+
 // motion/receiver/static_receiver.h -----------------------------------------------------------------------------------
 // The shadow on a static receiver while the shutter is open, in closed form. Every range in front of the receiver
 // occludes it for a time that is known in closed form, and the shutter (shutter.h) turns that time into a share of the

@@ -231,7 +231,8 @@ TEST_CASE("no pass over ranges allocates")
     const auto still = [](float, float, float, float) { return triangle_motion<float>{0, 0, 0}; };
     sample_ranges<map, float>(lists, 2, still, samples, {0, 9});
     const float shadow = static_intensity(lists, 0.5f, 0.5f, static_receiver_begin(0.f, 4.f, 0.f, 1.f)) +
-                         moving_intensity(lists, path, 0.f, 1.f) + sampled_intensity(lists, path, 0.f, 16.f);
+                         moving_intensity(lists, path, 0.f, 1.f) + sampled_intensity(lists, path, 0.f, 16.f) +
+                         crossed_intensity(lists, lists, line_receiver<float>{0.5f, 1.5f, 1, 4});
     some.fill({});
     const auto surfaces = resolve_ranges<float>(loose, spans, range_ids::surfaces);
     for (std::size_t i = 0; i < surfaces.size(); ++i) some[i] = range_of<float>(loose, surfaces[i]);

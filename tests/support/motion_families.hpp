@@ -47,6 +47,11 @@ inline constexpr input_family<T> motion_families[] = {
      [](auto put, const situation&, bit_source& bits) {
          put(bits.chance(0.2) ? double(bits.below(5)) / 4 : bits.uniform(0, 1));
      }},
+    {"line_sample", 3,
+     [](auto put, const situation&, bit_source& bits) {
+         const int rows = int(bits.below(2));
+         put(bits.uniform(0, 1)), put(rows), put(1 - rows);
+     }},
     {"index", 1, [](auto put, const situation&, bit_source& bits) { put(double(bits.below(4))); }},
     {"range", 5,
      [](auto put, const situation& s, bit_source& bits) {
