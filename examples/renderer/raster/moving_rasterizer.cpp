@@ -236,7 +236,7 @@ range_rasterizer::~range_rasterizer() = default;
 const range_lists& range_rasterizer::operator()(const moving_scene& world, const moving_camera& eye, int width,
                                                 int height, const range_options& how)
 {
-    const tiled_triangles scenery(world, eye, width, height, how.visible);
+    const tiled_triangles scenery(world, eye, width, height, how.visible, 0, how.line ? &*how.line : nullptr);
     const mesh_joiner join(world.open, how.joining);
     lists_.width = width, lists_.height = height, lists_.counts = {};
     lists_.first.resize(map::texels(std::size_t(width), std::size_t(height)) + 1);

@@ -12,11 +12,13 @@
 #include "rasterizer.hpp"
 #include "renderer/scene/moving_scene.hpp"
 
+#include <gnomon/motion/receiver/line_sample.h>
 #include <gnomon/passes/range/map.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace gnomon::renderer {
@@ -28,6 +30,8 @@ struct range_options {
     float depth_tolerance = 0; // the most by which the line of a range departs from depth; 0: one line, however far
     float joining = 0;         // joined ranges of one mesh are behind them by this at most (passes/range/join.hpp)
     std::size_t budget = std::size_t(1) << 14; // ranges of a pack of texels beyond which its lists are resolved early
+    // Ranges along a line through each texel at one instant: their times are places on the line. None: ranges in time.
+    std::optional<line_sample<double>> line{};
 };
 
 // The work of a rasterization.

@@ -32,11 +32,13 @@ struct moving_view {
     camera open, close;
     glm::dvec2 size;
     double reach;
+    const line_sample<double>* line; // for samples along a line at one instant, or a null pointer
 
     moving_vertex<double> vertex(const glm::vec3& opening, const glm::vec3& closing) const
     {
         const glm::dvec4 q = texel_space(open, size, opening), r = texel_space(close, size, closing);
-        return {q.x, q.y, q.z, q.w, r.x, r.y, r.z, r.w};
+        const moving_vertex<double> v{q.x, q.y, q.z, q.w, r.x, r.y, r.z, r.w};
+        return line ? line_sample_vertex(v, *line) : v;
     }
 };
 
@@ -167,13 +169,13 @@ template <class Visit> void for_each_tile(const moving_setup& s, const Visit& vi
 } // namespace
 
 tiled_triangles::tiled_triangles(const moving_scene& world, const moving_camera& eye, int width, int height,
-                                 faces visible, float reach)
+                                 faces visible, float reach, const line_sample<double>* line)
     : size_(width, height), grid_((size_ + moving_tile_size - 1) / moving_tile_size), reach_(reach)
 {
     if (width < 1 || height < 1 || width > largest_map_size || height > largest_map_size)
         throw std::invalid_argument(fmt::format("moving rasterizer: {}x{} texels, 1 to {} per side are possible", width,
                                                 height, largest_map_size));
-    setups_ = set_up(world, {eye.open, eye.at(1), size_, double(reach)}, visible);
+    setups_ = set_up(world, {eye.open, eye.at(1), size_, double(reach), line}, visible);
     sort_into_tiles();
 }
 

@@ -9,6 +9,7 @@
 #include "rasterizer.hpp"
 #include "renderer/scene/moving_scene.hpp"
 
+#include <gnomon/motion/receiver/line_sample.h>
 #include <gnomon/motion/triangle/depth_planes.h>
 #include <gnomon/motion/triangle/edge_widening.h>
 #include <gnomon/passes/range/map.hpp>
@@ -80,9 +81,10 @@ struct moving_tile {
 // `reach` from the centres of their texels, along x and y.
 class tiled_triangles {
   public:
-    // Throws std::invalid_argument for a picture that is empty or too large.
+    // By samples along a line at one instant where there is one. Throws std::invalid_argument for a picture that is empty or
+    // too large.
     tiled_triangles(const moving_scene& world, const moving_camera& eye, int width, int height, faces visible,
-                    float reach = 0);
+                    float reach = 0, const line_sample<double>* line = nullptr);
 
     float reach() const { return reach_; }
     std::size_t tiles() const { return first_.size() - 1; }
@@ -103,8 +105,7 @@ class tiled_triangles {
     std::vector<std::uint32_t> first_, members_;
 };
 
-// A struct of numbers, each of them rounded to float and converted to To: float, or a pack with that float in every
-// lane.
+// A struct of numbers, each rounded to float and converted to To: float, or a pack with that float in every lane.
 template <class To, template <class, class> class Struct, class From>
 Struct<To, To> rounded_to(const Struct<From, From>& x)
 {
@@ -114,8 +115,7 @@ Struct<To, To> rounded_to(const Struct<From, From>& x)
     return std::bit_cast<Struct<To, To>>(result);
 }
 
-// A struct of packs with the same number in every lane. Written member by member, since compilers keep that in
-// registers.
+// A struct of packs with the same number in every lane, written member by member: compilers keep that in registers.
 GNOMON_INLINE sample_plane<texel_pack> broadcast(const sample_plane<float>& p) { return {p.x, p.y, p.c}; }
 GNOMON_INLINE edge_equation<texel_pack> broadcast(const edge_equation<float>& f)
 {
