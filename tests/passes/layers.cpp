@@ -161,6 +161,48 @@ TEST_CASE("blended tiles have no larger steps across their borders than within")
     }
 }
 
+TEST_CASE("a look-up passes all layers of a tile, those that are transparent there, too")
+{
+    bit_source bits(7);
+    const moving_quad narrow{14, 24, 10, 30, -0.4f, 1e-3f, 0, 0}, wide{24, 24, 20, 30, 0.2f, 1e-3f, 0, 0};
+    const layers_of<layer_variance_float> layers(sample_quads({{0.8f, 0}, {narrow, wide}}, 48, 48, 4, bits), {});
+    for (int k = 0; k < 300; ++k) { // in the tile beside the edge of the nearer rectangle
+        const auto at = [&](float x, float z) {
+            return layers.intensity(still_receiver(x, float(bits.uniform(8, 40)), z, 0.5f, bits), {layer_tiles::own});
+        };
+        const float x = float(bits.uniform(25.5, 28));
+        REQUIRE(at(x, 0.7f) > 0.999f);
+        REQUIRE(at(x, -0.1f) < 0.001f);
+        REQUIRE(at(float(bits.uniform(12, 20)), -0.1f) > 0.999f);
+    }
+}
+
+TEST_CASE("fast layers are blurred across their motion, and keep their opacity")
+{
+    bit_source bits(10);
+    const quad_scene scene{{0.8f, 0}, {{32, 32, 90, 3, -0.5f, 100, 0, 0}}};
+    const auto samples = sample_quads(scene, 64, 64, 16, bits);
+    layer_settings settings;
+    double inside[2] = {}, beside[2] = {}, sum[2] = {};
+    for (const bool smooth : {false, true}) {
+        settings.smooth_streaks = smooth;
+        const layers_of<layer_variance_float> layers(samples, settings);
+        for (int k = 0; k < 3200; ++k) {
+            const float y = 24 + float(k) / 200, x = float(bits.uniform(20, 44));
+            const double shadow = double(
+                layers.intensity(still_receiver(x, y, 0.5f, float(bits.uniform(0.2, 0.8)), bits), {layer_tiles::own}));
+            sum[smooth] += shadow;
+            if (std::abs(y - 32) < 1) inside[smooth] += shadow / 400;
+            if (std::abs(std::abs(y - 32) - 5) < 0.5f) beside[smooth] += shadow / 400;
+        }
+    }
+    INFO("sums " << sum[0] << ", " << sum[1] << "; inside " << inside[0] << ", " << inside[1] << "; beside "
+                 << beside[0] << ", " << beside[1]);
+    CHECK(sum[1] == doctest::Approx(sum[0]).epsilon(0.02));
+    CHECK(beside[1] > beside[0] + 0.01);
+    CHECK(inside[1] < inside[0] - 0.01);
+}
+
 TEST_CASE("layers and blocks are stored only where samples need them")
 {
     bit_source bits(5);

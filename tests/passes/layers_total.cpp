@@ -1,4 +1,5 @@
-// Layered maps of any samples whatsoever: intensities from 0 to 1, lit where nothing is known, and shapes that do not fit.
+// Layered maps of any samples: intensities from 0 to 1, lit where nothing is known, the same bits as kernels; tiles at random
+// and blocks at the border of windows; shapes that do not fit.
 #include "layered_quads.hpp"
 #include "support/effort.hpp"
 
@@ -139,6 +140,44 @@ TEST_CASE_TEMPLATE("a level surface that moves by any distance, in depth too, do
             INFO(Format::id << ": " << d_x << ", " << d_y << ", " << d_z << " from " << level << " on, at " << t);
             REQUIRE(shadow <= 1e-3f);
         }
+    }
+}
+
+TEST_CASE("the mean of random tiles is the blend of tiles")
+{
+    bit_source bits(8);
+    auto samples = sample_quads({{0, 0}, {}}, 24, 24, 2, bits);
+    for (auto& s : samples.of) s.z = float(bits.uniform(-0.9, 0.9)), s.d_x = float(bits.uniform(0, 4));
+    const layers_of<layer_variance_float> layers(samples, {});
+    double differing = 0;
+    for (int k = 0; k < 100; ++k) {
+        auto r = still_receiver(float(bits.uniform(0, 24)), float(bits.uniform(0, 24)), 0.3f, 0.5f, bits);
+        constexpr int n = 32; // weights are between two of n shares
+        double mean = 0;
+        for (int i = 0; i < n * n; ++i) {
+            r.random_x = (float(i % n) + 0.5f) / n, r.random_y = (float(i) / n + 0.5f) / n;
+            mean += double(layers.intensity(r, {layer_tiles::random})) / (n * n);
+        }
+        REQUIRE(std::abs(mean - double(layers.intensity(r, {layer_tiles::blended}))) <= 2.0 / n);
+        differing += std::abs(mean - double(layers.intensity(r, {layer_tiles::own})));
+    }
+    CHECK(differing > 2);
+}
+
+TEST_CASE("plain tiles look up blocks that only their windows reach")
+{
+    bit_source bits(9);
+    auto samples = sample_quads({{-0.5f, 0}, {}}, 64, 32, 4, bits);
+    for (auto& s : samples.of) {
+        if (s.x < 32) s = stochastic_background(s.x, s.y, s.t); // block 0
+        if (s.x >= 36) s.d_x = 1;                               // no tile of block 1 is plain
+    }
+    const layers_of<layer_variance_float> layers(samples, {});
+    CHECK(layers.counts.blocks == 2);
+    for (int k = 0; k < 100; ++k) {
+        auto r = still_receiver(31.9f, float(bits.uniform(6, 26)), 0.5f, 0.5f, bits);
+        r.x0 -= 3.5f, r.x1 += 3.5f;
+        REQUIRE(layers.intensity(r, {layer_tiles::own}) == doctest::Approx(0.5).epsilon(0.1));
     }
 }
 
