@@ -729,7 +729,8 @@ template <class Real, class = require_real<Real>> struct layer_cuts { Real c0, c
 /// before and those of the bins behind. None if the window is shorter than 2^-14.
 /// Domain: layers from 1 to 4; a smaller number makes one layer, a larger one up to four.
 /// NaN: one layer.
-/// Error: half a bin, less 2^-22 in float.
+/// Error: 10 2^-p. A cut is at least half a bin away from the bins before and behind, so no sample changes its layer by
+/// that.
 /// Source: Andersson 2015, Sec. 4.1
 template <class Real, class = require_real<Real>>
 GNOMON_INLINE constexpr layer_cuts<Real> layer_cuts_end(layer_runs<Real> state, std::type_identity_t<Real> layers)

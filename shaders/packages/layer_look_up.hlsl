@@ -631,7 +631,8 @@ struct gnomon_layer_cuts { float c0, c1, c2; };
 /// before and those of the bins behind. None if the window is shorter than 2^-14.
 /// Domain: layers from 1 to 4; a smaller number makes one layer, a larger one up to four.
 /// NaN: one layer.
-/// Error: half a bin, less 2^-22 in float.
+/// Error: 10 2^-p. A cut is at least half a bin away from the bins before and behind, so no sample changes its layer by
+/// that.
 /// Source: Andersson 2015, Sec. 4.1
 gnomon_layer_cuts layer_cuts_end(gnomon_layer_runs state, float layers)
 {

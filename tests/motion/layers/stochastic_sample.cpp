@@ -1,10 +1,10 @@
-// Times in strata, and the strata of times.
+// Times in strata, the strata of times, and their ends.
 #include "support/effort.hpp"
 #include "support/hostile.hpp"
 #include "support/oracle.hpp"
 #include "support/rounding.hpp"
 
-#include <gnomon/motion/layers/stochastic_sample.h>
+#include <gnomon/motion/layers/receiver_footprint.h>
 
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
@@ -29,6 +29,24 @@ TEST_CASE_TEMPLATE("the slice of a stratified time is its stratum, bit for bit",
         const high expected = (high(stratum) + high(jitter)) / count;
         RC_ASSERT(abs(high(t) - expected) <= high(0x1p-20) + 4 * high(u<T>) * high(t));
     }));
+}
+
+TEST_CASE_TEMPLATE("the stratum of a time has its ends within the stated error, and follows the one before", T, float,
+                   double)
+{
+    CHECK(rc::check("up to 65536 strata", [] {
+        const int count = *rc::gen::inRange(1, 65537), stratum = *rc::gen::inRange(0, count);
+        const T t = stratified_time(T(stratum), T(count), T(*rc::gen::inRange(0, 1001)) / 1000);
+        const shutter_exposure<T> time = footprint_stratum(t, T(count));
+        RC_ASSERT(time.begin <= t);
+        RC_ASSERT(t <= time.end);
+        RC_ASSERT(abs(high(time.begin) - high(stratum) / count) <= high(u<T>));
+        RC_ASSERT(abs(high(time.end) - high(stratum + 1) / count) <= high(u<T>));
+        if (stratum > 0) RC_ASSERT(footprint_stratum(T(stratum - 0.5) / T(count), T(count)).end == time.begin);
+    }));
+    const T nan = std::numeric_limits<T>::quiet_NaN();
+    CHECK((footprint_stratum(nan, T(4)).begin == 0 && footprint_stratum(nan, T(4)).end == T(0.25)));
+    CHECK((footprint_stratum(T(9), T(4)).begin == T(0.75) && footprint_stratum(T(9), T(4)).end == 1));
 }
 
 TEST_CASE_TEMPLATE("slices and times are in their ranges for any bits", T, float, double)
