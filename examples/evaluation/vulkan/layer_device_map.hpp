@@ -39,8 +39,8 @@ class layer_device_map {
     const renderer::vulkan::device& gpu() const { return gpu_; }
     const shading::layer_push& sizes() const { return sizes_; }
 
-    // What look-ups read, and in bytes. Views of the device's buffers: `first` as of layer_map, 1 for each block of the plain map
-    // that is filled, and the plain map with its levels one after the other.
+    // Views of the device's buffers, and the bytes of those that look-ups read. `first` is as of layer_map. `blocks` has 1 for each
+    // block of the plain map that is filled, and the plain map has its levels one after the other.
     std::span<const shading::tile_layers> tiles() const { return tiles_.mapped<const shading::tile_layers>(); }
     std::span<const std::uint32_t> first() const { return first_.mapped<const std::uint32_t>(); }
     std::span<const layer_grid<float>> grids() const;

@@ -63,7 +63,7 @@ static_assert(layer_format<layer_variance_half>);
 struct layer_moments4_float : zeroed_texel<float_texel<layer_moments4_sums>> {
     static constexpr std::string_view name = "6x32 float", id = "layer_moments4_float";
     static constexpr double least_variance = 0; // the bias of the moments hides roundings
-    static constexpr double roundings = 64;     // of sums in passes, and by filters
+    static constexpr double roundings = 64;     // of sums and by filters; as many as samples where these are more
 
     template <class Real>
     static constexpr channels<Real> add(const channels<Real>& c, std::type_identity_t<Real> z,
@@ -74,7 +74,7 @@ struct layer_moments4_float : zeroed_texel<float_texel<layer_moments4_sums>> {
     template <class Real>
     static constexpr Real visibility(const channels<Real>& c, std::type_identity_t<Real> z, std::type_identity_t<Real>)
     {
-        return layer_moments4_visibility(c, z, Real(roundings));
+        return layer_moments4_visibility(c, z, gnomon_max(Real(roundings), c.weight));
     }
 };
 static_assert(layer_format<layer_moments4_float>);

@@ -4,6 +4,8 @@
 #include "support/climber.hpp"
 #include "support/effort.hpp"
 
+#include <gnomon/storage/layer_formats.hpp>
+
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
@@ -97,6 +99,34 @@ TEST_CASE_TEMPLATE("layer visibility: never darker than the samples but for the 
             CHECK_MESSAGE(worst.score <= 1, samples << " samples, kind " << kind << ": " << worst.score);
             CHECK((draws_few() || worst.score > 0));
         }
+}
+
+TEST_CASE("layer visibility: formats are not darker than texels of thousands of samples at a few depths")
+{
+    bit_source bits(58);
+    const auto check = [&]<class Format>(Format, double constant, double of_each) {
+        for (int n = 16; n <= 16384; n *= 4)
+            for (std::int64_t i = 0; i < effort(200); ++i) {
+                std::array<std::pair<float, int>, 3> depths; // equal samples are rounded alike
+                const double centre = bits.uniform(-1, 1), width = std::exp2(bits.uniform(-16, 0));
+                for (auto& [z, count] : depths)
+                    z = float(std::clamp(centre + width * bits.uniform(-1, 1), -1., 1.)), count = 0;
+                format_channels<Format> sums{};
+                for (int k = 0; k < n; ++k) {
+                    auto& [z, count] = depths[bits.below(1 + std::size_t(i % 3))];
+                    sums = Format::add(sums, z, {1, 1}), ++count;
+                }
+                for (const auto& at : depths) {
+                    const float z = at.first + float(bits.uniform(-1, 1) * std::exp2(bits.uniform(-24, -10)));
+                    double lit = 1;
+                    for (const auto& [depth, count] : depths) lit -= depth < z ? double(count) / n : 0;
+                    const double v = double(Format::visibility(sums, z, float(Format::least_variance)));
+                    REQUIRE(v >= lit - constant - of_each * n);
+                }
+            }
+    };
+    check(layer_moments4_float{}, 1e-6, 0);
+    check(layer_exponential_float{}, double(u<float>) * (layer_exponential_float::exponent + 7), double(u<float>));
 }
 
 TEST_CASE_TEMPLATE("layer visibility: all of the opacity behind the layer, none of it in front", T, float, double)
