@@ -90,6 +90,23 @@ TEST_CASE_TEMPLATE("deep_shadow: of ranges within the tolerance of static receiv
     }
 }
 
+TEST_CASE("deep_shadow: level ranges are steps, and cleared depths shadow nothing, behind them, too")
+{
+    std::vector<std::uint32_t> begins(range_map<float>::texels(width, height) + 1);
+    std::vector<depth_time_range<float>> ranges;
+    for (std::uint32_t& begin : begins) {
+        begin = std::uint32_t(ranges.size());
+        if (&begin == &begins.back()) break;
+        ranges.push_back({0, 0.25f, -0.5f, -0.5f, 1});
+        ranges.push_back({0.5f, 1, 0.25f, 0.25f, 2});
+    }
+    const deep_map<float> deep(range_map<float>{width, height, begins, ranges}, 0);
+    const auto at = [&](float z) { return deep_intensity(deep.map(), 5.5f, 5.5f, z); };
+    CHECK((at(-0.5f) == 0 && at(-0.25f) == doctest::Approx(0.25) && at(0.5f) == doctest::Approx(0.75)));
+    const deep_map<float> cleared(std::vector<float>(4 * width * height, 1.f), 4, 0.f);
+    CHECK((cleared.layers.empty() && deep_intensity(cleared.map(), 5.5f, 5.5f, 2.f) == 0));
+}
+
 TEST_CASE("deep_shadow: shapes are checked, and layers counted with another tolerance stay in their texels")
 {
     std::vector<float> depths(12, -0.5f);
@@ -116,9 +133,9 @@ TEST_CASE("deep_shadow: shapes are checked, and layers counted with another tole
     fill_deep_layers<float>(depths, 4, 1, first, std::span(layers));
     CHECK(std::all_of(layers.begin(), layers.end(), [](const auto& l) { return l.opacity <= 1; }));
     first = {0, 1, 2, 3};
-    layers.assign(3, {0, 0, 2});
-    fill_deep_layers<float>(depths, 4, 0, first, std::span(layers));
-    CHECK(std::all_of(layers.begin(), layers.end(), [](const auto& l) { return l.opacity <= 1; }));
+    layers.assign(12, {0, 0, 2});
+    fill_deep_layers<float>(depths, 4, 0, first, std::span(layers).first(3)); // for which these texels have 12
+    for (std::size_t i = 0; i < layers.size(); ++i) CHECK((layers[i].opacity <= 1) == (i < 3));
 }
 
 TEST_CASE("range_moments: maps hold the moments of their lists, in the format")
@@ -137,6 +154,32 @@ TEST_CASE("range_moments: maps hold the moments of their lists, in the format")
         }
     CHECK_THROWS_AS(fill_range_moments<format>(random.map(), {texels, width - 1, height}), std::invalid_argument);
     CHECK_THROWS_AS(fill_range_moments<format>(random.map(), target, {0, height + 1}), std::invalid_argument);
+}
+
+TEST_CASE("footprints: each is the mean over the times of its exposure")
+{
+    bit_source bits(74);
+    double squares = 0, of_whole = 0;
+    for (std::int64_t n = 0; n < effort(100); ++n) {
+        const random_map<double> random(bits);
+        receiver_path<double> path = any_path<double>(bits);
+        path.depth.t0 = 0, path.depth.t1 = 1;
+        const shutter_exposure<double> exposure = footprint_stratum(bits.uniform(0, 1), double(2 + bits.below(4)));
+        double mean = 0;
+        constexpr int times = 256;
+        for (int k = 0; k < times; ++k) {
+            const double t = shutter_time(exposure.begin, exposure.end, (k + 0.5) / times);
+            const texel_position<double> at = receiver_path_at(path, t);
+            mean += static_intensity(random.map(), at.x, at.y,
+                                     static_receiver_begin(range_depth(path.depth, t), path.depth.id, t, t)) /
+                    times;
+        }
+        const double found = footprint_intensity(random.map(), path, exposure);
+        CHECK(std::abs(found - mean) <= 0.05); // a few begins and ends of shadows fall between two times
+        squares += (found - mean) * (found - mean);
+        of_whole += std::pow(moving_intensity(random.map(), path, 0., 1.) - mean, 2);
+    }
+    CHECK(squares < 0.01 * of_whole);
 }
 
 TEST_CASE_TEMPLATE("footprints: those of all strata are the whole shutter interval", T, float, double)

@@ -108,5 +108,6 @@ TEST_CASE_TEMPLATE("range_moments: nothing is the background, and what is unknow
                                          {T(0.5), T(0.25), T(0), T(0), T(1)}})
         for (const T x : numbers(moments_of<T>({r}))) CHECK(x == 1);
     for (const T x : numbers(moments_of<T>({{T(-1), T(2), T(0), T(0), T(1)}}))) CHECK(x == 0);
+    CHECK(numbers(moments_of<T>({{T(-1), T(2), T(0.5), T(0.5), T(1)}}))[1] == T(0.25)); // one shutter interval of three
     CHECK(numbers(moments_of<T>({{T(0.25), T(0.75), T(-1), T(1), T(1)}}))[0] == T(0.5));
 }
