@@ -101,7 +101,7 @@ TEST_CASE("deep_shadow: level ranges are steps, and cleared depths shadow nothin
         ranges.push_back({0.5f, 1, 0.25f, 0.25f, 2});
     }
     const deep_map<float> deep(range_map<float>{width, height, begins, ranges}, 0);
-    const auto at = [&](float z) { return deep_intensity(deep.map(), 5.5f, 5.5f, z); };
+    const auto at = [&](float z) { return double(deep_intensity(deep.map(), 5.5f, 5.5f, z)); };
     CHECK((at(-0.5f) == 0 && at(-0.25f) == doctest::Approx(0.25) && at(0.5f) == doctest::Approx(0.75)));
     const deep_map<float> cleared(std::vector<float>(4 * width * height, 1.f), 4, 0.f);
     CHECK((cleared.layers.empty() && deep_intensity(cleared.map(), 5.5f, 5.5f, 2.f) == 0));
