@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -180,6 +181,29 @@ TEST_CASE("footprints: each is the mean over the times of its exposure")
         of_whole += std::pow(moving_intensity(random.map(), path, 0., 1.) - mean, 2);
     }
     CHECK(squares < 0.01 * of_whole);
+}
+
+TEST_CASE("footprints: static paths count for their own times, and a NaN in a path or an exposure is lit")
+{
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    std::vector<std::uint32_t> begins(range_map<float>::texels(width, height) + 1);
+    for (std::size_t i = 0; i < begins.size(); ++i) begins[i] = std::uint32_t(i);
+    const std::vector<depth_time_range<float>> ranges(begins.back(), {0, 1, -0.5f, -0.5f, 1});
+    const range_map<float> map{width, height, begins, ranges};
+    for (const float moved : {0.f, 0.25f}) {
+        const receiver_path<float> path{{0.25f, 0.5f, 0, 0, 9}, 3.25f, 3.25f, 1, 3.25f + moved, 3.25f, 1};
+        CHECK(double(footprint_intensity(map, path, {0, 1})) == doctest::Approx(0.25));
+        CHECK(double(footprint_intensity(map, path, {0.5f, 0.25f})) == doctest::Approx(1));
+        CHECK(double(footprint_intensity(map, path, {0.25f, 0.75f})) == doctest::Approx(0.5));
+        CHECK(footprint_intensity(map, path, {0.75f, 1}) == 0);
+        CHECK(footprint_intensity(map, path, {0.25f, nan}) == 0);
+        for (std::size_t k = 0; k < 11; ++k) {
+            if (k == 4) continue; // an id of NaN is that of no surface
+            receiver_path<float> unknown = path;
+            std::memcpy(reinterpret_cast<char*>(&unknown) + k * sizeof(float), &nan, sizeof(float));
+            CHECK(footprint_intensity(map, unknown, {0.25f, 0.5f}) == 0);
+        }
+    }
 }
 
 TEST_CASE_TEMPLATE("footprints: those of all strata are the whole shutter interval", T, float, double)

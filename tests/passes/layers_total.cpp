@@ -86,6 +86,22 @@ TEST_CASE("samples that tell nothing shadow nothing")
     lit_everywhere(every([](auto& s) { s = {none, none, none, none, none, none, none, none}; }));
 }
 
+TEST_CASE_TEMPLATE("receivers of unknown place, depth, time or footprint are lit", Format, layer_variance_float,
+                   layer_moments4_float, layer_exponential_float)
+{
+    bit_source bits(11);
+    for (const float d : {0.0f, 3.0f}) { // in the plain map, and in layers
+        auto samples = sample_quads({{-0.5f, 0}, {}}, 20, 18, 2, bits);
+        for (auto& s : samples.of) s.d_x = d;
+        const layers_of<Format> layers(samples, layer_settings{});
+        for (std::size_t k = 0; k < 15; ++k) {
+            layer_receiver<float> r = still_receiver(10.3f, 9.2f, 0.5f, 0.4f, bits);
+            std::memcpy(reinterpret_cast<char*>(&r) + k * sizeof(float), &none, sizeof(float));
+            CHECK((layers.intensity(r, {layer_tiles(k % 3)}) == 0) == (k < 12)); // not by slope or random numbers
+        }
+    }
+}
+
 TEST_CASE("one sample is found from everywhere in its tile")
 {
     bit_source bits(3);

@@ -106,8 +106,9 @@ float visibility_through(layer_grid grid, texel_source from, float x, float y, l
     gnomon_layer_footprint footprint = layer_footprint_make(grid, r.x0 - x, r.y0 - y, r.t0, r.x1 - x, r.y1 - y, r.t1,
                                                             r.cross_x, r.cross_y, layer_widening(grid, r.t));
     gnomon_layer_place place = layer_grid_place(grid, r.x - x, r.y - y, r.t);
-    float beside = max(abs(place.u - footprint.u), abs(place.v - footprint.v));
-    float z = biased_depth(grid, r, given.reach + beside);
+    float off_u = abs(place.u - footprint.u), off_v = abs(place.v - footprint.v);
+    if (!(off_u + off_v >= 0.0)) return 1.0; // a place of NaN
+    float z = biased_depth(grid, r, given.reach + max(off_u, off_v));
     if (!(z > -1.0)) return 1.0;
     float least = max(layer_minimum_variance(grid, r.slope, 0.0), given.least_variance);
     return layer_visibility(sums_over(footprint, from), z, least);

@@ -158,8 +158,9 @@ float visibility_through(layer_grid<float> grid, const auto& mips, float x, floa
                                                 r.cross_y, layer_widening(grid, r.t));
     // The centre of a footprint that ends at the shutter's times, or at the grid's border, is beside the receiver.
     const layer_place<float> place = layer_grid_place(grid, r.x - x, r.y - y, r.t);
-    const float beside = gnomon_max(gnomon_abs(place.u - footprint.u), gnomon_abs(place.v - footprint.v));
-    const float z = own_depth(look_up.reach + beside);
+    const float off_u = gnomon_abs(place.u - footprint.u), off_v = gnomon_abs(place.v - footprint.v);
+    if (!(off_u + off_v >= 0)) return 1; // a place of NaN
+    const float z = own_depth(look_up.reach + gnomon_max(off_u, off_v));
     if (!(z > -1)) return 1;
     const float least = layer_minimum_variance(grid, r.slope, look_up.least_variance);
     const auto sums = gnomon_bit_cast<format_channels<Format>>(sums_over<Format>(footprint, mips));
