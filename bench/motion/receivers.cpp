@@ -137,10 +137,10 @@ struct receiver_crossed : path_and_range {
     {
         using real = std::common_type_t<Reals...>;
         const std::array<real, 16> x{operands...};
-        const auto at_x = line_place_of(x[5]), at_y = line_place_of(x[6]);
+        const auto at_x = line_sample_place_of(x[5]), at_y = line_sample_place_of(x[6]);
         const auto hidden = [&](real place, real z) { return range_intensity(range(&x[11]), place, z, x[4], real(0)); };
-        return crossed_lines_intensity(hidden(at_x.place, x[2]), hidden(at_x.place, x[3]), hidden(at_y.place, x[2]),
-                                       hidden(at_y.place, x[3]), at_x.place, at_y.place);
+        return line_sample_intensity(hidden(at_x.place, x[2]), hidden(at_x.place, x[3]), hidden(at_y.place, x[2]),
+                                     hidden(at_y.place, x[3]), at_x.place, at_y.place);
     }
 };
 

@@ -8577,9 +8577,10 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 // lines along x and one along y are crossed: of the four points at the receiver's x on the lines above and below, and
 // at its y on the lines to the left and to the right,
 //
-//     at = line_place_of(x);   texel at.texel of the row below y - 1/2, and of the next, along x, and so for y
+//     at = line_sample_place_of(x);      texel at.texel of the row below y - 1/2, and of the next, along x, and so for
+// y
 //     hidden = range_intensity(range, at.place, z, id, bias);        the greatest of the texel's list
-//     intensity = crossed_lines_intensity(up, down, left, right, share_x, share_y);
+//     intensity = line_sample_intensity(up, down, left, right, share_x, share_y);
 #ifndef GNOMON_MOTION_RECEIVER_LINE_SAMPLE_H
 #define GNOMON_MOTION_RECEIVER_LINE_SAMPLE_H
 
@@ -8590,7 +8591,7 @@ GNOMON_WARNINGS_OFF namespace gnomon {
 template <class Real, class = require_real<Real>> struct line_sample { Real t, along_x, along_y; };
 
 /// A texel along a line's direction, and the place on its line, in [0, 1].
-template <class Real, class = require_real<Real>> struct line_place { Real texel, place; };
+template <class Real, class = require_real<Real>> struct line_sample_place { Real texel, place; };
 
 /// The vertex at the time of the segment, moved against it while the place goes from 0 to 1: shutter open stands for
 /// place 0, shutter close for place 1. The units are those of x / w.
@@ -8621,9 +8622,10 @@ GNOMON_INLINE constexpr moving_vertex<Real> line_sample_vertex(moving_vertex<Rea
 /// Domain: positions in [-65536, 65536].
 /// NaN: place 0.
 /// Error: exact for positions not below 0; else 2^-p.
-template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr line_place<Real> line_place_of(Real x)
+template <class Real, class = require_real<Real>>
+GNOMON_INLINE constexpr line_sample_place<Real> line_sample_place_of(Real x)
 {
-    line_place<Real> r;
+    line_sample_place<Real> r;
     r.texel = texel_below(x);
     r.place = saturate_or_zero(x - r.texel);
     return r;
@@ -8638,8 +8640,8 @@ template <class Real, class = require_real<Real>> GNOMON_INLINE constexpr line_p
 /// Error: exact if two opposite points agree; else 8 2^-p.
 /// Source: Gribel 2011
 template <class Real, class = require_real<Real>>
-GNOMON_INLINE constexpr Real crossed_lines_intensity(Real up, Real down, Real left, Real right, Real share_x,
-                                                     Real share_y)
+GNOMON_INLINE constexpr Real line_sample_intensity(Real up, Real down, Real left, Real right, Real share_x,
+                                                   Real share_y)
 {
     Real a = saturate_or_zero(up);
     Real b = saturate_or_zero(down);

@@ -682,9 +682,10 @@ depth_piece moving_depth_piece(moving_triangle m, gnomon_moving_edges e, float b
 // lines along x and one along y are crossed: of the four points at the receiver's x on the lines above and below, and
 // at its y on the lines to the left and to the right,
 //
-//     at = line_place_of(x);   texel at.texel of the row below y - 1/2, and of the next, along x, and so for y
+//     at = line_sample_place_of(x);      texel at.texel of the row below y - 1/2, and of the next, along x, and so for
+// y
 //     hidden = range_intensity(range, at.place, z, id, bias);        the greatest of the texel's list
-//     intensity = crossed_lines_intensity(up, down, left, right, share_x, share_y);
+//     intensity = line_sample_intensity(up, down, left, right, share_x, share_y);
 #ifndef GNOMON_MOTION_RECEIVER_LINE_SAMPLE_H
 #define GNOMON_MOTION_RECEIVER_LINE_SAMPLE_H
 
@@ -693,7 +694,7 @@ depth_piece moving_depth_piece(moving_triangle m, gnomon_moving_edges e, float b
 struct line_sample { float t, along_x, along_y; };
 
 /// A texel along a line's direction, and the place on its line, in [0, 1].
-struct gnomon_line_place { float texel, place; };
+struct line_sample_place { float texel, place; };
 
 /// The vertex at the time of the segment, moved against it while the place goes from 0 to 1: shutter open stands for
 /// place 0, shutter close for place 1. The units are those of x / w.
@@ -723,9 +724,9 @@ gnomon_moving_vertex line_sample_vertex(gnomon_moving_vertex v, line_sample segm
 /// Domain: positions in [-65536, 65536].
 /// NaN: place 0.
 /// Error: exact for positions not below 0; else 2^-p.
-gnomon_line_place line_place_of(float x)
+line_sample_place line_sample_place_of(float x)
 {
-    gnomon_line_place r;
+    line_sample_place r;
     r.texel = texel_below(x);
     r.place = saturate_or_zero(x - r.texel);
     return r;
@@ -739,7 +740,7 @@ gnomon_line_place line_place_of(float x)
 /// NaN: 0 for the point, and 0 for a share.
 /// Error: exact if two opposite points agree; else 8 2^-p.
 /// Source: Gribel 2011
-float crossed_lines_intensity(float up, float down, float left, float right, float share_x, float share_y)
+float line_sample_intensity(float up, float down, float left, float right, float share_x, float share_y)
 {
     float a = saturate_or_zero(up);
     float b = saturate_or_zero(down);

@@ -640,16 +640,17 @@ fn moving_depth_piece(m: moving_triangle, e: gnomon_moving_edges, begin: f32, en
 // lines along x and one along y are crossed: of the four points at the receiver's x on the lines above and below, and
 // at its y on the lines to the left and to the right,
 //
-//     at = line_place_of(x);   texel at.texel of the row below y - 1/2, and of the next, along x, and so for y
+//     at = line_sample_place_of(x);      texel at.texel of the row below y - 1/2, and of the next, along x, and so for
+// y
 //     hidden = range_intensity(range, at.place, z, id, bias);        the greatest of the texel's list
-//     intensity = crossed_lines_intensity(up, down, left, right, share_x, share_y);
+//     intensity = line_sample_intensity(up, down, left, right, share_x, share_y);
 
 /// The time t of a line segment, and its extent: (1, 0) is along x and one texel long, (0, 1) along y. The middle is
 /// the centre of the texel.
 struct line_sample { t: f32, along_x: f32, along_y: f32 }
 
 /// A texel along a line's direction, and the place on its line, in [0, 1].
-struct gnomon_line_place { texel: f32, place: f32 }
+struct line_sample_place { texel: f32, place: f32 }
 
 /// The vertex at the time of the segment, moved against it while the place goes from 0 to 1: shutter open stands for
 /// place 0, shutter close for place 1. The units are those of x / w.
@@ -679,9 +680,9 @@ fn line_sample_vertex(v: gnomon_moving_vertex, segment: line_sample) -> gnomon_m
 /// Domain: positions in [-65536, 65536].
 /// NaN: place 0.
 /// Error: exact for positions not below 0; else 2^-p.
-fn line_place_of(x: f32) -> gnomon_line_place
+fn line_sample_place_of(x: f32) -> line_sample_place
 {
-    var r: gnomon_line_place;
+    var r: line_sample_place;
     r.texel = texel_below(x);
     r.place = saturate_or_zero(x - r.texel);
     return r;
@@ -695,7 +696,7 @@ fn line_place_of(x: f32) -> gnomon_line_place
 /// NaN: 0 for the point, and 0 for a share.
 /// Error: exact if two opposite points agree; else 8 2^-p.
 /// Source: Gribel 2011
-fn crossed_lines_intensity(up: f32, down: f32, left: f32, right: f32, share_x: f32, share_y: f32) -> f32
+fn line_sample_intensity(up: f32, down: f32, left: f32, right: f32, share_x: f32, share_y: f32) -> f32
 {
     let a = saturate_or_zero(up);
     let b = saturate_or_zero(down);

@@ -106,7 +106,7 @@ TEST_CASE("line_sample: a line sees what samples along it see, in perspective, t
     }));
 }
 
-TEST_CASE("crossed_lines_intensity: where two opposite points agree, a straight edge leaves no error")
+TEST_CASE("line_sample_intensity: where two opposite points agree, a straight edge leaves no error")
 {
     CHECK(rc::check("of a half-plane", [](std::uint64_t seed) {
         bit_source bits(seed);
@@ -115,7 +115,7 @@ TEST_CASE("crossed_lines_intensity: where two opposite points agree, a straight 
         const auto shadow = [&](double x, double y) { return a * x + b * y < c ? 1.0 : 0.0; };
         const double x = bits.uniform(0, 1), y = bits.uniform(0, 1);
         const double up = shadow(x, 0), down = shadow(x, 1), left = shadow(0, y), right = shadow(1, y);
-        const double found = crossed_lines_intensity(up, down, left, right, x, y);
+        const double found = line_sample_intensity(up, down, left, right, x, y);
         const double between = (up * (1 - y) + down * y + left * (1 - x) + right * x) / 2;
         if (up == down || left == right) RC_ASSERT(found == shadow(x, y));
         else RC_ASSERT(std::abs(found - between) <= 8 * 0x1p-53);
@@ -128,18 +128,18 @@ TEST_CASE_TEMPLATE("line_sample: places are on their texels; what is unknown is 
     bit_source bits(73);
     for (std::int64_t i = 0; i < effort(10'000); ++i) {
         const T x = T(bits.uniform(-100, 1000));
-        const line_place<T> at = line_place_of(x);
+        const line_sample_place<T> at = line_sample_place_of(x);
         CHECK((at.place >= 0 && at.place <= 1 && at.texel == std::floor(x)));
         const wide error = std::abs(wide(at.texel) + wide(at.place) - wide(x));
         CHECK(error <= (x < 0 ? rounding<T> : wide(0)));
     }
-    CHECK(line_place_of(nan).place == 0);
+    CHECK(line_sample_place_of(nan).place == 0);
     hostile_source<T> source(74);
     for (std::int64_t i = 0; i < effort(100'000); ++i) {
         const auto v = source.draw();
-        const T r = crossed_lines_intensity(v[0], v[1], v[2], v[3], v[4], v[5]);
+        const T r = line_sample_intensity(v[0], v[1], v[2], v[3], v[4], v[5]);
         REQUIRE((r >= 0 && r <= 1));
     }
-    CHECK(crossed_lines_intensity(nan, nan, T(1), T(1), T(0.5), T(0.5)) == 0);
-    CHECK(crossed_lines_intensity(T(1), nan, T(0), T(1), T(0), nan) == T(0.5));
+    CHECK(line_sample_intensity(nan, nan, T(1), T(1), T(0.5), T(0.5)) == 0);
+    CHECK(line_sample_intensity(T(1), nan, T(0), T(1), T(0), nan) == T(0.5));
 }

@@ -14,9 +14,9 @@
 // along x and one along y are crossed: of the four points at the receiver's x on the lines above and below, and at its y
 // on the lines to the left and to the right,
 //
-//     at = line_place_of(x);   texel at.texel of the row below y - 1/2, and of the next, along x, and so for y
+//     at = line_sample_place_of(x);      texel at.texel of the row below y - 1/2, and of the next, along x, and so for y
 //     hidden = range_intensity(range, at.place, z, id, bias);        the greatest of the texel's list
-//     intensity = crossed_lines_intensity(up, down, left, right, share_x, share_y);
+//     intensity = line_sample_intensity(up, down, left, right, share_x, share_y);
 #ifndef GNOMON_MOTION_RECEIVER_LINE_SAMPLE_H
 #define GNOMON_MOTION_RECEIVER_LINE_SAMPLE_H
 #include "../../numerics/texel_filter.h"
@@ -28,7 +28,7 @@ GNOMON_NAMESPACE_BEGIN
 GNOMON_STRUCT(line_sample) { Real t, along_x, along_y; };
 
 /// A texel along a line's direction, and the place on its line, in [0, 1].
-GNOMON_STRUCT(line_place) { Real texel, place; };
+GNOMON_STRUCT(line_sample_place) { Real texel, place; };
 
 /// The vertex at the time of the segment, moved against it while the place goes from 0 to 1: shutter open stands for
 /// place 0, shutter close for place 1. The units are those of x / w.
@@ -58,9 +58,9 @@ GNOMON_KERNEL GNOMON_T(moving_vertex) line_sample_vertex(GNOMON_T(moving_vertex)
 /// Domain: positions in [-65536, 65536].
 /// NaN: place 0.
 /// Error: exact for positions not below 0; else 2^-p.
-GNOMON_KERNEL GNOMON_T(line_place) line_place_of(Real x)
+GNOMON_KERNEL GNOMON_T(line_sample_place) line_sample_place_of(Real x)
 {
-    GNOMON_T(line_place) r;
+    GNOMON_T(line_sample_place) r;
     r.texel = texel_below(x);
     r.place = saturate_or_zero(x - r.texel);
     return r;
@@ -74,7 +74,7 @@ GNOMON_KERNEL GNOMON_T(line_place) line_place_of(Real x)
 /// NaN: 0 for the point, and 0 for a share.
 /// Error: exact if two opposite points agree; else 8 2^-p.
 /// Source: Gribel 2011
-GNOMON_KERNEL Real crossed_lines_intensity(Real up, Real down, Real left, Real right, Real share_x, Real share_y)
+GNOMON_KERNEL Real line_sample_intensity(Real up, Real down, Real left, Real right, Real share_x, Real share_y)
 {
     Real a = saturate_or_zero(up);
     Real b = saturate_or_zero(down);

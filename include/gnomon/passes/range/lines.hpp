@@ -33,7 +33,7 @@ template <class Map, class T>
 neighbour_lines<T> neighbours_of(const Map& map, line_axis axis, const line_receiver<T>& r)
 {
     const bool rows = axis == line_axis::x;
-    const line_place<T> at = line_place_of(rows ? r.x : r.y);
+    const line_sample_place<T> at = line_sample_place_of(rows ? r.x : r.y);
     const T across = (rows ? r.y : r.x) - T(0.5), line = texel_below(across);
     const auto hidden = [&](T beside) {
         const T column = rows ? at.texel : beside, row = rows ? beside : at.texel;
@@ -58,14 +58,14 @@ template <class Map, class T> T line_intensity(const Map& map, line_axis axis, c
 /// Shadow intensity in [0, 1] by lines along x and lines along y of the same instant. Lines along y are read only where
 /// those along x disagree.
 /// NaN: 0, lit.
-/// Error: that of crossed_lines_intensity.
+/// Error: that of line_sample_intensity.
 template <class Map, class T>
 T crossed_intensity(const Map& along_x, const Map& along_y, const line_receiver<T>& receiver)
 {
     const auto rows = detail::neighbours_of(along_x, line_axis::x, receiver);
     if (rows.first == rows.second) return rows.first;
     const auto columns = detail::neighbours_of(along_y, line_axis::y, receiver);
-    return crossed_lines_intensity(rows.first, rows.second, columns.first, columns.second, columns.share, rows.share);
+    return line_sample_intensity(rows.first, rows.second, columns.first, columns.second, columns.share, rows.share);
 }
 
 GNOMON_NAMESPACE_END
