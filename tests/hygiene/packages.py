@@ -111,7 +111,7 @@ def code(language, text, kernels, folder, names, include=None):
     if not route.writes:
         return {}
     if route.compiler[0] == "glslangValidator":
-        return spirv_functions(output, names.plain)
+        return spirv_functions(output, names.plain, validated=bool(include))
     return llvm_functions(names.plain(output.read_text()))
 
 
@@ -121,10 +121,12 @@ def llvm_functions(text):
             ((body, re.search(r"@(\w+)\(", body)) for body in re.findall(r"^define .*?^}", text, re.MULTILINE | re.DOTALL))}
 
 
-def spirv_functions(path, plain):
-    """Functions by name; in each, types and constants are spelled out, and ids counted from 0."""
+def spirv_functions(path, plain, validated):
+    """Functions by name; in each, types and constants are spelled out, and ids counted from 0. The headers' module is validated,
+    which takes most of the time, and functions of packages are the same."""
     optimised = path.with_suffix(".opt")
-    subprocess.run(["spirv-opt", *SPIRV_PASSES, str(path), "-o", str(optimised)], check=True)
+    options = [] if validated else ["--skip-validation"]
+    subprocess.run(["spirv-opt", *options, *SPIRV_PASSES, str(path), "-o", str(optimised)], check=True)
     run = subprocess.run(["spirv-dis", "--raw-id", "--no-color", "--no-indent", "--no-header", str(optimised)],
                          check=True, capture_output=True, text=True)
     head, *functions = re.split(r"\n(?=%\d+ = OpFunction )", run.stdout)
