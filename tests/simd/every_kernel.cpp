@@ -41,60 +41,75 @@ struct exchange {
     }
 };
 
-struct kernel_shape {
+// Functions are called by pointers: code around each kernel takes minutes to compile.
+template <class T> using kernel_run = void (*)(std::size_t blocks, const T* in, T* out);
+
+template <class T> struct tested_kernel {
     const char* name;
     std::size_t inputs, outputs;
     const char* families;
+    kernel_run<T> scalars, packs; // no packs where the target has none
 };
 
-template <class Real, class T, class Run>
-void compare(exchange& x, const kernel_shape& k, const std::vector<T>& in, const std::vector<T>& expected, Run run)
+#if defined(GNOMON_TEST_HOST)
+template <class T> using tested_pack = T;
+#elif defined(GNOMON_TEST_STD_SIMD)
+template <class T> using tested_pack = pack<std::experimental::native_simd<T>>;
+#elif defined(GNOMON_SIMD_XSIMD_HPP)
+template <class T, bool = has_batch<T>> struct pack_or_scalar {
+    using type = pack<xsimd::batch<T>>;
+};
+template <class T> struct pack_or_scalar<T, false> {
+    using type = T;
+};
+template <class T> using tested_pack = typename pack_or_scalar<T>::type;
+#else
+template <class T> using tested_pack = T;
+#endif
+
+template <class T>
+void compare(exchange& x, const tested_kernel<T>& k, const std::string& real, kernel_run<T> run,
+             const std::vector<T>& in, const std::vector<T>& expected)
 {
     std::vector<T> out(expected.size());
-    run.template operator()<Real>(in.data(), out.data());
+    run(blocks, in.data(), out.data());
     std::size_t differ = 0, first = 0;
     for (std::size_t i = out.size(); i-- > 0;)
         if (!alike(out[i], expected[i])) ++differ, first = i;
     ++x.compared, x.wrong += differ > 0;
     if (differ == 0) return;
-    std::printf("%s, %s: %zu of %zu results differ; first %a, not %a, of", k.name, real_name<Real>().c_str(), differ,
-                out.size(), double(out[first]), double(expected[first]));
+    std::printf("%s, %s: %zu of %zu results differ; first %a, not %a, of", k.name, real.c_str(), differ, out.size(),
+                double(out[first]), double(expected[first]));
     const std::size_t block = first / (block_rows * k.outputs), row = first % block_rows;
     for (std::size_t j = 0; j < k.inputs; ++j)
         std::printf(" %a", double(in[(block * k.inputs + j) * block_rows + row]));
     std::printf("\n");
 }
 
-/// run.operator()<Real>(in, out) calls the kernel for Real.
-template <class T, class Run> void exchange_rows(exchange& x, const kernel_shape& k, Run run)
+template <class T> void exchange_rows(exchange& x, const tested_kernel<T>& k)
 {
     std::vector<T> in(blocks * block_rows * k.inputs), out(blocks * block_rows * k.outputs);
     if (x.write) {
         kernel_inputs<T>(k.name, k.families, k.inputs).draw(blocks, in.data());
-        run.template operator()<T>(in.data(), out.data());
+        k.scalars(blocks, in.data(), out.data());
     }
     x.pass(in), x.pass(out);
-#if !defined(GNOMON_TEST_HOST)
     if (x.write) return;
-    compare<T>(x, k, in, out, run);
+    compare(x, k, real_name<T>(), k.scalars, in, out);
     const flushed_denormals flushed;
-    if constexpr (packs_flush) run.template operator()<T>(in.data(), out.data());
-#if defined(GNOMON_TEST_STD_SIMD)
-    compare<pack<std::experimental::native_simd<T>>>(x, k, in, out, run);
-#elif defined(GNOMON_SIMD_XSIMD_HPP)
-    if constexpr (has_batch<T>) compare<pack<xsimd::batch<T>>>(x, k, in, out, run);
-#endif
-#endif
+    if constexpr (packs_flush) k.scalars(blocks, in.data(), out.data());
+    if constexpr (!std::is_same_v<tested_pack<T>, T>) compare(x, k, real_name<tested_pack<T>>(), k.packs, in, out);
 }
 
 template <class T> void exchange_kernels(exchange& x)
 {
-#define EXCHANGE_KERNEL(name, inputs, outputs, families, unit)                                    \
-    exchange_rows<T>(x, {#name, inputs, outputs, families}, []<class Real>(const T* in, T* out) { \
-        kernel_call<Real, &gnomon::name<Real>>::run(blocks, in, out);                             \
-    });
-    GNOMON_FOR_EACH_KERNEL(EXCHANGE_KERNEL)
-#undef EXCHANGE_KERNEL
+#define RUN(Real, name) &kernel_call<Real, &gnomon::name<Real>>::run
+#define ENTRY(name, inputs, outputs, families, unit) \
+    {#name, inputs, outputs, families, RUN(T, name), RUN(tested_pack<T>, name)},
+    static constexpr tested_kernel<T> kernels[] = {GNOMON_FOR_EACH_KERNEL(ENTRY)};
+#undef ENTRY
+#undef RUN
+    for (const tested_kernel<T>& k : kernels) exchange_rows(x, k);
 }
 
 } // namespace
