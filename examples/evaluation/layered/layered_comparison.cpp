@@ -48,7 +48,7 @@ std::vector<const layered_method*> layered_methods()
     std::vector<const layered_method*> result;
     for (const method* m : methods_in_order())
         if (const auto* one = dynamic_cast<const layered_method*>(m)) result.push_back(one);
-    // What is exact comes first: others are compared with it.
+    // The exact method comes first, since others are compared with it.
     std::stable_partition(result.begin(), result.end(), [](const layered_method* m) { return m->id == exact_method; });
     if (result.empty() || result.front()->id != exact_method) throw std::logic_error("no exact visibility");
     return result;

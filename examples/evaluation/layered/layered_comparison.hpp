@@ -25,7 +25,7 @@ struct layered_sizes {
 };
 layered_sizes layered_sizes_of(const settings& how);
 
-// One variant of a method, at one constant bias beyond the slope's.
+// A variant of a method, at a constant bias beyond the slope's.
 struct layered_result {
     const layered_method* method;
     const layered_variant* variant;

@@ -1,5 +1,5 @@
-// What layers cost where nothing moves, against a plain map; and what layers, slices and ranges cost by the number of cubes
-// that move and by their speed.
+// Costs of layers where nothing moves, against a plain map; and costs of layers, slices and ranges by the number of cubes that
+// move and by their speed.
 #pragma once
 
 #include "evaluation/core/blocks.hpp"

@@ -1,4 +1,4 @@
-// How stochastic shadows change from frame to frame, beyond what changes in the reference.
+// Changes of stochastic shadows from frame to frame, beyond those of the reference.
 #pragma once
 
 #include "evaluation/core/blocks.hpp"

@@ -1,4 +1,4 @@
-// What was set out for, and what was found.
+// Goals, and what was found.
 #include "evaluation/motion/words.hpp"
 #include "layered_page.hpp"
 

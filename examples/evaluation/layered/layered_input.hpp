@@ -1,5 +1,5 @@
-// What methods make their maps from: samples of what the light sees, by a seed, and maps of ranges. Each is made once,
-// when it is first needed, and kept with its time.
+// The input of methods: samples of what the light sees, by a seed, and maps of ranges. Each is made when it is first needed,
+// and kept with the time that it took.
 #pragma once
 
 #include "evaluation/motion/map_source.hpp"

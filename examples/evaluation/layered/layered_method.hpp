@@ -15,7 +15,7 @@
 
 namespace gnomon::evaluation {
 
-// What look-ups read. Look-ups bias depths themselves: receivers hold none, but their slopes.
+// A map that look-ups read. They bias depths by the slopes of receivers, whose depths have no bias.
 class layered_map {
   public:
     virtual ~layered_map() = default;
@@ -73,7 +73,7 @@ class layered_method : public method {
 // The parameter, or another value where there is none.
 double value_of(const parameters& some, const std::string& name, double otherwise);
 
-// What several files of methods share: families, a kind of map each, and the receivers of rows.
+// Shared by files of methods: families, a kind of map each, and the receivers of rows.
 inline const registered<family> deep_family{
     family{.id = "deep", .label = "deep shadow maps", .order = 220, .colour = "#9467bd"}};
 inline const registered<family> layers_family{

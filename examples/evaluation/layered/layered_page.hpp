@@ -29,7 +29,7 @@ const layered_result* best_of(const compared_layers& scene, const family& of, st
 // Pictures, pictures of errors and all numbers of a scene.
 void add_scene_blocks(const compared_layers& scene, std::vector<block>& to);
 
-// What the paper and this project set out for, and what was found.
+// Goals of the paper and of this project, and what was found.
 table_block goals_of(compared_scenes scenes, const static_costs& still);
 
 // Standard deviations over seeds, with the camera's noise and without, and bias apart.

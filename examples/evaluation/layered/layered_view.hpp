@@ -1,4 +1,4 @@
-// What a scene's camera sees: the reference, its pixels and penumbrae, and samples with their receivers, of one seed after
+// The view of a scene's camera: the reference, its pixels and penumbrae, and samples with their receivers, of one seed after
 // the other.
 #pragma once
 

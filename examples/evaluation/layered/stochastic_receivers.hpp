@@ -45,7 +45,7 @@ struct camera_samples {
     double camera_ms; // of one core
 };
 
-// What a camera sees by so many samples in each pixel.
+// The samples of a camera, so many in each pixel, and what they see.
 camera_samples camera_samples_of(const renderer::moving_stage& stage, int width, int height, int each,
                                  std::uint32_t seed);
 

@@ -21,7 +21,7 @@ inline const registered<family> slices_family{
 inline const registered<map_kind> slices_kind{
     map_kind{.id = "time_slices", .label = "stochastic shadow maps", .order = 130}};
 
-// What a texel keeps of its sample decides the depth bias: slice_depth for the receiver's slope, slice_motion for the
+// Slices of samples. The kind of texel decides the depth bias: slice_depth for the receiver's slope, slice_motion for the
 // dynamic bias of Andersson et al., (12), and time_dependent_sample for slope and motion.
 template <class Texel> struct time_slices_map {
     int resolution = 0, slices = 0;

@@ -39,7 +39,7 @@ struct bias_result {
     const sweep_point& best() const { return *std::ranges::min_element(sweep, {}, &sweep_point::rmse); }
 };
 
-// One number of samples of map and camera.
+// Results for a number of samples of map and camera.
 struct count_result {
     int samples;
     double shadow_ms, camera_ms;
