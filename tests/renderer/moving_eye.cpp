@@ -1,6 +1,9 @@
 // A camera that moves: its segments and samples against rays through the same pixel at the same time, its photograph
-// against photographs of cameras that stand still, and all of them where the world moves along.
+// against photographs of cameras that stand still, and all of them where the world moves along. Pixels that are traced at one
+// time only.
 #include "moving_boxes.hpp"
+#include "renderer/scene/layered_stages.hpp"
+#include "renderer/scene/moving_stages.hpp"
 #include "renderer/shade/moving_view.hpp"
 #include "renderer/trace/tracer.hpp"
 
@@ -9,8 +12,10 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 using namespace gnomon;
 using namespace gnomon::renderer;
@@ -131,4 +136,37 @@ TEST_CASE("where the world and the light move along with the camera, nothing mov
     }
     CHECK(seen > width * height / 2);
     CHECK(different < width * height / 50); // outlines of surfaces and shadows
+}
+
+TEST_CASE("a pixel that is traced once is one that looks the same at all times")
+{
+    constexpr int times = 64;
+    for (const moving_stage& stage :
+         {random_cubes(double(width) / height, 100, 0.5f), moving_eye(double(width) / height)}) {
+        const tracer rays(stage.world);
+        const reference_picture photograph = rays.photograph(stage.light, stage.eye, width, height, times);
+        int changing = 0, different = 0;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                int covered = 0, lit = 0;
+                for (int k = 0; k < times; ++k) {
+                    const float t = (static_cast<float>(k) + 0.5f) / times;
+                    const hit seen = rays.first_hit(
+                        ray_through(stage.eye.at(double(t)), {(x + 0.5) / width, (y + 0.5) / height}), t);
+                    if (!seen.valid()) continue;
+                    const std::array<receiver, 1> from{receiver{seen.position, seen.normal}};
+                    std::array<float, 1> visible{};
+                    rays.visibility(stage.light, from, std::vector<float>{t}, visible);
+                    const glm::dvec3 light = direction_towards(stage.light.at(double(t)), glm::dvec3(seen.position));
+                    ++covered, lit += visible[0] > 0 && glm::dot(light, glm::dvec3(seen.normal)) > 0;
+                }
+                const float share = covered > 0 ? static_cast<float>(lit) / static_cast<float>(covered) : 1;
+                changing += 0 < share && share < 1;
+                // A part of the times may change within itself at both ends of each interval.
+                different += std::abs(photograph.coverage(x, y) - static_cast<float>(covered) / times) > 6.f / times;
+                different += covered > times / 2 && std::abs(photograph.visibility(x, y) - share) > 8.f / times;
+            }
+        CHECK(changing > 20);
+        CHECK(different == 0);
+    }
 }

@@ -74,6 +74,13 @@ inline void intersect(RTCScene scene, RTCRayHit& ray, void* data)
     rtcIntersect1(scene, &query.context, &ray);
 }
 
+inline void occlude(RTCScene scene, RTCRay& ray)
+{
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene, &context, &ray);
+}
+
 #else
 
 struct ray_query {
@@ -114,6 +121,8 @@ inline void intersect(RTCScene scene, RTCRayHit& ray, void* data)
     how.context = &query.context;
     rtcIntersect1(scene, &ray, &how);
 }
+
+inline void occlude(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, &ray); }
 
 #endif
 

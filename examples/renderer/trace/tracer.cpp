@@ -51,7 +51,6 @@ tracer::tracer(moving_scene world) : state_(std::make_unique<state>())
     for (std::size_t m = 0; m < all.open.meshes.size(); ++m) {
         const mesh& part = all.open.meshes[m];
         state_->moves.push_back(all.moves(m));
-        if (all.moves(m)) state_->swept.push_back(bounds_of(moving_scene{{"", {part}}, {all.closing[m]}}));
         RTCGeometry geometry = rtcNewGeometry(state_->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
         rtcSetGeometryTimeStepCount(geometry, all.moves(m) ? 2 : 1);
         upload(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, part.positions);
@@ -64,6 +63,8 @@ tracer::tracer(moving_scene world) : state_(std::make_unique<state>())
     }
     rtcCommitScene(state_->scene.get());
     if (const bounds box = bounds_of(all); !box.empty()) state_->offset = relative_offset * glm::length(box.extent());
+    if (std::ranges::count(state_->moves, true) > 0)
+        state_->swept = std::make_unique<swept_triangles>(state_->device.get(), all, 10 * state_->offset);
     if (const RTCError error = rtcGetDeviceError(state_->device.get()); error != RTC_ERROR_NONE)
         throw std::runtime_error(fmt::format("tracer: Embree error {}", static_cast<int>(error)));
 }

@@ -4,6 +4,7 @@
 #include "embree.hpp"
 #include "ray_packet.hpp"
 #include "renderer/shade/shading.hpp"
+#include "swept_triangles.hpp"
 #include "tracer.hpp"
 
 #include <fmt/format.h>
@@ -54,9 +55,9 @@ inline void check_room(std::size_t receivers, std::size_t results)
 struct tracer::state {
     moving_scene world;
     std::vector<bool> moves;
-    std::vector<bounds> swept; // all places of each mesh that moves
     owned<RTCDevice> device{rtcNewDevice(nullptr)};
     owned<RTCScene> scene;
+    std::unique_ptr<swept_triangles> swept; // of meshes that move; null where none does
     float offset = 0;
 
     // A spot light's ray is the segment up to the light, a directional one has no end.
@@ -85,12 +86,8 @@ struct tracer::state {
         return glm::dot(from.normal, unit(direction));
     }
 
-    // True if no moving mesh comes near the ray: then the ray meets the same point at all times. Boxes are farther away
-    // than the rounding of the test.
-    bool always_alike(const segment& ray) const
-    {
-        return std::ranges::none_of(swept, [&](const bounds& box) { return crosses(ray, box, 10 * offset); });
-    }
+    // True if no triangle of a moving mesh comes near the ray: then the ray meets the same point at all times.
+    bool always_alike(const segment& ray) const { return !swept || !swept->near(ray); }
 
     bool always_alike(const receiver& from, const moving_camera& light) const
     {

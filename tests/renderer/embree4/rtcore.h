@@ -25,3 +25,4 @@ void rtcInitOccludedArguments(RTCOccludedArguments* args);
 void rtcIntersect16(const int* valid, RTCScene scene, RTCRayHit16* rayhit, RTCIntersectArguments* args = nullptr);
 void rtcOccluded16(const int* valid, RTCScene scene, RTCRay16* ray, RTCOccludedArguments* args = nullptr);
 void rtcIntersect1(RTCScene scene, RTCRayHit* rayhit, RTCIntersectArguments* args = nullptr);
+void rtcOccluded1(RTCScene scene, RTCRay* ray, RTCOccludedArguments* args = nullptr);
