@@ -42,6 +42,7 @@ json to_json(const report_row& row)
         if (value) result[name] = *value;
     };
     add("noise", row.noise), add("bias", row.bias);
+    add("noise_beyond_exact", row.noise_beyond_exact);
     add("noise_beyond_camera", row.noise_beyond_camera), add("noise_of_map", row.noise_of_map);
     add("acne_unbiased", row.acne_unbiased);
     add("ns_kernel", row.ns_kernel);

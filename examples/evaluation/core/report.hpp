@@ -34,7 +34,8 @@ struct report_row {
     double bytes_per_texel = 0;
     double map_bytes = 0;
     error_statistics errors{};
-    std::optional<double> noise{}, bias{}; // standard deviation over seeds, and mean error over them
+    std::optional<double> noise{}, bias{};      // standard deviation over seeds, and mean error over them
+    std::optional<double> noise_beyond_exact{}; // of the difference from exact visibility over the same parts of time
     std::optional<double>
         noise_beyond_camera{};             // left with exact visibility at the camera's times as a control variate
     std::optional<double> noise_of_map{};  // with the samples of the camera held

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <list>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -64,6 +65,7 @@ class layers_comparison {
           input_(stage_, size.map_resolution, 0),
           found_{.scene = scene, .motion = scene.motion}
     {
+        found_.map_resolution = size.map_resolution;
         found_.triangles = triangle_numbers(stage_.world.open).count();
         found_.receivers = static_cast<long long>(view_.pixels.size());
         found_.penumbra_pixels = static_cast<long long>(view_.penumbrae.size());
@@ -95,15 +97,14 @@ class layers_comparison {
     {
         const bool rival = (has(v, equal_time) || has(v, equal_memory)) && (found_.motion.has("rivals") || size_.full);
         const bool is_shown = v.scene.empty() ? found_.motion.has("settings") : found_.scene.id == v.scene;
-        const bool setting =
-            has(v, of_settings) &&
-            (size_.full || (is_shown && (m.family == layers_family->id || m.family == slices_family->id)));
+        const bool setting = has(v, of_settings) && (is_shown || size_.full);
         if (!v.without.empty() && found_.motion.has(v.without) && !size_.full) return;
         // Models of depth differ little from the usual one in noise.
         const bool model = m.family == layers_family->id && m.id != usual_layers;
         const int all = model ? std::max(size_.seeds / 2, 2) : size_.seeds;
         const int seeds = has(v, equal_input) ? all : rival || setting ? size_.few_seeds : 0;
-        if (seeds > 0) tracked_.push_back({&m, &v, seeds, m.id != exact_method && !setting, nullptr});
+        if (seeds > 0)
+            tracked_.push_back({&m, &v, seeds, m.id != exact_method && (rival || has(v, equal_input)), nullptr});
     }
 
     int resolution_of(const tracked_variant& t) const
@@ -112,9 +113,9 @@ class layers_comparison {
     }
 
     // The visibility of each segment, and the time of the look-ups where there is no constant bias.
-    std::vector<float> look_up(const tracked_variant& t, double constant, seen_samples& seen, double* ms = nullptr)
+    static std::vector<float> look_up(const tracked_variant& t, double constant, const stochastic_receivers& all,
+                                      double* ms = nullptr)
     {
-        const stochastic_receivers& all = seen.receivers(resolution_of(t));
         std::vector<float> found(all.where.size());
         if (constant == 0) {
             const double spent = seconds_on_one_core([&] { t.map->visibilities(all.where, found); });
@@ -136,15 +137,38 @@ class layers_comparison {
         }
         for (tracked_bias& b : t.biases) {
             double ms = 0;
-            const std::vector<float> segments = look_up(t, b.constant, view_.now(), &ms);
-            const std::vector<float> estimate = view_.of_pixels(view_.now(), segments);
-            if (t.method->id == exact_method) exact_ = estimate;
-            if (seed == 0 || t.method->is_seeded)
-                b.held = seed == 0 ? estimate : view_.of_pixels(view_.first(), look_up(t, b.constant, view_.first()));
-            b.statistics.add(estimate, exact_, b.held);
+            const int texels = resolution_of(t);
+            const std::vector<float> segments = look_up(t, b.constant, view_.now().receivers(texels), &ms);
+            if (t.method->id == exact_method) exact_ = view_.of_penumbrae(view_.now(), segments), over_parts_.clear();
+            if (seed == 0) b.held = view_.of_penumbrae(view_.now(), segments);
+            else if (t.method->is_seeded) {
+                // Neighbours that a look-up draws belong to the map's noise.
+                stochastic_receivers some = view_.in_penumbrae(view_.first(), texels);
+                draw_choices(some, input_.seed);
+                b.held = view_.of_penumbrae(view_.first(), look_up(t, b.constant, some));
+            }
+            b.statistics.add(view_.of_pixels(view_.now(), segments),
+                             {exact_, t.seeds > 1 ? exact_over_parts(t) : exact_, b.held});
             if (b.constant == 0) note(t, seed, ms, segments);
         }
         if (t.method->is_seeded) t.map.reset();
+    }
+
+    // Exact visibility in penumbrae over the parts of time that the map's look-ups average, of this seed of the camera.
+    // Methods that average the same parts share it.
+    const std::vector<float>& exact_over_parts(const tracked_variant& t)
+    {
+        const stochastic_receivers& some = view_.in_penumbrae(view_.now(), resolution_of(t));
+        std::vector<shutter_exposure<float>> parts;
+        for (const stochastic_receiver& r : some.where) parts.push_back(t.map->averaged(r));
+        const auto alike = [](const shutter_exposure<float>& a, const shutter_exposure<float>& b) {
+            return a.begin == b.begin && a.end == b.end;
+        };
+        const auto found = std::ranges::find_if(
+            over_parts_, [&](const auto& one) { return std::ranges::equal(one.first, parts, alike); });
+        if (found != over_parts_.end()) return found->second;
+        std::vector<float> exact = view_.exact_in_penumbrae(view_.now(), some, parts);
+        return over_parts_.emplace_back(std::move(parts), std::move(exact)).second;
     }
 
     // Times, the least of all seeds, and facts and a picture of the first seed.
@@ -185,12 +209,9 @@ class layers_comparison {
         const auto is_part = [&](std::size_t pixel) {
             return pixel % width % stride == 0 && pixel / width % stride == 0;
         };
-        std::vector<char> in_part(seen.segments.size());
-        for (std::size_t pixel = 0; pixel + 1 < seen.first.size(); ++pixel)
-            for (std::size_t i = seen.first[pixel]; i < seen.first[pixel + 1]; ++i) in_part[i] = is_part(pixel);
-        stochastic_receivers some{{}, {}, all.visibility};
-        for (std::size_t i = 0; i < all.where.size(); ++i)
-            if (in_part[all.segments[i]]) some.where.push_back(all.where[i]), some.segments.push_back(all.segments[i]);
+        std::vector<char> in_part(seen.first.size() - 1);
+        for (std::size_t pixel = 0; pixel < in_part.size(); ++pixel) in_part[pixel] = is_part(pixel);
+        stochastic_receivers some = receivers_in(in_part, seen, all);
         std::vector<float> found(some.where.size()), expected;
         std::vector<std::size_t> part;
         for (std::size_t i = 0; i < view_.pixels.size(); ++i)
@@ -230,6 +251,7 @@ class layers_comparison {
             r.row.receivers = found_.receivers;
             r.row.errors = b.statistics.errors();
             r.row.noise = b.statistics.noise(), r.row.bias = b.statistics.bias();
+            r.row.noise_beyond_exact = b.statistics.noise_beyond_exact();
             r.row.noise_beyond_camera = b.statistics.noise_beyond_camera();
             r.row.noise_of_map = b.statistics.noise_of_map();
             const double looked_up = double(view_.now().of.seen.segments.size());
@@ -252,7 +274,9 @@ class layers_comparison {
     layered_input input_;
     compared_layers found_;
     std::vector<tracked_variant> tracked_;
+    // Of this seed of the camera, in penumbrae: at the times of its samples, and over parts of time.
     std::vector<float> exact_;
+    std::list<std::pair<std::vector<shutter_exposure<float>>, std::vector<float>>> over_parts_;
 };
 
 } // namespace
@@ -285,7 +309,11 @@ std::string layered_result::label() const
     return result;
 }
 
-const bias_point& bias_curve::best() const { return *std::ranges::min_element(points, {}, &bias_point::rmse); }
+const bias_point& bias_curve::best() const
+{
+    const double least = std::ranges::min(points, {}, &bias_point::rmse).rmse;
+    return *std::ranges::find_if(points, [&](const bias_point& p) { return p.rmse <= 1.01 * least; });
+}
 
 const layered_result* compared_layers::usual(std::string_view method, bool best_bias) const
 {

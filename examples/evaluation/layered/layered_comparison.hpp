@@ -57,6 +57,7 @@ struct bias_curve {
 struct compared_layers {
     scene_facts scene;
     motion_scene_facts motion;
+    int map_resolution = 0; // of the usual map
     std::size_t triangles = 0;
     long long receivers = 0, penumbra_pixels = 0, samples_of_map = 0;
     double camera_ms = 0, shading_ms = 0; // of one core

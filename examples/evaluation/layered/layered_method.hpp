@@ -6,6 +6,8 @@
 #include "layered_input.hpp"
 #include "stochastic_receivers.hpp"
 
+#include <gnomon/motion/receiver/shutter.h>
+
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -24,6 +26,9 @@ class layered_map {
 
     // The visibility of one receiver after the other, on one thread.
     virtual void visibilities(std::span<const stochastic_receiver> where, std::span<float> result) const = 0;
+
+    // The part of the shutter interval over which a look-up averages visibility: all of it, where not overridden.
+    virtual shutter_exposure<float> averaged(const stochastic_receiver&) const { return {0, 1}; }
 
     // Side lengths of the map, in whose texels receivers have to be.
     int resolution = 0;

@@ -7,11 +7,15 @@
 #include "layered_costs.hpp"
 
 #include <span>
+#include <string>
 #include <vector>
 
 namespace gnomon::evaluation {
 
 using compared_scenes = std::span<const compared_layers>;
+
+// The methods, and how they are measured.
+std::string introduction_of(const layered_sizes& size);
 
 // The method of a family in a scene that has the least RMSE among those of a comparison, at its best constant bias; of
 // those that `may` admits. A null pointer where there is none.

@@ -30,11 +30,14 @@ class seen_samples {
 
     const stochastic_receivers& receivers(int resolution);
 
+    // Those in the pixels that have true in the mask, which is always the same one.
+    const stochastic_receivers& receivers(int resolution, const std::vector<char>& pixels);
+
     camera_samples of;
 
   private:
     const renderer::moving_stage* stage_;
-    std::map<int, stochastic_receivers> receivers_;
+    std::map<int, stochastic_receivers> receivers_, some_;
 };
 
 // The visibility of each segment from that of each receiver.
@@ -51,8 +54,20 @@ class layered_view {
     seen_samples& now() { return held_.size() > 1 ? held_[1] : held_[0]; }
     seen_samples& first() { return held_[0]; }
 
-    // The mean visibility of each of `pixels`.
+    // The mean visibility of each of `pixels`, and of those in penumbrae.
     std::vector<float> of_pixels(const seen_samples& seen, std::span<const float> segments) const;
+    std::vector<float> of_penumbrae(const seen_samples& seen, std::span<const float> segments) const;
+
+    // The receivers of pixels in penumbrae.
+    const stochastic_receivers& in_penumbrae(seen_samples& seen, int resolution) const
+    {
+        return seen.receivers(resolution, is_penumbra_);
+    }
+
+    // The mean visibility of each pixel in penumbrae, by ray tracing: that of a receiver over a part of the shutter
+    // interval, while its point moves with its surface.
+    std::vector<float> exact_in_penumbrae(const seen_samples& seen, const stochastic_receivers& receivers,
+                                          std::span<const shutter_exposure<float>> parts) const;
 
     const renderer::moving_stage& stage;
     const camera_sizes size;
@@ -62,6 +77,8 @@ class layered_view {
     std::vector<float> expected;        // visibility of each of `pixels`
 
   private:
+    renderer::tracer rays_;
+    std::vector<char> is_penumbra_; // of all pixels of the picture
     std::vector<seen_samples> held_;
 };
 

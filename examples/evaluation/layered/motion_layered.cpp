@@ -27,26 +27,6 @@ const motion_scene& scene_of(const char* id)
     return dynamic_cast<const motion_scene&>(registry_of<scene_entry>().at(id));
 }
 
-std::string introduction(const layered_sizes& size)
-{
-    return fmt::format(
-        "A stochastic camera sees each of its samples at a time of its own, and so does a stochastic shadow map. "
-        "<i>Time-dependent shadow maps</i> (Akenine-Möller et al. 2007) compare a sample of the one with one of the "
-        "other that is near in time, which is noisy. <i>Deep shadow maps</i> (Lokovic &amp; Veach 2000) take motion "
-        "for "
-        "transparency. <i>Layered filtered shadow maps</i> (Andersson et al., <i>Filtered Stochastic Shadow Mapping "
-        "Using a Layered Approach</i>, 2015) part the samples of a tile by depth, move those of a layer along their "
-        "mean "
-        "motion to one time, and filter them. <i>Ranges</i> know all times exactly, and over the footprint of a camera "
-        "sample they have no noise at all.\n\n"
-        "Pictures have {} x {} pixels with {} samples each, shadow maps {} x {} texels with 4 samples each where "
-        "nothing else is said. Layers have the settings of the paper: tiles of 4 texels, 12 texels of samples around "
-        "each and 8 texels of a layer. The reference traces {} rays per pixel from the eye, each at a time of its own. "
-        "Methods of equal input are measured with {} seeds of map and camera. Times are those of one core.",
-        size.width, size.height, size.camera_samples, size.map_resolution, size.map_resolution,
-        grouped(size.reference_times), size.seeds);
-}
-
 struct all_results {
     std::vector<compared_layers> scenes;
     compared_frames changes;
@@ -62,7 +42,7 @@ page page_of(const all_results& found, const layered_sizes& size)
                 .summary =
                     "Shadows of what moves for a camera of a few samples per pixel, each at a time of its own: "
                     "time-dependent, deep and layered filtered shadow maps, and ranges over footprints.",
-                .blocks = {text_block{.text = introduction(size)}}};
+                .blocks = {text_block{.text = introduction_of(size)}}};
     const compared_scenes scenes = found.scenes;
     const auto add = [&](block b) { result.blocks.push_back(std::move(b)); };
     add(goals_of(scenes, found.still));

@@ -6,13 +6,12 @@
 namespace gnomon::evaluation {
 
 seed_statistics::seed_statistics(std::span<const float> reference, std::span<const std::size_t> penumbrae)
-    : reference_(reference), penumbrae_(penumbrae)
+    : reference_(reference), penumbrae_(penumbrae), estimate_(reference.size())
 {
-    for (sums* some : {&estimate_, &exact_, &both_, &held_})
-        for (std::vector<double>* one : {&some->a, &some->b, &some->product}) one->resize(reference.size());
+    for (auto* some : {&seen_, &exact_, &both_, &beyond_, &held_}) some->resize(penumbrae.size());
 }
 
-void seed_statistics::add(std::span<const float> estimate, std::span<const float> exact, std::span<const float> held)
+void seed_statistics::add(std::span<const float> estimate, const in_penumbrae& known)
 {
     const error_statistics found = compare(estimate, reference_);
     ++seeds_;
@@ -21,10 +20,11 @@ void seed_statistics::add(std::span<const float> estimate, std::span<const float
         errors_.darkened += found.darkened;
     errors_.max_abs = std::max(errors_.max_abs, found.max_abs),
     errors_.max_dark = std::max(errors_.max_dark, found.max_dark);
-    for (std::size_t i = 0; i < reference_.size(); ++i) {
-        const auto put = [i](sums& to, double a, double b) { to.a[i] += a, to.b[i] += b, to.product[i] += a * b; };
-        const double e = double(estimate[i]), x = double(exact[i]), h = double(held[i]);
-        put(estimate_, e, e), put(exact_, x, x), put(both_, e, x), put(held_, h, h);
+    for (std::size_t i = 0; i < reference_.size(); ++i) estimate_[i].add(double(estimate[i]), double(estimate[i]));
+    for (std::size_t i = 0; i < penumbrae_.size(); ++i) {
+        const double e = double(estimate[penumbrae_[i]]), x = double(known.at_times[i]),
+                     beyond = e - double(known.over_parts[i]), h = double(known.held[i]);
+        seen_[i].add(e, e), exact_[i].add(x, x), both_[i].add(e, x), beyond_[i].add(beyond, beyond), held_[i].add(h, h);
     }
 }
 
@@ -37,18 +37,18 @@ error_statistics seed_statistics::errors() const
     return result;
 }
 
-double seed_statistics::covariance(const sums& of, std::size_t pixel) const
+double seed_statistics::covariance(const sums& of) const
 {
     const double n = seeds_;
-    return (of.product[pixel] - of.a[pixel] * of.b[pixel] / n) / (n - 1);
+    return (of.product - of.a * of.b / n) / (n - 1);
 }
 
-std::optional<double> seed_statistics::mean_covariance(const sums& of) const
+std::optional<double> seed_statistics::mean_covariance(const std::vector<sums>& of) const
 {
-    if (seeds_ < 2 || penumbrae_.empty()) return {};
+    if (seeds_ < 2 || of.empty()) return {};
     double sum = 0;
-    for (const std::size_t pixel : penumbrae_) sum += covariance(of, pixel);
-    return sum / double(penumbrae_.size());
+    for (const sums& pixel : of) sum += covariance(pixel);
+    return sum / double(of.size());
 }
 
 namespace {
@@ -61,12 +61,13 @@ std::optional<double> deviation(const std::optional<double>& variance)
 
 } // namespace
 
-std::optional<double> seed_statistics::noise() const { return deviation(mean_covariance(estimate_)); }
+std::optional<double> seed_statistics::noise() const { return deviation(mean_covariance(seen_)); }
+std::optional<double> seed_statistics::noise_beyond_exact() const { return deviation(mean_covariance(beyond_)); }
 std::optional<double> seed_statistics::noise_of_map() const { return deviation(mean_covariance(held_)); }
 
 std::optional<double> seed_statistics::noise_beyond_camera() const
 {
-    const std::optional<double> estimate = mean_covariance(estimate_), exact = mean_covariance(exact_),
+    const std::optional<double> estimate = mean_covariance(seen_), exact = mean_covariance(exact_),
                                 both = mean_covariance(both_);
     if (!estimate || !(*exact > 0)) return deviation(estimate);
     return deviation(*estimate - *both * *both / *exact);
@@ -77,8 +78,8 @@ std::optional<double> seed_statistics::bias() const
     if (seeds_ < 2) return {};
     double sum = 0;
     for (std::size_t i = 0; i < reference_.size(); ++i) {
-        const double error = estimate_.a[i] / seeds_ - double(reference_[i]);
-        sum += error * error - covariance(estimate_, i) / seeds_;
+        const double error = estimate_[i].a / seeds_ - double(reference_[i]);
+        sum += error * error - covariance(estimate_[i]) / seeds_;
     }
     return std::sqrt(std::max(0.0, sum / double(reference_.size())));
 }

@@ -31,50 +31,14 @@ float random_number(std::uint32_t index, std::uint32_t seed)
     return float((x ^ (x >> 15)) >> 8) * 0x1p-24f;
 }
 
-// A point of a triangle while the shutter is open: it is at the place at time t.
-seen_segment followed(const moving_scene& world, const triangle_place& which, const seen_segment& sample)
-{
-    const auto& part = world.open.meshes[which.mesh];
-    const glm::uvec3& index = part.triangles[which.triangle];
-    std::array<glm::dvec3, 3> open, closing, now;
-    for (int i = 0; i < 3; ++i) {
-        const auto k = std::size_t(i);
-        open[k] = part.positions[index[i]], closing[k] = world.closing[which.mesh][index[i]];
-        now[k] = glm::mix(open[k], closing[k], double(sample.t0));
-    }
-    const auto normal = [](const std::array<glm::dvec3, 3>& c) { return glm::cross(c[1] - c[0], c[2] - c[0]); };
-    const glm::dvec3 n = normal(now), p(sample.p0);
-    const double area = glm::dot(n, n);
-    std::array<double, 3> weights{1, 0, 0};
-    if (area > 0)
-        for (std::size_t i = 0; i < 3; ++i)
-            weights[i] = glm::dot(n, glm::cross(now[(i + 2) % 3] - now[(i + 1) % 3], p - now[(i + 1) % 3])) / area;
-    glm::dvec3 first(0), last(0);
-    for (std::size_t i = 0; i < 3; ++i) first += weights[i] * open[i], last += weights[i] * closing[i];
-    const glm::dvec3 beside = p - glm::mix(first, last, double(sample.t0)); // of rounding
-    const double side = glm::dot(n, glm::dvec3(sample.n0)) < 0 ? -1 : 1;
-    const auto unit = [&](const std::array<glm::dvec3, 3>& c) {
-        const glm::dvec3 m = side * normal(c);
-        return glm::length(m) > 0 ? glm::vec3(glm::normalize(m)) : sample.n0;
-    };
-    return {0,
-            1,
-            sample.weight,
-            sample.triangle,
-            glm::vec3(first + beside),
-            glm::vec3(last + beside),
-            unit(open),
-            unit(closing)};
-}
-
 class receiver_maker {
   public:
     receiver_maker(const camera_samples& samples, const moving_stage& stage, int resolution)
         : samples_(samples), eye_{stage.eye}, light_(stage.light), resolution_(resolution)
     {}
 
-    // All but the surface.
-    stochastic_receiver operator()(const seen_segment& s, std::uint32_t index) const
+    // All but the surface and the choices.
+    stochastic_receiver operator()(const seen_segment& s) const
     {
         const camera light = light_.at(double(s.t0));
         const glm::dvec3 p(s.p0);
@@ -89,7 +53,6 @@ class receiver_maker {
         r.x0 = float(begin.x), r.y0 = float(begin.y), r.x1 = float(end.x), r.y1 = float(end.y);
         const glm::dvec2 right = pixel_step(light, place, s, 0), down = pixel_step(light, place, s, 1);
         r.right_x = float(right.x), r.right_y = float(right.y), r.down_x = float(down.x), r.down_y = float(down.y);
-        r.choice_x = random_number(2 * index, samples_.seed), r.choice_y = random_number(2 * index + 1, samples_.seed);
         return r;
     }
 
@@ -137,6 +100,41 @@ class receiver_maker {
 
 } // namespace
 
+seen_segment followed(const moving_scene& world, const triangle_place& which, const seen_segment& sample)
+{
+    const auto& part = world.open.meshes[which.mesh];
+    const glm::uvec3& index = part.triangles[which.triangle];
+    std::array<glm::dvec3, 3> open, closing, now;
+    for (int i = 0; i < 3; ++i) {
+        const auto k = std::size_t(i);
+        open[k] = part.positions[index[i]], closing[k] = world.closing[which.mesh][index[i]];
+        now[k] = glm::mix(open[k], closing[k], double(sample.t0));
+    }
+    const auto normal = [](const std::array<glm::dvec3, 3>& c) { return glm::cross(c[1] - c[0], c[2] - c[0]); };
+    const glm::dvec3 n = normal(now), p(sample.p0);
+    const double area = glm::dot(n, n);
+    std::array<double, 3> weights{1, 0, 0};
+    if (area > 0)
+        for (std::size_t i = 0; i < 3; ++i)
+            weights[i] = glm::dot(n, glm::cross(now[(i + 2) % 3] - now[(i + 1) % 3], p - now[(i + 1) % 3])) / area;
+    glm::dvec3 first(0), last(0);
+    for (std::size_t i = 0; i < 3; ++i) first += weights[i] * open[i], last += weights[i] * closing[i];
+    const glm::dvec3 beside = p - glm::mix(first, last, double(sample.t0)); // of rounding
+    const double side = glm::dot(n, glm::dvec3(sample.n0)) < 0 ? -1 : 1;
+    const auto unit = [&](const std::array<glm::dvec3, 3>& c) {
+        const glm::dvec3 m = side * normal(c);
+        return glm::length(m) > 0 ? glm::vec3(glm::normalize(m)) : sample.n0;
+    };
+    return {0,
+            1,
+            sample.weight,
+            sample.triangle,
+            glm::vec3(first + beside),
+            glm::vec3(last + beside),
+            unit(open),
+            unit(closing)};
+}
+
 light_receiver biased_surface(const stochastic_receiver& of, float texels)
 {
     return with_bias(of, texels * of.slope).surface;
@@ -171,7 +169,7 @@ stochastic_receivers stochastic_receivers_of(const camera_samples& samples, cons
         surfaces.segments[i] = followed(stage.world, numbers[s.triangle], s);
         const glm::dvec3 to_light = direction_towards(stage.light.at(double(s.t0)), glm::dvec3(s.p0));
         faces[i] = glm::dot(to_light, glm::dvec3(s.n0)) > 0;
-        if (faces[i]) all[i] = make(s, std::uint32_t(i));
+        if (faces[i]) all[i] = make(s);
     });
     const std::vector<light_receiver> paths = light_receivers_of(surfaces, stage.light, resolution, 0);
     stochastic_receivers result{{}, {}, std::vector<float>(segments.size())};
@@ -182,7 +180,28 @@ stochastic_receivers stochastic_receivers_of(const camera_samples& samples, cons
         result.where.back().surface = paths[i];
         result.segments.push_back(std::uint32_t(i));
     }
+    draw_choices(result, samples.seed);
     return result;
+}
+
+void draw_choices(stochastic_receivers& of, std::uint32_t seed)
+{
+    for (std::size_t i = 0; i < of.where.size(); ++i) {
+        of.where[i].choice_x = random_number(2 * of.segments[i], seed);
+        of.where[i].choice_y = random_number(2 * of.segments[i] + 1, seed);
+    }
+}
+
+stochastic_receivers receivers_in(const std::vector<char>& pixels, const seen_motion& seen,
+                                  const stochastic_receivers& all)
+{
+    std::vector<char> is_in(seen.segments.size());
+    for (std::size_t pixel = 0; pixel < pixels.size(); ++pixel)
+        std::fill(is_in.begin() + seen.first[pixel], is_in.begin() + seen.first[pixel + 1], pixels[pixel]);
+    stochastic_receivers some{{}, {}, all.visibility};
+    for (std::size_t i = 0; i < all.where.size(); ++i)
+        if (is_in[all.segments[i]]) some.where.push_back(all.where[i]), some.segments.push_back(all.segments[i]);
+    return some;
 }
 
 } // namespace gnomon::evaluation

@@ -45,6 +45,10 @@ struct camera_samples {
     double camera_ms; // of one core
 };
 
+// The point of a triangle that the camera has seen at one time, while the shutter is open.
+renderer::seen_segment followed(const renderer::moving_scene& world, const renderer::triangle_place& which,
+                                const renderer::seen_segment& sample);
+
 // The samples of a camera, so many in each pixel, and what they see.
 camera_samples camera_samples_of(const renderer::moving_stage& stage, int width, int height, int each,
                                  std::uint32_t seed);
@@ -58,5 +62,12 @@ struct stochastic_receivers {
 };
 stochastic_receivers stochastic_receivers_of(const camera_samples& samples, const renderer::moving_stage& stage,
                                              int resolution);
+
+// Draws the choices of all receivers, each by the number of its segment.
+void draw_choices(stochastic_receivers& of, std::uint32_t seed);
+
+// The receivers in some of the pixels, each of which has true in the mask.
+stochastic_receivers receivers_in(const std::vector<char>& pixels, const renderer::seen_motion& seen,
+                                  const stochastic_receivers& all);
 
 } // namespace gnomon::evaluation

@@ -42,6 +42,12 @@ class slices final : public layered_map {
         }
     }
 
+    shutter_exposure<float> averaged(const stochastic_receiver& r) const override
+    {
+        const float t = maps_.times[std::size_t(slice_of(r.t, float(maps_.times.size())))];
+        return {t, t};
+    }
+
   private:
     accumulated_maps maps_;
 };

@@ -19,19 +19,24 @@ class layers_of_ranges final : public deep_layers {
 class deep_ranges final : public layered_method {
   public:
     deep_ranges()
-        : layered_method(
-              {.id = "deep_ranges",
-               .family = "deep",
-               .label = "deep, in closed form",
-               .order = 41,
-               .map = deep_kind->id,
-               .format = {"deep_12b", "12 B layers"}},
-              {{.parameters = {{"tolerance", usual_deep_tolerance}},
-                .comparisons = {equal_input, equal_time, equal_memory},
-                .without = "dense"},
-               {.parameters = {{"tolerance", 0}}, .label = "tolerance 0", .comparisons = {of_settings}},
-               {.parameters = {{"tolerance", 0.05}}, .label = "tolerance .05", .comparisons = {of_settings}}},
-              false)
+        : layered_method({.id = "deep_ranges",
+                          .family = "deep",
+                          .label = "deep, in closed form",
+                          .order = 41,
+                          .map = deep_kind->id,
+                          .format = {"deep_12b", "12 B layers"}},
+                         {{.parameters = {{"tolerance", usual_deep_tolerance}},
+                           .comparisons = {equal_input, equal_time, equal_memory},
+                           .without = "dense"},
+                          {.parameters = {{"tolerance", 0}},
+                           .label = "tolerance 0",
+                           .comparisons = {of_settings},
+                           .without = "settings"},
+                          {.parameters = {{"tolerance", 0.05}},
+                           .label = "tolerance .05",
+                           .comparisons = {of_settings},
+                           .without = "settings"}},
+                         false)
     {}
 
     std::unique_ptr<layered_map> build(layered_input& from, const evaluation::parameters& how) const override

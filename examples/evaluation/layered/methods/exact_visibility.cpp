@@ -30,6 +30,8 @@ class traced_light final : public layered_map {
         rays_->visibility(light_, from, times, result);
     }
 
+    shutter_exposure<float> averaged(const stochastic_receiver& r) const override { return {r.t, r.t}; }
+
   private:
     renderer::moving_camera light_;
     std::size_t bytes_ = 0; // of the triangles, without the tracer's tree

@@ -109,6 +109,8 @@ template <layer_format Format> class filtered_layers_map final : public layered_
             result[i] = 1 - layer_intensity<Format>(all, layer_receiver_of(where[i]), look_up_);
     }
 
+    shutter_exposure<float> averaged(const stochastic_receiver& r) const override { return {r.t0, r.t1}; }
+
   private:
     using texel = format_texel<Format>;
 

@@ -27,11 +27,13 @@ const registered<filtered_layers<layer_variance_float>> entry{
          .scene = "tree_in_moving_light"},
         {.parameters = {{"widen", 1}}, .label = "widened by the spread", .comparisons = {of_settings}},
         {.parameters = {{"tile", 8}, {"guard", 16}, {"texels", 8}, {"layers", 2}, {"neighbour", 0}},
-         .label = "in a hurry",
+         .label = "fast preset",
          .comparisons = {of_settings}},
         {.parameters = {{"scale", 2}, {"tile", 8}, {"guard", 16}, {"texels", 16}},
-         .label = "of twice the map",
-         .comparisons = {of_settings}}}};
+         .label = "of twice the map, tiles of 8",
+         .comparisons = {of_settings}},
+        {.parameters = {{"scale", 2}}, .label = "of twice the map", .comparisons = {of_settings}},
+        {.parameters = {{"scale", 0.5}}, .label = "of half the map", .comparisons = {of_settings}}}};
 
 } // namespace
 

@@ -38,14 +38,17 @@ class ranges_over_footprints final : public layered_map {
     {
         const range_map<float> map = ranges_->map();
         for (std::size_t i = 0; i < where.size(); ++i) {
-            const stochastic_receiver& r = where[i];
-            const float count = std::round(0.5f / std::max(r.t - r.t0, r.t1 - r.t));
-            const shutter_exposure<float> during =
-                around_ ? shutter_exposure<float>{r.t0, r.t1} : footprint_stratum(r.t, count);
-            result[i] = while_facing(part_of(biased_surface(r), during), [&](const receiver_path<float>& path) {
+            const light_receiver part = part_of(biased_surface(where[i]), averaged(where[i]));
+            result[i] = while_facing(part, [&](const receiver_path<float>& path) {
                 return 1 - footprint_intensity(map, path, {path.depth.t0, path.depth.t1});
             });
         }
+    }
+
+    shutter_exposure<float> averaged(const stochastic_receiver& r) const override
+    {
+        const float count = std::round(0.5f / std::max(r.t - r.t0, r.t1 - r.t));
+        return around_ ? shutter_exposure<float>{r.t0, r.t1} : footprint_stratum(r.t, count);
     }
 
   private:

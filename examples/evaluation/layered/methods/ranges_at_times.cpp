@@ -23,6 +23,8 @@ class ranges_map final : public layered_map {
             result[i] = visibility_at(map, biased_surface(where[i]), where[i].t);
     }
 
+    shutter_exposure<float> averaged(const stochastic_receiver& r) const override { return {r.t, r.t}; }
+
   private:
     std::shared_ptr<const range_shadow_map> ranges_;
 };

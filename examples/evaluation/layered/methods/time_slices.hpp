@@ -5,6 +5,7 @@
 #include "evaluation/core/timing.hpp"
 #include "evaluation/layered/layered_method.hpp"
 
+#include <gnomon/motion/layers/receiver_footprint.h>
 #include <gnomon/passes/time_dependent.hpp>
 
 #include <memory>
@@ -33,6 +34,11 @@ template <class Texel> class sliced_map final : public layered_map {
             result[i] = 1 - time_dependent_intensity(
                                 map, time_dependent_receiver<float>{r.x, r.y, r.depth, r.t, r.slope}, look_ups_);
         }
+    }
+
+    shutter_exposure<float> averaged(const stochastic_receiver& r) const override
+    {
+        return footprint_stratum(r.t, float(slices_));
     }
 
   private:
