@@ -86,17 +86,26 @@ try {
     std::filesystem::create_directories(how.out / "gallery");
 
     how.model.file = model;
+    const auto is_named = [&](const std::string& id) { return std::ranges::count(names, id) > 0; };
+    // A driver that is named shows the model in place of its scenes, if another one does so for it.
+    const bool from_file = still->count() > 0;
+    const auto is_replaced = [&](const std::string& id) {
+        return from_file && std::ranges::any_of(drivers, [&](const driver* d) { return d->scenes_of == id; });
+    };
+    const bool in_motion = moving->count() > 0 || exposed->count() > 0 || std::ranges::any_of(names, is_replaced);
+    const bool is_own = std::ranges::none_of(names, is_replaced);
     const auto is_asked_for = [&](const driver& d) {
-        const bool in_motion = moving->count() > 0 || exposed->count() > 0, from_file = still->count() > 0;
-        if (d.of == subject::animation) return in_motion;
+        if (d.of == subject::animation) return in_motion && (is_own || is_named(d.scenes_of));
         if (d.of == subject::model) return from_file && !in_motion;
-        return names.empty() ? !from_file : std::ranges::count(names, d.id) > 0;
+        return names.empty() ? !from_file : is_named(d.id) && !is_replaced(d.id);
     };
     std::vector<const driver*> wanted;
     std::ranges::copy_if(drivers, std::back_inserter(wanted), [&](const driver* d) { return is_asked_for(*d); });
     // A model that cannot be read is refused before a driver speaks.
     if (std::ranges::any_of(wanted, [](const driver* d) { return d->of == subject::model; }))
         gnomon::renderer::load_model(model);
+    if (std::ranges::any_of(wanted, [](const driver* d) { return d->of == subject::animation; }))
+        gnomon::renderer::load_animated_model(model, how.model.animation, how.model.shutter[0], how.model.shutter[1]);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         if (wanted.size() > 1) progress(wanted[i]->id, fmt::format("driver {} of {}", i + 1, wanted.size()));
         wanted[i]->run(how);

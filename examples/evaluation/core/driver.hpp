@@ -21,6 +21,7 @@ struct driver {
     double order = 0;
     void (*run)(const settings& how) = nullptr;
     subject of = subject::own;
+    std::string scenes_of{}; // id of the driver whose scenes the model stands in for; none where it is empty
 };
 
 } // namespace gnomon::evaluation

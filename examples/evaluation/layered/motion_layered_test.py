@@ -10,7 +10,9 @@ import unittest
 from pathlib import Path
 
 DEMO, MAKE_GALLERY = sys.argv[1:3]
+MODELS = Path(__file__).parent / "models"
 FIGURES = "pillars", "crossed_quads", "toward_and_away"
+FAMILIES = {"exact_visibility", "accumulation", "time_slices", "deep", "layers", "footprints", "resolved_ranges"}
 EXACT, LAYERS = "exact_visibility", "layered_variance"
 
 
@@ -44,10 +46,9 @@ class MotionLayered(unittest.TestCase):
 
     def test_every_scene_has_every_family(self):
         self.assertGreaterEqual(self.scenes, {*FIGURES, "lit_ramp", "random_cubes", "tentacles", "wrecking_ball", "chess",
-                                              "tree_in_moving_light", "runner"})
-        families = {"exact_visibility", "accumulation", "time_slices", "deep", "layers", "footprints", "resolved_ranges"}
+                                              "tree_in_moving_light", "runner", "walker"})
         for scene in self.scenes:
-            self.assertGreaterEqual({row["family"] for row in self.report if row["scene"] == scene}, families, scene)
+            self.assertGreaterEqual({row["family"] for row in self.report if row["scene"] == scene}, FAMILIES, scene)
         for row in self.report:
             self.assertIn("reference_times", row["parameters"])
             self.assertEqual(row["reference"], "traced")
@@ -64,13 +65,20 @@ class MotionLayered(unittest.TestCase):
         for scene in FIGURES:
             layers = self.usual(scene, LAYERS)
             for slices in ("time_slices", "time_slices_sloped"):
-                for noise in ("noise", "noise_of_map"):
+                for noise in ("noise", "noise_of_map", "noise_beyond_exact"):
                     self.assertLess(layers[noise], 0.8 * self.usual(scene, slices)[noise], (scene, slices, noise))
+
+    def test_layers_have_a_part_of_the_map_s_noise_of_slices(self):
+        for scene, part in zip(FIGURES, (1 / 2, 1 / 3, 1 / 3)):  # a third of larger maps of pillars, too
+            slices = min((rows[0] for rows in (self.rows(scene, f"time_slices{kind}") for kind in ("", "_motion", "_sloped"))),
+                         key=lambda row: row["rmse"])
+            self.assertLess(self.usual(scene, LAYERS)["noise_of_map"], part * slices["noise_of_map"], scene)
 
     def test_footprints_have_no_noise_of_the_map(self):
         for scene in FIGURES:
             row = self.usual(scene, "range_footprints")
             self.assertEqual(row["noise_of_map"], 0, scene)
+            self.assertLess(row["noise_beyond_exact"], 0.1 * self.usual(scene, EXACT)["noise"], scene)
             self.assertLess(row["noise"], 0.6 * self.usual(scene, EXACT)["noise"], scene)
 
     def test_the_lit_ramp_is_lit_where_the_bias_follows_its_motion(self):
@@ -132,6 +140,39 @@ class MotionLayered(unittest.TestCase):
         for error in "rmse", "leak":
             self.assertGreater(biased[error], 1.2 * usual[error])
             self.assertLess(fine[error], 0.97 * usual[error])
+
+    def test_one_scene_has_sweeps_of_samples_and_of_maps(self):
+        def values(method, name, usual):
+            return {row["parameters"].get(name, usual) for row in self.rows("tentacles_from_above", method)}
+
+        for slices in ("time_slices", "time_slices_sloped"):
+            self.assertGreaterEqual(values(slices, "samples", 4), {4, 8, 16, 20, 32})
+        self.assertIn(128, values("deep_samples", "samples", 0))
+        for method in ("time_slices_sloped", LAYERS):
+            self.assertGreaterEqual(values(method, "scale", 1), {0.5, 1, 2})
+        settings = [tuple(row["parameters"].get(name, usual) for name, usual in
+                          (("scale", 1), ("tile", 4), ("guard", 12), ("texels", 8), ("layers", 4)))
+                    for row in self.rows("tentacles_from_above", LAYERS)]
+        for paper_s_or_fast in ((1, 4, 12, 8, 4), (2, 8, 16, 16, 4), (1, 8, 16, 8, 2)):
+            self.assertIn(paper_s_or_fast, settings)
+
+    def test_a_model_stands_in_for_the_scenes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            ended = subprocess.run([DEMO, "motion_layered", "--tiny", "--out", folder, "--model", MODELS / "walker.gltf"],
+                                   capture_output=True, text=True, check=False)
+            self.assertEqual(ended.returncode, 0, ended.stderr)
+            report = json.loads((Path(folder) / "report.json").read_text())
+            self.assertEqual({row["scene"] for row in report}, {"model"})
+            self.assertGreaterEqual({row["family"] for row in report}, FAMILIES)
+            self.assertEqual([path.name for path in (Path(folder) / "gallery").iterdir()], ["layered_model"])
+            facts = json.loads((Path(folder) / "gallery" / "layered_model" / "facts.json").read_text())
+            self.assertIn("moved by its first animation. The shutter opens 0 s", json.dumps(facts))
+
+    def test_the_model_is_what_its_program_writes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            again = Path(folder) / "walker.gltf"
+            subprocess.run([sys.executable, MODELS / "walker.py", again], check=True)
+            self.assertEqual(json.loads(again.read_text()), json.loads((MODELS / "walker.gltf").read_text()))
 
     def test_layers_flicker_less_than_slices(self):
         changes = {row["method"]: row for row in self.report if row["part"] == "change"}

@@ -46,7 +46,8 @@ const registered<driver> entry{driver{.id = "animated_model",
                                       .label = "A model in motion",
                                       .order = 80,
                                       .run = animated_model,
-                                      .of = subject::animation}};
+                                      .of = subject::animation,
+                                      .scenes_of = "motion_analytic"}};
 
 } // namespace
 
