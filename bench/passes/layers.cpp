@@ -7,6 +7,7 @@
 
 #include <map>
 #include <memory>
+#include <tuple>
 
 namespace gnomon::bench {
 
@@ -25,8 +26,8 @@ template <class Format> class layer_work {
     using texel = typename Format::texel;
     static layer_work& get(const layer_settings& settings, moving what)
     {
-        static std::map<std::pair<std::size_t, moving>, std::unique_ptr<layer_work>> all;
-        auto& w = all[{settings.tile, what}];
+        static std::map<std::tuple<std::size_t, std::size_t, std::size_t, moving>, std::unique_ptr<layer_work>> all;
+        auto& w = all[{settings.tile, settings.layers, settings.division, what}];
         if (w == nullptr) w.reset(new layer_work(settings, what));
         return *w;
     }
@@ -178,7 +179,11 @@ bool add_look_ups()
     const auto of = [](moving what, layer_tiles tiles) {
         return [=] { return w::get(quality, what).look_up_in(tiles); };
     };
-    return add("look up where nothing moves against a plain map", of(moving::nothing, layer_tiles::random),
+    const auto converted = [](std::size_t division) {
+        return [=] { return w::get({.layers = 2, .division = division}, moving::squares).convert(); };
+    };
+    return add("convert, divided by motion against whole layers", converted(8), converted(0)) &&
+           add("look up where nothing moves against a plain map", of(moving::nothing, layer_tiles::random),
                [] { return w::get(quality, moving::nothing).look_up_plain(); }) &&
            add("look up where all moves against a plain map", of(moving::all, layer_tiles::random),
                [] { return w::get(quality, moving::nothing).look_up_plain(); }) &&

@@ -6472,8 +6472,8 @@ static inline float layer_exponential_visibility(gnomon_layer_exponential_sums s
 // The motions of a layer's samples vary most along one direction. Their places on it, in standard deviations, are
 // clustered as depths are (layer_clusters.h): equal bins, and a cut at the longest interior run of empty ones. Either
 // part has sums on a grid of its own motion. Both overlap in depth, so that either may hide the other: a sample of one
-// part is no information about the other. A receiver sees the product of the visibilities through both, as through two
-// layers.
+// part tells of the other only if it is behind the middle of that one's depths. A receiver sees the product of the
+// visibilities through both, as through two layers.
 //
 //     state = layer_direction_begin(motion);                                       the layer's motion
 // (layer_motion_end)
@@ -6481,7 +6481,8 @@ static inline float layer_exponential_visibility(gnomon_layer_exponential_sums s
 //     direction = layer_direction_end(state);
 //     window, bins and cuts of keys = layer_direction_key(direction, s) in place of depths, for two layers
 //     part = layer_of(key, cuts)                                                   0 or 1
-//     sums = layer_sums_add(sums, z, layer_share_of_part(at, layer, part, wanted)) for the part `wanted`
+//     share = layer_share_of_part(at, layer, part, wanted, layer_middle_depth(s), centre)
+//     sums = layer_sums_add(sums, z, share)                                        for the part `wanted`
 #ifndef GNOMON_MOTION_LAYERS_LAYER_PARTS_H
 #define GNOMON_MOTION_LAYERS_LAYER_PARTS_H
 
@@ -6577,14 +6578,18 @@ static inline float layer_part_cut(gnomon_layer_runs state, float bins)
 }
 
 /// Opacity and weight, for part number `wanted` of layer number `layer`, of a sample that is in part `part` of layer
-/// `at`. A sample of the other part has neither.
-/// NaN: no weight for an `at` of NaN, or for a `part` of NaN in the layer.
-static inline gnomon_layer_share layer_share_of_part(float at, float layer, float part, float wanted)
+/// `at` at the middle depth `middle`. A sample of the other part has no opacity. It has weight if it is behind
+/// `centre`, the middle of the wanted part's depths: where it is seen, one sees past that part.
+/// NaN: no weight for an `at` of NaN, nor in the layer for a `part`, `middle` or `centre` of NaN. A part below 0 is a
+/// NaN.
+static inline gnomon_layer_share layer_share_of_part(float at, float layer, float part, float wanted, float middle,
+                                                     float centre)
 {
     gnomon_layer_share r = layer_share_of(at, layer);
     bool other = at == layer && !(part == wanted);
+    bool past = centre < middle && 0.0f <= part;
     r.opacity = gnomon_select(other, 0.0f, r.opacity);
-    r.weight = gnomon_select(other, 0.0f, r.weight);
+    r.weight = gnomon_select(other && !past, 0.0f, r.weight);
     return r;
 }
 

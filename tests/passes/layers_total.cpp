@@ -15,7 +15,12 @@ using namespace gnomon::test;
 namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-const std::array<layer_settings, 4> all_settings{{{}, {8, 16, 16}, {4, 4, 1, 4}, {5, 11, 2, 3, false, false}}};
+const std::array<layer_settings, 6> all_settings{{{},
+                                                  {8, 16, 16},
+                                                  {4, 4, 1, 4},
+                                                  {5, 11, 2, 3, false, false},
+                                                  {.layers = 2, .division = 1},
+                                                  {.layers = 1, .division = 20, .centres = true}}};
 
 layer_receiver<float> any_receiver(hostile_source<float>& source, bit_source& bits)
 {
@@ -46,7 +51,7 @@ TEST_CASE_TEMPLATE("any numbers give intensities from 0 to 1", Format, layer_var
                 std::memcpy(reinterpret_cast<char*>(&s) + bits.below(8) * sizeof(float), &any, sizeof(float));
                 if (bits.chance(0.2)) std::memcpy(&s, &any, sizeof s);
             }
-        const layers_of<Format> layers(samples, all_settings[bits.below(4)]);
+        const layers_of<Format> layers(samples, all_settings[bits.below(all_settings.size())]);
         for (int k = 0; k < 40; ++k) {
             const layer_look_up look_up{layer_tiles(bits.below(3)), bits.chance(0.5)};
             const float shadow = layers.intensity(any_receiver(source, bits), look_up);
@@ -147,7 +152,7 @@ TEST_CASE_TEMPLATE("a level surface that moves by any distance, in depth too, do
         const auto time = [&] { return std::clamp(level + reach * float(bits.uniform(-1, 1)), 0.0f, 1.0f); };
         auto samples = sample_quads({{0, 0}, {}}, 14, 11, 3, bits);
         for (auto& s : samples.of) s.t = time(), s.z = (s.t - level) * d_z, s.d_x = d_x, s.d_y = d_y, s.d_z = d_z;
-        const layers_of<Format> layers(samples, all_settings[bits.below(4)]);
+        const layers_of<Format> layers(samples, all_settings[bits.below(all_settings.size())]);
         for (int k = 0; k < 40; ++k) {
             const float t = time();
             const auto r =

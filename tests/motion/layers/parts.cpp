@@ -83,7 +83,7 @@ template <class T> part_map<T> part_of(const sample_list<T>& samples, auto is_in
         const T layer =
             layer_of(layer_middle_depth(s), layer_cuts<T>{T(layer_no_cut), T(layer_no_cut), T(layer_no_cut)});
         texel = layer_sums_add(texel, layer_grid_own_depth(map.grid, s.z, s.t),
-                               layer_share_of_part(layer, T(0), T(is_in(s)), T(1)));
+                               layer_share_of_part(layer, T(0), T(is_in(s)), T(1), s.z, T(0.25)));
     }
     return map;
 }
@@ -141,11 +141,19 @@ TEST_CASE_TEMPLATE("layer parts: one motion is one part; opposite ones are two, 
     sample_list<T> with_nan = opposite;
     with_nan.push_back(moving(double(nan), 0)), with_nan.push_back(stochastic_background(T(0), T(0), T(0)));
     CHECK(direction_of(with_nan).scale == direction_of(opposite).scale);
-    CHECK(layer_share_of_part(T(1), T(1), T(0), T(1)).opacity == 0);
-    CHECK(layer_share_of_part(T(1), T(1), T(0), T(1)).weight == 0);
-    CHECK(layer_share_of_part(T(2), T(1), T(0), T(1)).weight == 1);
-    CHECK(layer_share_of_part(T(0), T(1), T(1), T(1)).weight == 0);
-    CHECK(layer_share_of_part(T(1), T(1), T(1), T(1)).opacity == 1);
+    const auto share = [](T at, T part, T middle) { return layer_share_of_part(at, T(1), part, T(1), middle, T(0.5)); };
+    for (const T middle : {T(0.5), T(0.6)}) {
+        CHECK(share(1, 0, middle).opacity == 0);
+        CHECK(share(1, 0, middle).weight == T(middle > T(0.5)));
+        CHECK(share(2, 0, middle).weight == 1);
+        CHECK(share(0, 1, middle).weight == 0);
+        CHECK(share(1, 1, middle).opacity == 1);
+        CHECK(share(1, 1, middle).weight == 1);
+        CHECK(share(1, nan, middle).weight == 0);
+        CHECK(share(1, -1, middle).weight == 0);
+        CHECK(share(nan, 0, middle).weight == 0);
+    }
+    CHECK(share(1, 0, nan).weight == 0);
 }
 
 TEST_CASE_TEMPLATE("layer parts: bars that pass one another shadow by their times; as one layer they do not", T, float,

@@ -13,84 +13,6 @@ namespace detail {
 template <layer_format Format>
 using square_sums = std::array<format_channels<Format>, layer_most_texels * layer_most_texels + 1>;
 
-/// The motions of one layer in lanes, as of layer_motion_sums.
-struct motion_lanes {
-    static constexpr std::size_t count = sample_batch::lanes;
-    using lanes = std::array<float, count>;
-    layer_motion_sums<float> sums; // first
-    lanes x{}, y{}, z{}, square{}, square_z{}, known{}, least, greatest, least_d, greatest_d;
-
-    explicit motion_lanes(const stochastic_sample<float>& first) : sums(layer_motion_begin(first))
-    {
-        least.fill(sums.least);
-        greatest.fill(sums.greatest);
-        least_d.fill(sums.least_d);
-        greatest_d.fill(sums.greatest_d);
-    }
-    /// Add samples n to n + count - 1 of a batch that are in the layer, as of layer_motion_add.
-    void add(const sample_batch& s, std::size_t n, const layer_cuts<float>& cuts, float layer)
-    {
-        for (std::size_t k = 0; k < count; ++k) {
-            const float d_x = s.d_x[n + k], d_y = s.d_y[n + k], d_z = s.d_z[n + k];
-            const float middle = s.z[n + k] + (0.5f - s.t[n + k]) * d_z;
-            const bool counts = layer_of(s.middle[n + k], cuts) == layer;
-            const float dx = counts ? d_x - sums.first_x : 0;
-            const float dy = counts ? d_y - sums.first_y : 0;
-            const float dz = counts ? d_z - sums.first_z : 0;
-            x[k] += dx;
-            y[k] += dy;
-            z[k] += dz;
-            square[k] += dx * dx + dy * dy;
-            square_z[k] += dz * dz;
-            known[k] += counts ? 1.0f : 0.0f;
-            const float near_z = counts ? middle : least[k], far_z = counts ? middle : greatest[k];
-            const float near_d = counts ? d_z : least_d[k], far_d = counts ? d_z : greatest_d[k];
-            least[k] = near_z < least[k] ? near_z : least[k];
-            greatest[k] = greatest[k] < far_z ? far_z : greatest[k];
-            least_d[k] = near_d < least_d[k] ? near_d : least_d[k];
-            greatest_d[k] = greatest_d[k] < far_d ? far_d : greatest_d[k];
-        }
-    }
-    layer_motion<float> motion() const
-    {
-        layer_motion_sums<float> all = sums;
-        for (std::size_t k = 0; k < count; ++k) {
-            all.x += x[k];
-            all.y += y[k];
-            all.z += z[k];
-            all.square += square[k];
-            all.square_z += square_z[k];
-            all.count += known[k];
-            all.least = (std::min)(all.least, least[k]);
-            all.greatest = (std::max)(all.greatest, greatest[k]);
-            all.least_d = (std::min)(all.least_d, least_d[k]);
-            all.greatest_d = (std::max)(all.greatest_d, greatest_d[k]);
-        }
-        return layer_motion_end(all);
-    }
-};
-
-/// The motion of one layer of a tile.
-inline layer_motion<float> motion_of(window_samples& samples, const layer_cuts<float>& cuts, float layer)
-{
-    stochastic_sample<float> first{};
-    bool found = false;
-    samples.for_each_batch([&](const sample_batch& s) {
-        for (std::size_t k = 0; k < s.count && !found; ++k)
-            if (layer_of(s.middle[k], cuts) == layer) {
-                found = true;
-                first.d_x = s.d_x[k];
-                first.d_y = s.d_y[k];
-                first.d_z = s.d_z[k];
-            }
-    });
-    motion_lanes lanes(first);
-    samples.for_each_batch([&](const sample_batch& s) {
-        for (std::size_t n = 0; n < s.rounded(); n += lanes.count) lanes.add(s, n, cuts, layer);
-    });
-    return lanes.motion();
-}
-
 /// Divide sums by the share of the shutter interval in which the samples of a texel are in the window, at least 1/8.
 template <layer_format Format>
 void even_out(square_sums<Format>& sums, std::size_t side, const layer_grid<float>& g, const tile_window& w)
@@ -146,9 +68,8 @@ template <layer_format Format> void blur_across(square_sums<Format>& sums, std::
 
 /// Fill the largest level of one layer.
 template <layer_format Format>
-void accumulate_layer(window_samples& samples, const layer_settings& settings, const tile_window& w,
-                      const layer_cuts<float>& cuts, float layer, const layer_grid<float>& grid,
-                      format_texel<Format>* texels)
+void accumulate_layer(window_samples& samples, const layer_settings& settings, const tile_window& w, const auto& layer,
+                      const layer_grid<float>& grid, format_texel<Format>* texels)
 {
     const std::size_t side = settings.texels;
     square_sums<Format> sums;
@@ -158,14 +79,15 @@ void accumulate_layer(window_samples& samples, const layer_settings& settings, c
         std::array<float, sample_batch::most> depth, opacity;
         for (std::size_t k = 0; k < s.rounded(); ++k) {
             const layer_place<float> place = layer_grid_place(grid, s.x[k], s.y[k], s.t[k]);
-            const float at = layer_of(s.middle[k], cuts), extent = float(side);
+            const layer_share<float> share = layer.share(s, k);
+            const float extent = float(side);
             const unsigned u_inside = unsigned(0 <= place.u) & unsigned(place.u < extent);
             const unsigned v_inside = unsigned(0 <= place.v) & unsigned(place.v < extent);
-            const bool counts = (u_inside & v_inside & unsigned(layer <= at)) != 0;
+            const bool counts = (u_inside & v_inside & unsigned(0 < share.weight)) != 0;
             const auto u = std::int32_t(counts ? place.u : 0), v = std::int32_t(counts ? place.v : extent);
             texel[k] = v * std::int32_t(side) + u;
             depth[k] = layer_grid_own_depth(grid, s.z[k], s.t[k]);
-            opacity[k] = at == layer ? 1.0f : 0.0f;
+            opacity[k] = share.opacity;
         }
         for (std::size_t k = 0; k < s.count; ++k) {
             format_channels<Format>& to = sums[std::size_t(texel[k])];
@@ -245,14 +167,13 @@ void layer_accumulate(const sample_map<float>& samples, std::span<const tile_clu
         const detail::tile_window w =
             detail::window_around(samples, map.settings, i % map.columns(), i / map.columns());
         detail::window_samples in(samples, w);
-        for (std::size_t k = 0; k < count; ++k) {
-            const layer_cuts<float>& cuts = clusters[i].cuts;
-            const layer_grid<float> grid = layer_grid_make(detail::motion_of(in, cuts, float(k)),
-                                                           float(map.settings.guard), float(map.settings.texels));
-            map.grids[first + k] = grid;
-            detail::accumulate_layer<Format>(in, map.settings, w, cuts, float(k), grid,
-                                             map.texels.data() + (first + k) * each);
-        }
+        std::size_t n = first;
+        for_each_layer(clusters[i], [&](const auto& layer) {
+            map.grids[n] =
+                layer_grid_make(detail::motion_of(in, layer), float(map.settings.guard), float(map.settings.texels));
+            detail::accumulate_layer<Format>(in, map.settings, w, layer, map.grids[n], map.texels.data() + n * each);
+            ++n;
+        });
     }
     detail::for_each_block(map, rows, [&](std::size_t x, std::size_t y, format_texel<Format>* texels) {
         detail::accumulate_block<Format>(samples, x, y, texels);

@@ -3,7 +3,7 @@
 #ifndef GNOMON_PASSES_LAYER_CLUSTER_HPP
 #define GNOMON_PASSES_LAYER_CLUSTER_HPP
 
-#include "layer_window.hpp"
+#include "layer_division.hpp"
 
 GNOMON_NAMESPACE_BEGIN
 
@@ -64,25 +64,8 @@ inline std::uint64_t occupied_bins(window_samples& samples, const layer_window<f
     return all;
 }
 
-/// The cuts of a window with these bins: those of the fold of layer_cuts_add over all 64, with runs of less than `gap` empty
-/// bins filled.
-inline layer_cuts<float> cuts_of(const layer_window<float>& window, std::uint64_t occupied, std::size_t layers,
-                                 std::size_t gap)
-{
-    layer_runs<float> runs = layer_cuts_begin(window);
-    while (occupied != 0) {
-        const int empty = std::countr_zero(occupied), full = std::countr_one(occupied >> empty);
-        runs.empty += std::size_t(empty) < gap ? 0 : float(empty) * runs.begun;
-        runs.bins += float(empty);
-        runs = layer_cuts_add(runs, 1.0f);
-        runs.bins += float(full - 1);
-        occupied = empty + full < 64 ? occupied >> empty >> full : 0;
-    }
-    return layer_cuts_end(runs, float(layers));
-}
-
 /// The cuts of a window of one layer.
-inline layer_cuts<float> no_cuts() { return cuts_of(layer_window_begin(0.0f), 0, 1, 1); }
+inline layer_cuts<float> no_cuts() { return layer_cuts_end(layer_cuts_begin(layer_window_begin(0.0f)), 1.0f); }
 
 /// The fewest empty bins that divide layers. Samples at texel centres see a tilted plane at no more depths than there are
 /// columns or rows, which leaves fewer bins empty between them.
@@ -96,11 +79,18 @@ inline tile_clusters clusters_of(const sample_map<float>& map, const tile_window
 {
     window_samples samples(map, w);
     const auto [window, moves] = extremes_of(samples);
-    tile_clusters tile{no_cuts(), window.least <= window.greatest, !moves};
-    if (settings.layers == 1 || !(window.greatest - window.least >= float(layer_least_extent))) return tile;
-    tile.cuts = cuts_of(window, occupied_bins(samples, window), settings.layers, least_gap(w, settings.centres));
-    const auto cut = [](float c) { return c < float(layer_no_cut) ? 1u : 0u; };
-    tile.layers = 1 + cut(tile.cuts.c0) + cut(tile.cuts.c1) + cut(tile.cuts.c2);
+    tile_clusters tile{no_cuts(), window.least <= window.greatest, !moves, {}};
+    if (settings.layers > 1 && window.greatest - window.least >= float(layer_least_extent)) {
+        const layer_runs<float> runs = runs_of(window, occupied_bins(samples, window), least_gap(w, settings.centres));
+        tile.cuts = layer_cuts_end(runs, float(settings.layers));
+        const auto cut = [](float c) { return c < float(layer_no_cut) ? 1u : 0u; };
+        tile.layers = 1 + cut(tile.cuts.c0) + cut(tile.cuts.c1) + cut(tile.cuts.c2);
+    }
+    if (settings.division > 0 && moves)
+        for (std::uint32_t k = 0, whole = tile.layers; k < whole; ++k) {
+            tile.divisions[k] = division_of(samples, {tile.cuts, float(k)}, settings.division);
+            tile.layers += tile.divisions[k].divides();
+        }
     return tile;
 }
 

@@ -1,8 +1,8 @@
 // A layered shadow map of moving geometry (Andersson et al. 2015), in the caller's memory. Tiles of the light's map have
-// one to four layers each. A layer is a grid of texels with its mips: the samples in its depths, moved along the layer's
-// mean motion to the middle of the shutter interval. A tile in whose window nothing moves, and that has one layer, has no
-// grid. Its texels are those of a plain map, of one texel per texel of the light's map, which is stored in blocks. Blocks
-// and layers are stored only where samples need them.
+// one to four layers each, and settings may divide these by motion. A layer is a grid of texels with its mips: the samples in
+// its depths, moved along the layer's mean motion to the middle of the shutter interval. A tile in whose window nothing moves,
+// and that has one layer, has no grid. Its texels are those of a plain map, of one texel per texel of the light's map, which is
+// stored in blocks. Blocks and layers are stored only where samples need them.
 //
 //     layer_cluster(samples, settings, clusters, rows)             how many layers each tile has, and which depths
 //     layer_allocate(settings, clusters, width, height, first, blocks)   where layers and blocks begin, and how many there are
@@ -14,10 +14,12 @@
 
 #include "../../motion/layers/layer_clusters.h"
 #include "../../motion/layers/layer_grid.h"
+#include "../../motion/layers/layer_parts.h"
 #include "../../storage/layer_formats.hpp"
 #include "../mips.hpp"
 #include "../sample_map.hpp"
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <type_traits>
@@ -32,14 +34,26 @@ struct layer_settings {
     std::size_t layers = 4;     // the most layers of a tile, 1 to 4
     bool even = true;           // weigh texels alike that are in the window for different parts of the shutter interval
     bool smooth_streaks = true; // blur layers of fast motion across that motion
+    std::size_t division = 0;   // the fewest empty bins of 64 that divide a layer by motion; 0: layers are whole
     bool centres = false;       // samples are at texel centres (sample_ranges): a tilted plane has no gaps between them
+};
+
+/// The division of a layer into two parts that move unlike, of keys below `cut` (layer_direction_key) and others, and the
+/// centres of their depths.
+struct layer_division {
+    layer_direction<float> direction{};
+    float cut = float(layer_no_cut);
+    std::array<float, 2> centres{};
+
+    bool divides() const { return cut < float(layer_no_cut); }
 };
 
 /// The clusters of one tile, between the passes.
 struct tile_clusters {
     layer_cuts<float> cuts;
-    std::uint32_t layers; // 0 if the window has no sample of a surface
+    std::uint32_t layers; // with both parts of divided ones; 0 if the window has no sample of a surface
     bool is_static;       // nothing in the window moves
+    std::array<layer_division, 4> divisions;
 };
 
 /// The numbers of layers, and of blocks of the plain map.

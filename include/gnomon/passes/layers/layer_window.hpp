@@ -35,6 +35,11 @@ struct sample_batch {
     numbers x, y, t, z, d_x, d_y, d_z, middle;
     std::size_t count = 0;
 
+    /// A sample without its id.
+    stochastic_sample<float> operator[](std::size_t k) const
+    {
+        return {x[k], y[k], t[k], z[k], d_x[k], d_y[k], d_z[k], 0};
+    }
     std::size_t rounded() const { return (count + lanes - 1) / lanes * lanes; }
     void add(std::span<const stochastic_sample<float>> samples, float centre_x, float centre_y)
     {
