@@ -121,12 +121,18 @@ class MotionLayered(unittest.TestCase):
         self.assertEqual([sizes[n] for n in sorted(sizes)], sorted(sizes.values()))
 
     def setting(self, scene, **parameters):
-        found, = (row for row in self.rows(scene, LAYERS) if parameters.items() <= row["parameters"].items())
+        found, = (row for row in self.rows(scene, LAYERS) if all(row["parameters"].get(name) == value for name, value in parameters.items()))
         return found
 
     def test_layers_of_ranges_are_no_worse_than_those_of_samples(self):
         exact, random = (self.usual("tentacles_from_above", method)["rmse"] for method in ("layered_ranges", LAYERS))
         self.assertLess(exact, 1.1 * random)
+
+    def test_division_by_motion_pays_where_layers_are_few(self):
+        one, divided = (self.setting("tentacles_from_above", layers=1, **more) for more in ({"division": None}, {"division": 8}))
+        self.assertLess(divided["rmse"], 0.9 * one["rmse"])
+        self.assertLess(divided["map_bytes"], self.usual("tentacles_from_above", LAYERS)["map_bytes"])
+        self.assertLess(self.setting("random_cubes", division=8)["rmse"], 1.01 * self.usual("random_cubes", LAYERS)["rmse"])
 
     def test_even_weights_and_even_times_change_little_in_pictures(self):
         usual = self.usual("tentacles_from_above", LAYERS)["rmse"]

@@ -4,7 +4,7 @@
 //     scale 1       side of the map over the usual one
 //     samples 4     for each texel
 //     even_times 0  1: samples whose times fill their strata evenly over neighbouring texels
-//     tile 4, guard 12, texels 8, layers 4, even 1, v_filter 1, centres 0      layer_settings
+//     tile 4, guard 12, texels 8, layers 4, even 1, v_filter 1, division 0, centres 0   layer_settings
 //     neighbour 1   0: the tile of the receiver alone, 1: it or a neighbour at random, 2: all of these, blended
 //     widen 0       1: by the spread of motion in a layer
 //     limit         the largest bias of a slope
@@ -30,6 +30,7 @@ inline layer_settings layer_settings_of(const parameters& how)
     result.texels = size("texels", result.texels), result.layers = size("layers", result.layers);
     result.even = value_of(how, "even", 1) != 0;
     result.smooth_streaks = value_of(how, "v_filter", 1) != 0;
+    result.division = size("division", result.division);
     result.centres = value_of(how, "centres", 0) != 0;
     return result;
 }
