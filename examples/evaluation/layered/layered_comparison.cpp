@@ -196,8 +196,11 @@ class layers_comparison {
         for (const auto& [key, value] : t.variant->parameters) name += fmt::format("-{}_{:g}", key, value);
         t.result.picture = file(name), t.result.error = file(name + "-error");
         write_png(folder_ / t.result.picture, shaded);
-        write_png(folder_ / t.result.error, error_picture(mean_visibility(view_.now().of.seen, segments),
-                                                          view_.reference.visibility, layered_error_scale));
+        // Samples may miss what a pixel sees for a part of the time: errors are those of pixels that are measured.
+        image<float> measured = view_.reference.visibility;
+        const std::vector<float> estimate = view_.of_pixels(view_.now(), segments);
+        for (std::size_t i = 0; i < estimate.size(); ++i) measured.pixels[view_.pixels[i]] = estimate[i];
+        write_png(folder_ / t.result.error, error_picture(measured, view_.reference.visibility, layered_error_scale));
     }
 
     // Errors of a part of the pixels by the constant; the best constant is measured as the others are.
