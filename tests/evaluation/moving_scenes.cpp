@@ -60,7 +60,7 @@ TEST_CASE("each scene in motion is whole: finite corners, valid triangles, a pla
         for (const point_of_interest& place : stage.interests)
             CHECK(within_view(project(stage.eye.open, place.position)));
     }
-    CHECK(scenes().size() >= 17);
+    CHECK(scenes().size() >= 18);
 }
 
 TEST_CASE("scenes of layers are there, and the full form of tentacles has all triangles")
@@ -68,8 +68,8 @@ TEST_CASE("scenes of layers are there, and the full form of tentacles has all tr
     const auto scene = [](const char* id) -> const motion_scene& {
         return dynamic_cast<const motion_scene&>(registry_of<scene_entry>().at(id));
     };
-    for (const char* id :
-         {"tentacles", "tentacles_from_above", "wrecking_ball", "chess", "tree_in_moving_light", "moving_eye"})
+    for (const char* id : {"tentacles", "tentacles_from_above", "wrecking_ball", "chess", "tree_in_moving_light",
+                           "walker", "moving_eye"})
         CHECK(scene(id).motion.has("layered"));
     const auto triangles = [&](bool full) {
         return scene("tentacles").stage(aspect, full).world.open.meshes[0].triangles.size();

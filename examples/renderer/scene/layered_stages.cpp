@@ -219,6 +219,14 @@ moving_stage runner(moving_scene model, double aspect)
                       {"column", "shadow of a column", {-0.8f, 0, 0.7f}, cyan}});
 }
 
+moving_stage walker(const moving_scene& model, double aspect)
+{
+    const glm::dvec3 light(-2.8, 3.9, 1);
+    return on_ground(model, {light, light}, {{1.5, 1.7, 2.4}, {0.3, 0.4, -0.1}, 38}, aspect,
+                     {{"walker", "shadow of the walker", {0.4f, 0, -0.13f}, green},
+                      {"feet", "shadow of the feet", {0.1f, 0, 0}, cyan}});
+}
+
 moving_stage moving_eye(double aspect)
 {
     mesh plates = painted("plates", clay), boxes = painted("boxes", sand);

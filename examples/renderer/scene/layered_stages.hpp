@@ -27,6 +27,9 @@ moving_stage tree_in_moving_light(double aspect);
 // columns.
 moving_stage runner(moving_scene model, double aspect);
 
+// A moving model of unit size, alone on a ground.
+moving_stage walker(const moving_scene& model, double aspect);
+
 // Andersson et al. 2015, Figure 8 B: plates that move one way among static boxes, before a camera that moves the other way.
 moving_stage moving_eye(double aspect);
 

@@ -1,6 +1,6 @@
 #include "evaluation/motion/motion_scene.hpp"
 #include "renderer/import/model.hpp"
-#include "renderer/scene/moving_stages.hpp"
+#include "renderer/scene/layered_stages.hpp"
 
 namespace gnomon::evaluation {
 
@@ -13,8 +13,8 @@ const registered<motion_scene> entry{
                 .text = "An animated glTF, models/walker.gltf beside the driver. Any other file stands in its place by "
                         "<code>./run demo motion_layered --model FILE</code>."},
     [](double aspect) {
-        return renderer::animated_model_stage(
-            renderer::load_animated_model(GNOMON_LAYERED_MODELS "/walker.gltf", "walk", 0, 1. / 12), aspect);
+        return renderer::walker(renderer::load_animated_model(GNOMON_LAYERED_MODELS "/walker.gltf", "walk", 0, 1. / 12),
+                                aspect);
     },
     motion_scene_facts{.tags = {"layered"}}};
 
