@@ -6773,7 +6773,7 @@ GNOMON_INLINE constexpr Real layer_middle_depth(stochastic_sample<Real> s)
     Real z = s.z + (Real(0.5) - s.t) * s.d_z;
     Real limit = literal<Real>(layer_depth_limit);
     Real inside = gnomon_max(gnomon_min(z, limit), Real(-1) * limit);
-    // One comparison of a sum, since Mesa makes one of several, by a maximum that loses a NaN.
+    // Mesa joins several comparisons by a maximum that loses a NaN, so a sum is compared.
     Real size = ((gnomon_abs(s.d_x) + gnomon_abs(s.d_y)) + gnomon_abs(s.d_z)) + gnomon_abs(z);
     mask_t<Real> known = size <= literal<Real>(texel_limit);
     Real middle = gnomon_select(known, inside, literal<Real>(layer_unknown_depth));
@@ -8578,7 +8578,7 @@ GNOMON_WARNINGS_ON } // namespace gnomon
 //     edges = moving_triangle_edges(triangle, s_x, s_y);             and coverage, depth, ranges, lists as of any
 // triangle
 //
-// A receiver asks the line at its own place on it. Lines of one direction leave the other one sampled. So a map of
+// A receiver reads the line at its own place on it. Lines of one direction leave the other one sampled. So a map of
 // lines along x and one along y are crossed: of the four points at the receiver's x on the lines above and below, and
 // at its y on the lines to the left and to the right,
 //

@@ -5886,7 +5886,7 @@ inline float layer_middle_depth(stochastic_sample s)
     float z = s.z + (0.5f - s.t) * s.d_z;
     float limit = layer_depth_limit;
     float inside = gnomon_max(gnomon_min(z, limit), -1.0f * limit);
-    // One comparison of a sum, since Mesa makes one of several, by a maximum that loses a NaN.
+    // Mesa joins several comparisons by a maximum that loses a NaN, so a sum is compared.
     float size = ((gnomon_abs(s.d_x) + gnomon_abs(s.d_y)) + gnomon_abs(s.d_z)) + gnomon_abs(z);
     bool known = size <= texel_limit;
     float middle = gnomon_select(known, inside, layer_unknown_depth);
@@ -7571,7 +7571,7 @@ inline moving_edge facing_function(moving_vector n, moving_vector d)
 //     edges = moving_triangle_edges(triangle, s_x, s_y);             and coverage, depth, ranges, lists as of any
 // triangle
 //
-// A receiver asks the line at its own place on it. Lines of one direction leave the other one sampled. So a map of
+// A receiver reads the line at its own place on it. Lines of one direction leave the other one sampled. So a map of
 // lines along x and one along y are crossed: of the four points at the receiver's x on the lines above and below, and
 // at its y on the lines to the left and to the right,
 //

@@ -5434,7 +5434,7 @@ fn layer_middle_depth(s: stochastic_sample) -> f32
     let z = s.z + (0.5 - s.t) * s.d_z;
     let limit = gnomon_layer_depth_limit;
     let inside = gnomon_max(gnomon_min(z, limit), -1.0 * limit);
-    // One comparison of a sum, since Mesa makes one of several, by a maximum that loses a NaN.
+    // Mesa joins several comparisons by a maximum that loses a NaN, so a sum is compared.
     let size = ((gnomon_abs(s.d_x) + gnomon_abs(s.d_y)) + gnomon_abs(s.d_z)) + gnomon_abs(z);
     let known = size <= gnomon_texel_limit;
     let middle = gnomon_select(known, inside, gnomon_layer_unknown_depth);
@@ -7038,7 +7038,7 @@ fn facing_function(n: gnomon_moving_vector, d: gnomon_moving_vector) -> gnomon_m
 //     edges = moving_triangle_edges(triangle, s_x, s_y);             and coverage, depth, ranges, lists as of any
 // triangle
 //
-// A receiver asks the line at its own place on it. Lines of one direction leave the other one sampled. So a map of
+// A receiver reads the line at its own place on it. Lines of one direction leave the other one sampled. So a map of
 // lines along x and one along y are crossed: of the four points at the receiver's x on the lines above and below, and
 // at its y on the lines to the left and to the right,
 //

@@ -236,7 +236,7 @@ float layer_middle_depth(stochastic_sample s)
     float z = s.z + (0.5 - s.t) * s.d_z;
     float limit = gnomon_layer_depth_limit;
     float inside = gnomon_max(gnomon_min(z, limit), -1.0 * limit);
-    // One comparison of a sum, since Mesa makes one of several, by a maximum that loses a NaN.
+    // Mesa joins several comparisons by a maximum that loses a NaN, so a sum is compared.
     float size = ((gnomon_abs(s.d_x) + gnomon_abs(s.d_y)) + gnomon_abs(s.d_z)) + gnomon_abs(z);
     bool known = size <= gnomon_texel_limit;
     float middle = gnomon_select(known, inside, gnomon_layer_unknown_depth);

@@ -189,7 +189,7 @@ fn layer_middle_depth(s: stochastic_sample) -> f32
     let z = s.z + (0.5 - s.t) * s.d_z;
     let limit = gnomon_layer_depth_limit;
     let inside = gnomon_max(gnomon_min(z, limit), -1.0 * limit);
-    // One comparison of a sum, since Mesa makes one of several, by a maximum that loses a NaN.
+    // Mesa joins several comparisons by a maximum that loses a NaN, so a sum is compared.
     let size = ((gnomon_abs(s.d_x) + gnomon_abs(s.d_y)) + gnomon_abs(s.d_z)) + gnomon_abs(z);
     let known = size <= gnomon_texel_limit;
     let middle = gnomon_select(known, inside, gnomon_layer_unknown_depth);

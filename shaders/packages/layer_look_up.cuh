@@ -1020,7 +1020,7 @@ GNOMON_INLINE constexpr Real layer_middle_depth(stochastic_sample<Real> s)
     Real z = s.z + (Real(0.5) - s.t) * s.d_z;
     Real limit = literal<Real>(layer_depth_limit);
     Real inside = gnomon_max(gnomon_min(z, limit), Real(-1) * limit);
-    // One comparison of a sum, since Mesa makes one of several, by a maximum that loses a NaN.
+    // Mesa joins several comparisons by a maximum that loses a NaN, so a sum is compared.
     Real size = ((gnomon_abs(s.d_x) + gnomon_abs(s.d_y)) + gnomon_abs(s.d_z)) + gnomon_abs(z);
     mask_t<Real> known = size <= literal<Real>(texel_limit);
     Real middle = gnomon_select(known, inside, literal<Real>(layer_unknown_depth));

@@ -697,7 +697,7 @@ inline depth_piece moving_depth_piece(moving_triangle m, moving_edges e, float b
 //     edges = moving_triangle_edges(triangle, s_x, s_y);             and coverage, depth, ranges, lists as of any
 // triangle
 //
-// A receiver asks the line at its own place on it. Lines of one direction leave the other one sampled. So a map of
+// A receiver reads the line at its own place on it. Lines of one direction leave the other one sampled. So a map of
 // lines along x and one along y are crossed: of the four points at the receiver's x on the lines above and below, and
 // at its y on the lines to the left and to the right,
 //

@@ -636,7 +636,7 @@ fn moving_depth_piece(m: moving_triangle, e: gnomon_moving_edges, begin: f32, en
 //     edges = moving_triangle_edges(triangle, s_x, s_y);             and coverage, depth, ranges, lists as of any
 // triangle
 //
-// A receiver asks the line at its own place on it. Lines of one direction leave the other one sampled. So a map of
+// A receiver reads the line at its own place on it. Lines of one direction leave the other one sampled. So a map of
 // lines along x and one along y are crossed: of the four points at the receiver's x on the lines above and below, and
 // at its y on the lines to the left and to the right,
 //

@@ -37,7 +37,7 @@ GNOMON_KERNEL Real layer_middle_depth(GNOMON_T(stochastic_sample) s)
     Real z = s.z + (Real(0.5) - s.t) * s.d_z;
     Real limit = GNOMON_LITERAL(layer_depth_limit);
     Real inside = gnomon_max(gnomon_min(z, limit), Real(-1) * limit);
-    // One comparison of a sum, since Mesa makes one of several, by a maximum that loses a NaN.
+    // Mesa joins several comparisons by a maximum that loses a NaN, so a sum is compared.
     Real size = ((gnomon_abs(s.d_x) + gnomon_abs(s.d_y)) + gnomon_abs(s.d_z)) + gnomon_abs(z);
     GNOMON_MASK known = size <= GNOMON_LITERAL(texel_limit);
     Real middle = gnomon_select(known, inside, GNOMON_LITERAL(layer_unknown_depth));

@@ -20,7 +20,7 @@ struct whole_layer {
     }
 };
 
-/// The same for one part of a divided layer, 0 or 1.
+/// Opacity and weight of samples for part 0 or 1 of a divided layer.
 struct layer_part {
     whole_layer of;
     layer_division division;
